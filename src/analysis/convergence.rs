@@ -182,7 +182,6 @@ mod tests {
         let trial = |method: Method, dt: f64| {
             let mut case = spinning(dt, &[0.5, 1.0]);
             case.settings.method = method;
-            // The stiffness is small enough that the steps resolve all vibrations.
             let mut section = case.scene.beams[0].section.mean();
             (section.axial_stiffness, section.shear_stiffness) = (100.0, 100.0);
             (section.bending_stiffness, section.rotary_inertia) = (10.0, 1.0);

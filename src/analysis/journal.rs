@@ -299,7 +299,6 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..3);
-        // If the file cannot be rewritten, the old file is kept.
         let anew = home.path().join("study.journal.new");
         fs::create_dir(&anew).unwrap();
         let mut journal = Journal::open(&path).unwrap();

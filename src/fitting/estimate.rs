@@ -63,7 +63,6 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// The standard errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];

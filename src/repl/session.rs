@@ -97,7 +97,7 @@ impl Session {
     }
 
     /// Discards a Ctrl-C that was pressed between evaluations.
-    /// After a later Ctrl-C, every evaluation stops until this function is called again.
+    /// After a later Ctrl-C, every evaluation stops until the interrupt is cleared again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }

@@ -111,7 +111,6 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();
-        // Simulates a killed process: the folder stays, but the lock is released.
         let Scratch { folder, _held } = Scratch::within(home.path()).unwrap();
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();

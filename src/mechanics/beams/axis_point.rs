@@ -81,8 +81,6 @@ impl<const N: usize> Windows<'_, N> {
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length].
-    /// A derivative shorter than this limit is due to rounding.
     least_speed: f64,
 }
 

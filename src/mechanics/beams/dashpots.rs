@@ -255,8 +255,6 @@ impl Dashpots {
         sum
     }
 
-    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates.
-    /// Rates that the steps do not resolve are extrapolated from the mean rates of the last two steps.
     pub(crate) fn emit_dashpot_forces(
         &self,
         rates: &[Movement],

@@ -230,7 +230,6 @@ impl ForceDashpot {
         )
     }
 
-    /// Dashpot force in space at the start of the step [force], and its contribution to the moment [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

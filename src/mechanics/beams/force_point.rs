@@ -72,7 +72,6 @@ impl<const N: usize> ForcePoint<N> {
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Section force in space at the start of the step [force], and its contribution to the moment [force·length].
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))

@@ -80,7 +80,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
     }
 }
 
-/// Loop of [`each_diagonal`](InertiaMatrix::each_diagonal), compiled for each instruction set.
 struct Diagonals<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -115,7 +114,6 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     }
 }
 
-/// Loop of [`add_product`](InertiaMatrix::add_product), compiled for each instruction set. The values of all components form one vector.
 struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -198,7 +196,6 @@ mod tests {
         rotary_inertia: 0.3,
     };
 
-    /// Product with rates, computed from the entries that [`InertiaMatrix::each_row`] gives.
     fn by_rows<const N: usize>(
         matrix: &InertiaMatrix<N, f64>,
         rates: &[Movement],
@@ -241,7 +238,6 @@ mod tests {
         assert_same_entries(count, cut.min(count)..count, &matrix);
     }
 
-    /// Compares the entries of diagonals and rows with those of a dense matrix.
     fn assert_same_entries<const N: usize>(
         count: usize,
         points: Range<usize>,

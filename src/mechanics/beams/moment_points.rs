@@ -1,7 +1,7 @@
 //! Quadrature points for the curvature in vector lanes. The moment is an independent unknown (docs/theory.md, section 11).
 //!
 //! A moment computed from increments would have the rounding error of the increments times the bending stiffness.
-//! In a stiff beam, this rounding error exceeds the forces in the balance.
+//! In a stiff beam, the rounding error of such a moment exceeds the forces in the balance.
 
 use pulp::Simd;
 

@@ -10,7 +10,6 @@ pub(super) struct DashpotRates<'a> {
     pub(super) present: &'a [Movement],
     /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-].
     pub(super) extrapolation: f64,
-    /// For axial, shear and bending rates: true if the rate is extrapolated from the means of the last two steps.
     pub(super) is_extrapolated: [bool; 3],
 }
 

@@ -162,7 +162,6 @@ mod tests {
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
-        // The difference of two rotations is the increment times their mean. Therefore the midpoint rule conserves momentum.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
         let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);

@@ -36,7 +36,6 @@ pub struct SectionForces {
 }
 
 impl SectionForces {
-    /// Creates section forces from a force in space [force], a moment [force·length] and a section normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -51,7 +50,6 @@ impl SectionForces {
         }
     }
 
-    /// Adds a viscous force in space [force] and a viscous moment [force·length]. Strains do not change.
     pub(crate) fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
         Self {
             axial: self.axial + self.normal.dot(&force),
@@ -123,7 +121,6 @@ pub(super) struct MomentShare {
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points from which the normal is interpolated. Half of these points are in front of the position, the others behind it.
     most: usize,
 }
 

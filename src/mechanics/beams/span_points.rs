@@ -20,7 +20,6 @@ use crate::geometry::Vec2;
 /// With this number of spans, few vector lanes are unused and the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
-/// Span of a group, with the range of its points in the group.
 #[derive(Debug, Clone)]
 pub(super) struct SpanPlace {
     pub(super) first: usize,
@@ -28,7 +27,6 @@ pub(super) struct SpanPlace {
     pub(super) moment_points: Range<usize>,
 }
 
-/// Span with `N` nonzero basis functions, and its quadrature points before they are arranged in lanes.
 pub(super) struct SpanOfPoints<const N: usize> {
     pub(super) first: usize,
     pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
@@ -242,7 +240,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    /// Adds the axial, shear and bending strain energies of the spans in the group to `sums` [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for span in &self.spans {
             for (point, section) in self.force_points_of(section, span) {

@@ -129,7 +129,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Difference of two numbers as a multiple of the unit in the last place.
     fn apart(a: f64, b: f64) -> u64 {
         let place = |x: f64| match x.to_bits() as i64 {
             bits if bits < 0 => i64::MIN - bits,
@@ -163,7 +162,6 @@ mod tests {
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }
 
-    // The functions of the machine are accurate to about one unit in the last place. Both results must therefore agree closely.
     proptest! {
         #[test]
         fn they_are_those_of_the_machine_but_for_the_last_bits(

@@ -12,9 +12,6 @@ pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues 
     basis
 }
 
-/// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
-///
-/// The degree is a separate argument so that it can be a compile-time constant.
 #[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
     (knots, degree): (&KnotVector, usize),
@@ -37,8 +34,6 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Returns the values of the basis functions at `xi` that have one degree more than the functions `lower`.
-/// The argument `supports` contains the ends of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -54,7 +49,6 @@ fn raise<const WIDTH: usize>(
     higher
 }
 
-/// Computes the derivatives of one order of the splines of degree `q`, from the derivatives of one order less of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

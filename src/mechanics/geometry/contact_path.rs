@@ -16,7 +16,6 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 pub struct ContactPath {
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Basis functions at the start of the path, on the first span of the path. The functions are kept for later paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
@@ -41,7 +40,6 @@ const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
-    /// For each span, the number of breaks at or before its start at which derivatives of the basis jump.
     kinks: Vec<usize>,
     /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
@@ -274,8 +272,6 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds the integral of the derivatives of the functions over an interval of the path to the divided differences.
-    /// Unless the derivatives jump on the path, adds also the derivative of the integral with respect to the end of the path.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
@@ -330,8 +326,6 @@ impl PathInterval {
     }
 }
 
-/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump.
-/// At a break with a jump of the derivative, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)

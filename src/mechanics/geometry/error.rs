@@ -2,7 +2,7 @@
 
 use super::Vec2;
 
-/// Error of a curve, basis or quadrature rule. Every message contains the object, the value, the allowed range and, if it is not obvious, the remedy.
+/// Error of a curve, basis or quadrature rule.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {

@@ -126,7 +126,6 @@ impl LagrangeBasis {
         basis
     }
 
-    /// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
     pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);
@@ -134,7 +133,6 @@ impl LagrangeBasis {
         }
     }
 
-    /// Lagrange polynomial of a node with its derivatives, computed by multiplying the linear factors.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
-    /// Coefficients of all spans, one span after the other. On a span the function is `Σ c_k t^k`, where `t` runs from -1 to 1.
     coefficients: Vec<f64>,
     count: usize,
     /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
@@ -67,7 +66,6 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Quadrature points and weights on `[0, 1]` that integrate the derivative of the function exactly over a part of a span.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
@@ -116,7 +114,6 @@ impl PiecewisePolynomial {
 mod tests {
     use super::*;
 
-    /// For `f = ξ³`, the quotients are `f[a, b] = a² + ab + b²` and `f[a, b, b] = a + 2b`.
     #[test]
     fn quotients_in_a_span_are_exact_for_paths_of_any_length() {
         let span = Span { first: 0, start: 1.0, end: 3.0 };

@@ -15,8 +15,6 @@ pub struct LowerSplines {
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel of the space of derivatives at a parameter of a run.
-/// The scalar product of the kernel with an element of the space is the value of this element at the parameter.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
@@ -46,8 +44,6 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a quadrature rule that integrates the product of a basis function and a derivative exactly.
-    /// The arguments of `add` are the index of the first derivative, the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),

@@ -73,7 +73,6 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// Coefficients of a spline that is orthogonal to all splines of one degree less on a run of spans. The last coefficient is one.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
@@ -117,7 +116,6 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline on each span. `None` unless the total number of zeros equals the number of basis functions of one degree less.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -164,7 +162,6 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// Zero of the polynomial between two parameters with values of opposite sign, found by bisection. `low` is the value at the left parameter.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;

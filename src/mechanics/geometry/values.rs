@@ -2,7 +2,7 @@
 
 use super::{MAX_DEGREE, Vec2};
 
-/// Largest number of nonzero functions on a span. It is also the largest number of derivative orders, from 0 to the degree.
+/// Largest number of nonzero functions on a span, and largest number of derivative orders.
 const WIDTH: usize = MAX_DEGREE + 1;
 
 /// One value for each nonzero function of a span. Only the first `degree + 1` values are used.
@@ -63,7 +63,6 @@ impl BasisValues {
 /// Largest order of the derivatives in [`LowDerivatives`].
 pub(super) const LOW_ORDERS: usize = 3;
 
-/// Nonzero basis functions of a degree below `WIDTH` at one parameter, with derivatives up to [`LOW_ORDERS`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowDerivatives<const WIDTH: usize> {
     pub first: usize,

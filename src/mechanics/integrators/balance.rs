@@ -197,8 +197,6 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by the function `way`.
-    /// The function `way` receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -258,7 +256,6 @@ impl StepSolver {
         }
     }
 
-    /// Copies the prescribed increments, and adds the inertia forces of prescribed degrees of freedom to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.free_increments.len();
         let prescribed = mechanism.prescribed();

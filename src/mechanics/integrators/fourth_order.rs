@@ -92,12 +92,10 @@ mod tests {
         starts.zip(ends).map(|(start, end)| end - start).collect()
     }
 
-    /// Phase per step of a vibration with the given frequency times step size, `ω Δt`.
     fn turn(parts: &[f64], frequency: f64) -> f64 {
         parts.iter().map(|part| 2.0 * (0.5 * part * frequency).atan()).sum()
     }
 
-    /// Frequency `ω Δt` above which the phase per step exceeds an angle; `None` if the phase never exceeds it.
     fn passage(parts: &[f64], angle: f64) -> Option<f64> {
         let (mut low, mut high) = (1.0, 1e4);
         if turn(parts, high) < angle {
@@ -110,8 +108,6 @@ mod tests {
         Some(low)
     }
 
-    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step.
-    /// The vibration starts from its static response, which is also the unit of the amplitude.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {

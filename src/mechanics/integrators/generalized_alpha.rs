@@ -18,7 +18,6 @@ use crate::newton::{NewtonReport, Tolerance};
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// Accelerations in the state. Before a step is solved, they belong to its start; afterwards, they belong to its end.
     accelerations: Vec<f64>,
 }
 

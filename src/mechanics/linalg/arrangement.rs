@@ -46,7 +46,6 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile. Updates also the order, if the blocks are coupled to other band unknowns than before.
     pub(super) fn fit(&mut self, blocks: &[Block]) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
@@ -79,7 +78,6 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Replaces the order by an order with a small bandwidth, which includes the couplings of unknowns by blocks.
     fn use_level_order(&mut self, blocks: &[Block]) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
@@ -96,8 +94,6 @@ impl Arrangement {
         }
     }
 
-    /// Numbers the unknowns and computes the profile.
-    /// The delayed unknowns of a block follow the last unknown of the band that is coupled to the block.
     fn number(&mut self, blocks: &[Block]) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);

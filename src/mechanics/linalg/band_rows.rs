@@ -82,7 +82,6 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a block of `width` by `width` values, given row by row. `first` is the first row and column of the block.
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
         // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         match width {
@@ -102,7 +101,6 @@ impl BandRows<'_> {
         Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
-    /// Adds values to a diagonal, starting at `row`. `offset` is the number of columns from the main diagonal to this diagonal, negative to the left.
     #[inline]
     pub(crate) fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {

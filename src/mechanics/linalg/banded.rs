@@ -190,7 +190,6 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::Singular { unknown: 1, size: 3 });
     }
 
-    /// Matrix of small integers with a dominant diagonal. Its products are exact.
     fn whole_numbers(size: usize, half_bandwidth: usize) -> BandedMatrix {
         let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
         for i in 0..size {
@@ -260,8 +259,6 @@ mod tests {
         }
     }
 
-    /// Equations of a rigid body in a step of length `h`: a point with the stiffness `k`, its link, and the body.
-    /// The solution is known: all displacements are one, and the link carries the force two. `order` numbers the unknowns.
     fn linked_point(h: f64, k: f64, order: &[usize; 7]) -> (BandedMatrix, [f64; 7], [f64; 7]) {
         let [px, py, fx, fy, x, y, turn] = *order;
         let (arm, inertia) = ([0.25, -0.5], 2.0 / (h * h));
@@ -317,7 +314,6 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
 
-    /// Bit patterns of the factors and of a solution, computed with one instruction set; `None` if the factorisation fails.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
         arch.dispatch(Elimination(storage.rows_mut())).ok()?;

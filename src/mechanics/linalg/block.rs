@@ -18,7 +18,6 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band, as a multiple of the largest diagonal entry of the coupled unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
 /// Placeholder index for a band unknown that is not coupled to a block.
@@ -55,15 +54,12 @@ struct Coupling {
 
 #[derive(Debug, Clone)]
 pub(super) struct Block {
-    /// Unknowns of the band that only this block couples with others. They are eliminated with the block.
     pub(super) own: Vec<usize>,
     /// Couplings with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
     /// Unknowns of the band that are coupled to the block, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix: own unknowns, then unknowns of the block, then coupled unknowns of the band.
-    /// After the elimination, the rows contain the factors and the Schur complement.
     front: Vec<f64>,
     /// Buffer for the vectors of a pivot row, with zeros up to the pivot.
     pivot_row: Vec<[f64; LANES]>,
@@ -150,7 +146,6 @@ impl Block {
         self.own.len() + BLOCK
     }
 
-    /// Returns true if unknowns of the block may be delayed, that is, if the block has no own unknowns in the band.
     pub(super) fn can_delay_unknowns(&self) -> bool {
         self.own.is_empty()
     }
@@ -163,7 +158,6 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Length of a row of the dense matrix, in whole vectors. The entries after the last column are zero.
     fn stride(&self) -> usize {
         self.size().next_multiple_of(LANES)
     }
@@ -172,10 +166,6 @@ impl Block {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
 
-    /// Eliminates the own unknowns and the unknowns of the block. `places` is a buffer whose entries are `UNTOUCHED` before and after the call.
-    ///
-    /// # Errors
-    /// Fails if there is no pivot. The error contains the index of the unknown in the block.
     #[inline(always)]
     fn eliminate(&mut self, band: &BandedMatrix, places: &mut [usize]) -> Result<(), LinearError> {
         self.gather(band, places);
@@ -242,7 +232,6 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Sets the factors that convert rows to forces and columns to lengths. They depend on the largest stiffness of the band.
     fn set_scale_factors(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
@@ -259,8 +248,6 @@ impl Block {
         unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
     }
 
-    /// Row, column and magnitude of the largest scaled entry that may become a pivot. The search starts at index `first`.
-    /// The magnitude is NaN if an entry is NaN.
     #[inline(always)]
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (stride, candidates) = (self.stride(), self.candidates());
@@ -348,9 +335,6 @@ impl Block {
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Applies the elimination to a right-hand side.
-    /// The argument `own` contains the entries of the eliminated unknowns in the order of the pivots.
-    /// The callback `subtract` receives the contributions to the coupled unknowns of the band.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
@@ -363,7 +347,6 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which are the first entries of `all`. The other entries are known.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let (size, stride) = (self.size(), self.stride());
         for at in (0..self.pivots).rev() {
@@ -385,7 +368,6 @@ impl Block {
         })
     }
 
-    /// Unknown that belongs to each column in the order of pivots: `Ok` for an unknown of the band, `Err` for an unknown of the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
         self.column_at
             .iter()

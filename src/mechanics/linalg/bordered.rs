@@ -41,7 +41,6 @@ pub enum BorderUnit {
 }
 
 impl BorderUnit {
-    /// Factor that converts a row of this unit to forces. `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn row_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => 1.0,
@@ -49,8 +48,6 @@ impl BorderUnit {
         }
     }
 
-    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
-    /// The argument `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -368,8 +365,6 @@ mod tests {
         }
     }
 
-    /// Solves a contact problem on a band of positions and angles in the given units of length and force.
-    /// The solution is converted back to the original units.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
         let of_band = [(force, length), (force, length), (force * length, 1.0)];
         let of_contact = [(length, force), (length, force), (force, force), (force, force)];

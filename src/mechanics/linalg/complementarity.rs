@@ -77,7 +77,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Positive definite matrix `B Bᵀ + 0.01`. The matrix `B` contains the given entries.
     fn definite(size: usize, entries: &[f64]) -> Vec<Vec<f64>> {
         let rows: Vec<&[f64]> = entries.chunks(size).collect();
         let product =

@@ -80,9 +80,7 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`.
-/// Panels that contain additional nonzero entries from earlier row exchanges are eliminated by [`eliminate_panel`].
-/// Panels without such entries are eliminated by `eliminate_plain`.
+/// Eliminates a band matrix of half-bandwidth `reach`, panel by panel.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -151,7 +149,6 @@ fn eliminate_in_profile<S: Simd>(
 }
 
 pub(super) struct PanelFactors {
-    /// Entries of the factors in the panel: multipliers to the left of the diagonal, and the upper factor on the diagonal and to the right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
     /// True if no multiplier is large and all entries are finite.
@@ -181,8 +178,6 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the rows below the panel and the columns after it.
-/// Returns false without any change if rows should be exchanged. The first entry of the last argument is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -274,7 +269,6 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
 }
 
-/// Eliminates one column with partial pivoting. Returns the last column with an entry. `end` gives the end of the profile.
 fn eliminate_column(
     storage: &mut ActiveRows<'_>,
     column: usize,

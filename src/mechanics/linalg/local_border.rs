@@ -17,7 +17,6 @@ const EXTRA_HALF_BANDWIDTH: usize = 16;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block, the unknowns of the band that are coupled with others by this block only. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
     pub groups: Arc<[Vec<usize>]>,
     pub block_entries: usize,
@@ -30,7 +29,6 @@ pub struct LocalBorder {
     arrangement: Arrangement,
     /// Band plus the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer for the position of each unknown of the band in a block. All entries are `UNTOUCHED` while the buffer is unused.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,
@@ -241,7 +239,6 @@ mod tests {
         (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
     }
 
-    /// Fills a matrix as for a band with contacts whose forces are independent of each other.
     fn fill(
         matrix: &mut BorderedMatrix,
         layout: &BlockLayout,

@@ -76,7 +76,6 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     position
 }
 
-/// Unknown at an end of the connected component that contains `seed`, found by two passes over the levels of neighbours.
 fn farthest<I: Iterator<Item = usize>>(
     seed: usize,
     count: usize,

@@ -14,7 +14,6 @@ use super::{LinearError, SymmetricSparse};
 pub struct PreciseBand {
     pub(super) size: usize,
     pub(super) half_bandwidth: usize,
-    /// High parts of the upper triangle. Row `i` contains the columns `i ..= i + b` for the half-bandwidth `b`, and zeros up to whole vectors.
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
 }

@@ -17,8 +17,7 @@ pub(super) struct Storage {
     pub(super) size: usize,
     /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
-    /// Entries row by row. Row `i` contains the columns `i - b - (PANEL - 1) ..= i + 2 b`.
-    /// After the factorisation, a row contains the multipliers to the left of the diagonal and the inverse pivot on the diagonal.
+    /// Entries row by row. After the factorisation, a row contains the multipliers, the inverse pivot and the upper factor.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
     pub(super) last_columns: Vec<usize>,
@@ -34,8 +33,6 @@ pub(super) struct Storage {
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to be eliminated: all columns, or a multiple of the panel width.
-    /// If only some columns are eliminated, the storage also contains all rows below that have entries in these columns.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],
@@ -161,7 +158,6 @@ impl Storage {
     }
 }
 
-/// Largest value, or the second largest positive value times [`LARGEST_RATIO`] if this is smaller.
 fn largest_of_two(values: impl Iterator<Item = f64>) -> f64 {
     let [largest, second] = values.fold([0.0, 0.0], |[largest, second], value: f64| {
         [value.max(largest), value.min(largest).max(second)]

@@ -25,7 +25,6 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the eliminated columns, which also updates the right-hand side of the remaining rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -85,7 +84,6 @@ impl WithSimd for ProfileSubstitution<'_> {
     }
 }
 
-/// Substitution for `W` right-hand sides with interleaved entries. The right-hand sides must be zero before row `first`.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [[f64; W]],
@@ -101,7 +99,6 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// Forward substitution with factors of half-bandwidth `reach`. `end` gives the last row with a multiplier for each column.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,

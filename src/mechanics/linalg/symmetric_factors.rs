@@ -62,7 +62,6 @@ impl SymmetricFactors {
 
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates the symmetric matrix `A + σ M` column by column. Columns and pivots are stored in `kept` if it is given.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,

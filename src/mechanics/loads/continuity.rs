@@ -71,10 +71,6 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_jump: is_whole }))
 }
 
-/// Jump of a schedule within a step. `values` are the values of the schedule at the given `times` of the step. `None` if they do not indicate a jump.
-///
-/// # Errors
-/// Fails if the script function fails or a value is not finite.
 pub(super) fn jump_between(
     schedule: &Schedule,
     times: &[f64],

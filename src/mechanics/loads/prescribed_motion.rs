@@ -74,7 +74,6 @@ impl PrescribedMotion {
         }
     }
 
-    /// Number of script function calls in [`over`](Self::over), without the additional calls after a jump.
     pub(crate) fn calls_in_step(&self) -> usize {
         let schedule = self.schedule();
         match self {
@@ -270,7 +269,6 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// Weighted sum of the differences from the last value. Its rounding error is smaller than that of the weighted sum of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }

@@ -45,8 +45,6 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with the present factors is useful.
-    /// The argument `factor` is the reduction of the residual by the last correction. The number of corrections still allowed is `corrections`.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -135,10 +133,6 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Solves the equations like [`solve`](Self::solve), and calls `hand_on` with the solution and the last factors.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`solve`](Self::solve). After an error, `hand_on` is not called.
     pub(crate) fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -242,7 +236,6 @@ fn correct(
 mod tests {
     use super::*;
 
-    /// Equations `x² = 2` and `x y = 1` without internal unknowns.
     struct SquareRoot;
 
     impl Equations for SquareRoot {
@@ -282,7 +275,6 @@ mod tests {
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// Equation `x = 0` whose residual norms are taken from a list.
     struct SpoiltByCorrections {
         imbalances: std::vec::IntoIter<ResidualNorms>,
     }

@@ -112,7 +112,6 @@ mod tests {
     use crate::elementary::{cos, sin};
     use crate::geometry::{Basis, KnotVector, LagrangeBasis};
 
-    /// Control points of a basis. Each control point is placed by its abscissa on an axis of length 2.
     fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
         basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
     }

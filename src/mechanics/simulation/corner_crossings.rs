@@ -32,7 +32,6 @@ impl CornerCrossings {
         model.write_branches(&mut self.halves);
     }
 
-    /// Difference between a whole step of a duration [time] and its two halves. Lengths are divided by `length` [-], angles are in rad.
     pub(super) fn difference(&self, duration: f64, length: f64) -> f64 {
         let ends = self.whole.iter().zip(&self.halves);
         let all = self.start.iter().zip(&self.middle).zip(ends);

@@ -87,7 +87,6 @@ mod tests {
 
     const LENGTHS: [f64; 4] = [1e-9, 1e-3, 1.0, 1e6];
 
-    /// Scene of one particle, with the unit of length `a` and the unit of time `t`.
     fn particle(at: Vec2, velocity: Vec2, gravity: f64, force: f64, (a, t): (f64, f64)) -> Scene {
         let mut scene = Scene::new("isolated");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: at * a };

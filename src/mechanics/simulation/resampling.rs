@@ -34,7 +34,6 @@ struct HalfStep {
 }
 
 impl Resampling {
-    /// Creates the estimate for a scene with a length scale; `None` if no controller is sampled at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
         let all =
             scene.schedules().filter(|(_, schedule)| schedule.is_sampled_every_step()).count();

@@ -103,7 +103,6 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// Last snapshot at or before a time, in a run of `now` steps. `None` if snapshots between this snapshot and the time may have been discarded.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
@@ -115,8 +114,6 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the buffer of the oldest snapshot is reused.
-    /// Returns `None` if snapshots are disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;

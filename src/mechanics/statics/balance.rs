@@ -85,11 +85,9 @@ impl Equations for UnderLoad<'_> {
 /// The additional equation describes a plane at a given distance from the last equilibrium.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
-    /// Normal of the plane in the metric of the path. Contact unknowns are stored after the degrees of freedom and have zero weight.
     pub(super) normal: &'a [f64],
     /// Distance of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
-    /// Forces on the unknowns and the supports, in the order of the degrees of freedom [force, force·length].
     pub(super) forces: &'a mut [f64],
 }
 

@@ -32,7 +32,6 @@ const WANTED_ITERATIONS: f64 = 4.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// Only the loads restrain some degrees of freedom. The value is the number of these degrees of freedom.
     Loads(usize),
 }
 
@@ -139,7 +138,6 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Takes a step of the given distance along the path, or of a fraction of this distance. Returns the distance of the next step.
     fn advance(&mut self, trial: &mut PathStep, mut distance: f64) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::FarSolution;
@@ -351,7 +349,6 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that move beyond stops, and releases sliders whose stop force is tensile. Returns true if the state of a slider has changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,
@@ -365,7 +362,6 @@ pub(super) fn update_stop_contacts(
     model.update_stop_contacts(unknowns, factor).map_err(leaves)
 }
 
-/// Tangent matrix of a model with `full` additional dense rows. In models with sliders, the band without contacts may be singular.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

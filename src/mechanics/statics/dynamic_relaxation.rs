@@ -128,7 +128,6 @@ mod tests {
         }
     }
 
-    /// Chain of particles and springs between two points on the ground. `units` are the units of length and time.
     fn chain(count: usize, units: (f64, f64)) -> Scene {
         let mut scene = Scene::new("chain");
         let at = |index: usize| Vec2::new(index as f64 * units.0, 0.0);

@@ -148,8 +148,6 @@ impl System {
         self.motion.resolution()
     }
 
-    /// Index and resolution measures of each beam with material damping.
-    /// Empty if the scene has only one body, because [`resolution`](Self::resolution) then contains its measures.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }

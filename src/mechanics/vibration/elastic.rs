@@ -15,7 +15,6 @@ pub(super) type FourVectors = [f64; STRIP_WIDTH];
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// Unknown that belongs to each component of each span. For supported components, the entry is the number of unknowns.
     unknowns: Vec<u32>,
     /// Rows of each span: first its strains, then its pairs `p` and `q` of the geometric stiffness.
     rows: Vec<f64>,
@@ -54,7 +53,6 @@ pub(super) struct Energies {
 }
 
 impl Elastic {
-    /// Adds the rows of a span. Components that do not belong to the `size` unknowns of the scene are ignored.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.rounding_fractions.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
@@ -85,7 +83,6 @@ impl Elastic {
         }
     }
 
-    /// Sets four mode shapes to the given displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
@@ -93,7 +90,6 @@ impl Elastic {
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes by displacements, updates their section forces, and returns their energies.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }

@@ -118,7 +118,6 @@ impl<'a> Lanczos<'a> {
         self.restart_randomly();
     }
 
-    /// Multiplies the next block by the inverted stiffness, and computes the components of the result in the basis.
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
@@ -151,8 +150,6 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Removes the components in the basis from a block. If `columns` is given, adds the components to these columns of the projection.
-    /// Returns the largest removed component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -205,7 +202,6 @@ impl<'a> Lanczos<'a> {
         self.coupling = Square4::default();
     }
 
-    /// Random vectors, multiplied by the inverted stiffness and the inertia so that all their components have inertia.
     fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
@@ -271,9 +267,6 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia.
-/// Returns the upper triangular matrix that expresses the old vectors by the new vectors.
-/// Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);

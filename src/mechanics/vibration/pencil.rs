@@ -23,7 +23,6 @@ pub(super) struct Pencil {
     pub(super) finite: usize,
 }
 
-/// Squared frequencies of a span [1/time²]. Each frequency is computed for a single strain with the diagonal of the inertia.
 fn squared_frequencies(
     inertia: &[f64],
     degrees: &[usize],

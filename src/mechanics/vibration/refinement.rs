@@ -7,7 +7,7 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual for which `ω²` is accurate to all digits. The error of `ω²` is of the order of the squared residual.
+/// Residual for which a squared frequency is accurate to all digits. The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
@@ -15,7 +15,7 @@ const MOST_CORRECTIONS: usize = 8;
 /// Ratio of two successive residuals, above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue `μ`, above which each pair is refined separately.
+/// Ratio of the largest to the smallest eigenvalue, above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
@@ -47,10 +47,6 @@ pub(super) fn refine(
     })
 }
 
-/// Computes the residuals of the first `count` pairs of a complete set, whose pairs need no corrections.
-///
-/// # Errors
-/// Fails if the assessment is stopped.
 pub(super) fn assess(
     pencil: &Pencil,
     shift: f64,
@@ -198,10 +194,6 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces.
-    /// Returns the contribution of the removed components to the residuals, as a fraction of the shifted squared frequency.
-    ///
-    /// For components of lower pairs, only their magnitude is added, because the inverted stiffness would overestimate their contribution.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],
@@ -220,7 +212,6 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if the shifted squared frequencies of the pairs differ strongly. A common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]

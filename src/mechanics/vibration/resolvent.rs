@@ -33,7 +33,7 @@ const ROUNDING_CHANGE: f64 = 1e-12;
 /// At this distance, the matrix is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
+/// Damping above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {

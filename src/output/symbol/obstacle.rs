@@ -117,7 +117,6 @@ mod tests {
         PlacedSymbol { symbol: Symbol::Disc, at, direction: (radius, 0.0) }
     }
 
-    /// Lines of obstacles in a plot from 0 to 1: the hatching, and the outlines.
     fn drawn(obstacle: PlacedSymbol) -> (Vec<Vec<Point>>, Vec<Vec<Point>>) {
         let axis = Axis::between(0.0, 1.0);
         let frame = Frame { x: axis, y: axis, ..Frame::default() };

@@ -102,7 +102,6 @@ fn install_sieves(engine: &mut Engine) {
     }
 }
 
-/// Assigns `kept` to the value before the dot, and returns `given`.
 fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
     if let Some(own) = values.first_mut() {
         **own = kept;

@@ -1,7 +1,7 @@
 //! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
 //! Rhai's built-in comparisons and integer division ignore registered functions.
-//! Therefore the parser uses other operator names, which [`operators`](crate::script::dialect::operators) implements:
+//! The parser therefore uses other operator names, which [`operators`](crate::script::dialect::operators) implements:
 //!
 //! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
 //! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.

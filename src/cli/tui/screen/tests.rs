@@ -56,7 +56,6 @@ fn without_blanks(text: &str) -> String {
 fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to_do() {
     for size in [(80, 24), (120, 40), (60, 40), (40, 60)] {
         let shown = lines(&at(1), size);
-        // The screen breaks long paths at its edge. Therefore the text is compared without blanks.
         let all = without_blanks(&shown.join("\n"));
         for part in [
             "Exercise 1 of 23: Change one number and see what it does",

@@ -5,7 +5,6 @@ use crate::beams::Quadrature;
 use crate::elementary;
 use crate::geometry::{Basis, Curve, KnotVector, interpolate};
 
-/// Meshes of every supported type with the patch rule: degrees 1 to 7 with all continuities, Lagrange elements, uneven knots, breaks.
 fn meshes() -> Vec<Mesh> {
     let mut meshes = Vec::new();
     for degree in 1..=7 {
@@ -33,7 +32,6 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// Kink length computed by dense matrices: displacement of the exact string under a unit load, minus displacement on the mesh.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);
@@ -170,8 +168,6 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
     assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
 }
 
-/// Missing energy of a kink at rest and of a moving kink on equal spans, averaged over the positions of the kink.
-/// The energy is the difference between Fourier sums of the exact string and of splines of the given degree.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);

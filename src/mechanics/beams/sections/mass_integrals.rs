@@ -9,7 +9,6 @@ use crate::beams::dynamics::Movement;
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
-    /// Adds the product of two basis functions at a point with the given section, multiplied by the quadrature weight [length].
     fn add(&mut self, product: f64, section: &Section);
 
     /// Integral of the product of the functions, without the inertia per length [length].
@@ -19,7 +18,6 @@ pub(in crate::beams) trait MassIntegral:
     /// The integrals are unweighted for every component, or weighted with mass and inertia.
     fn weights(self) -> Movement;
 
-    /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
     #[inline]
@@ -50,7 +48,6 @@ impl MassIntegral for f64 {
     }
 }
 
-/// Integrals of a product of two basis functions: unweighted (length), and weighted with mass and rotary inertia.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::beams) struct SectionIntegral {
     length: f64,

@@ -12,8 +12,6 @@ use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
 /// Sections at the quadrature points of consecutive spans; empty for a uniform beam.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Type of the integral of a product of two basis functions.
-    /// If the inertia varies along the beam, the type also contains the integrals weighted with the inertia.
     type MassIntegral: MassIntegral;
     type Interpolation: Interpolation;
 
@@ -40,7 +38,6 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Vector<V>;
 
-    /// Masses of control points. For a uniform section they are computed from the lengths, otherwise from the weighted integrals.
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 

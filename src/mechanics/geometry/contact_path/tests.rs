@@ -59,7 +59,6 @@ fn inside(basis: &Basis, t: f64) -> (Span, f64) {
     (span, span.start + (0.1 + 0.8 * place.fract()) * (span.end - span.start))
 }
 
-/// Coefficients of the function ξ³ in a cubic basis: its polar form at the knots, or its values at the nodes.
 fn cube(basis: &Basis) -> Vec<f64> {
     match basis {
         Basis::BSpline(knots) => {

@@ -2,7 +2,6 @@ use super::*;
 use crate::geometry::KnotVector;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Basis with spans of the given lengths and continuity C^`continuity` at interior knots.
 fn basis(sizes: &[f64], degree: usize, continuity: usize) -> Basis {
     let mut breaks = vec![0.0];
     for size in sizes {
@@ -15,14 +14,12 @@ fn basis(sizes: &[f64], degree: usize, continuity: usize) -> Basis {
     Basis::BSpline(KnotVector::new(degree, knots).unwrap())
 }
 
-/// Three lists of lengths for `spans` spans: equal, growing and irregular. The ratio of two lengths in a list is at most ten.
 fn sizes(spans: usize) -> [Vec<f64>; 3] {
     let graded = |at: usize| 10_f64.powf(at as f64 / (spans - 1).max(1) as f64);
     let scattered = |at: usize| 10_f64.powf((at as f64 * 0.618_033_988_75).fract());
     [vec![1.0; spans], (0..spans).map(graded).collect(), (0..spans).map(scattered).collect()]
 }
 
-/// Smallest value of `Σ w T² / ∫ T²` over all splines `T` of one degree less.
 fn least_share(basis: &Basis, run: &[Span], rule: &RunRule) -> f64 {
     let count = lower_count(basis, run).unwrap();
     let exact = GaussRule::new(basis.degree()).unwrap();

@@ -23,7 +23,6 @@ impl SlidingLaw for Conserving {
     }
 }
 
-/// Moment balance of the contact forces with the smallest couple, divided by the square of a length.
 fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> [Equation; 2] {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / square(contact.length);

@@ -17,7 +17,6 @@ pub struct ContactUnknowns {
     pub increment: f64,
 }
 
-/// Unit vectors of the axes [-]. The scalar product of a vector with a unit vector is a component.
 pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 
 const NONE: ContactUnknowns =
@@ -222,8 +221,6 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap to a kinked axis at the end of the step.
-    /// `force` causes the kink statically, and `factor` is its derivative with respect to the contact force.
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {

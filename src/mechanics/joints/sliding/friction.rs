@@ -65,7 +65,6 @@ impl Friction<'_> {
 }
 
 impl Contact<'_> {
-    /// Motion at the end of the step, for methods whose mean velocity is the increment divided by the duration.
     fn end_motion(&self, friction: &Friction<'_>) -> EndMotion {
         let rate = 2.0 / friction.duration;
         let (_, moved) = self.master;

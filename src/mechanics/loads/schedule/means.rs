@@ -108,7 +108,6 @@ impl Schedule {
         Ok(values)
     }
 
-    /// Bounds for the number and the degree of the terms of the closed form between breaks; `None` if there is a script function.
     fn shape(&self) -> Option<Shape> {
         let wave = |waves| Shape { degree: 0, waves, is_polynomial: false };
         match self {
@@ -141,7 +140,6 @@ fn gauss_mean(values: [f64; 3]) -> StepMean {
     found
 }
 
-/// Upper bounds of the number and the degree of the terms that represent a schedule between breaks.
 struct Shape {
     degree: usize,
     waves: usize,
@@ -237,7 +235,6 @@ impl Step {
     }
 }
 
-/// Value of a table in the middle of a step, and its change from the middle to the end of the step.
 fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
     let passed = rows.partition_point(|row| row.0 <= middle);
     let value = table_value(rows, middle, LimitSide::After);
@@ -309,7 +306,6 @@ impl Wave {
     }
 }
 
-/// Half the integral over [-1, 1] of `xᵏ cos(turn x)` for even `k`, or `xᵏ sin(turn x)` for odd `k`, computed by a power series.
 fn slow_moment(power: usize, turn: f64) -> f64 {
     let odd = power % 2;
     let (mut term, mut sum) = (if odd == 1 { turn } else { 1.0 }, 0.0);

@@ -56,8 +56,6 @@ impl ArrivalEstimate {
     }
 }
 
-/// Two steps that bracket an event: one ends before the slider reaches the limit, the other one after.
-/// Each step is given by its duration [time] and the signed distance of the slider beyond the limit.
 struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
@@ -110,7 +108,6 @@ impl TimeBracket {
         self.estimate().max(self.shortest)
     }
 
-    /// Next duration, by the method of false position with halved weight of a retained end (Illinois method; Dowell & Jarratt 1971).
     fn estimate(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
@@ -119,8 +116,6 @@ impl TimeBracket {
     }
 }
 
-/// Brackets the change of sign of a quantity of a slider, which is `start` at the start of the interval and negative at its end.
-/// An event in less than the time `shortest` is moved to the start [time].
 fn bracket_sign_change(
     interval: Interval,
     Overshoot { event, distance }: Overshoot,
@@ -227,8 +222,6 @@ impl Simulation {
         self.halve_until_before(interval, number, after)
     }
 
-    /// Halves a step until it ends before an event of a slider that starts at its limit or on the axis.
-    /// `after` contains the duration and the distance of a step that ends after the event.
     fn halve_until_before(
         &mut self,
         interval: Interval,
@@ -321,7 +314,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Executes an arrival at an end, and all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     fn execute_arrivals(
         &mut self,
         limit: MasterLimit,
@@ -454,7 +446,6 @@ impl Simulation {
         last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }
 
-    /// Records arrivals of all sliders at the ends of their masters in a dry run, because scripts may wait for them.
     pub(super) fn dry_run_arrivals(&mut self) {
         let arrival = |slider: usize| {
             let limit = MasterLimit { slider, end: MasterEnd::End };

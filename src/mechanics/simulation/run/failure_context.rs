@@ -23,7 +23,6 @@ const FOLDING_FORCE: f64 = 0.1;
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
-    /// Text about extreme conditions in the present configuration, for messages; empty if there are none.
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());

@@ -237,7 +237,6 @@ impl<'a> Assembly<'a> {
         stations.iter().map(|station| self.place(station)).collect()
     }
 
-    /// Trackers of the starts and ends of all beams, then of the stations of the scene, then of the rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, SystemError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))

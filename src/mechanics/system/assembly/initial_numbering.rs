@@ -16,7 +16,6 @@ pub struct InitialNumbering {
     pub number: Vec<usize>,
     /// Force unknowns of each rigid link, numbered just before the linked point.
     pub forces: Vec<[usize; 2]>,
-    /// Force unknown of each inclined roller, numbered just before the point of the roller; `None` after a release.
     pub roller_forces: Vec<Option<usize>>,
 }
 

@@ -23,7 +23,6 @@ fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
-/// Start rates found so far. `rates` contains the rate of each unknown and the body that set it. `requested` contains the rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     requested: Vec<Option<RequestedRate<'a>>>,
@@ -53,7 +52,6 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Sets the rate of a degree of freedom. If another body or the ground has already set a different rate, returns the earlier rate.
     fn set_rate(
         &mut self,
         at: usize,

@@ -13,13 +13,11 @@ pub struct TiedComponents {
     pub ties: Ties,
     offsets: Vec<usize>,
     pub links: Vec<(usize, usize)>,
-    /// Body and control point of each inclined roller, in the order of the joints; `None` for a released roller.
     pub rollers: Vec<Option<(usize, usize)>>,
     pub prescribed: Vec<usize>,
 }
 
 impl TiedComponents {
-    /// Ties the components of a scene. `place` locates stations on the meshes. Joints and drives in `released` have no effect.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -72,7 +70,6 @@ impl TiedComponents {
         }
     }
 
-    /// Ties the angles of all points of a rigid body to the angle of the body. Points at the centre are tied to the centre.
     fn tie_rigid_bodies(&mut self, scene: &Scene) {
         let first = scene.first_rigid_body();
         for (body, definition) in (first..).zip(&scene.rigid_bodies) {

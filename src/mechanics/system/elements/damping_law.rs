@@ -123,7 +123,6 @@ impl DampingLaw {
         Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// Returns the law with an additional point of zero force at zero rate. The slope may change at this point.
     pub(crate) fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -155,10 +154,6 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method.
-    /// If the impedance of the rest of the system is known, the law is linearised at its intersection with the line of the impedance.
-    /// The line of the impedance passes through (`rate`, `force`) with the slope `-impedance`.
-    /// Without the line of the impedance, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(
         &self,
         rate: f64,

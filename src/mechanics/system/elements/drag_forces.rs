@@ -41,7 +41,6 @@ impl DragForces {
         self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// Work of the wind and dissipated energy at one point in the completed step [energy]. The increments stored in the body of the point are used.
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);

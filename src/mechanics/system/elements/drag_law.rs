@@ -48,7 +48,6 @@ pub struct DragResponse {
     pub by_angle: Vec2,
 }
 
-/// Vector in space, computed from its components across and along a line with the unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
@@ -96,7 +95,6 @@ impl DragLaw {
         }
     }
 
-    /// Linear coefficients across and along the line [force·time/length; for a line force·time/length²].
     pub fn linear(&self) -> Vec2 {
         match self {
             Self::Point(law) => Vec2::repeat(law.linear),

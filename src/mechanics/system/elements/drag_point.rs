@@ -25,7 +25,6 @@ pub struct DragPoint {
     weight: f64,
     /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest term in the sum for the velocity at the start of the step [length/time]. It determines the rounding error of the velocity.
     speed: f64,
     /// Force components across and along the line in the present iterate [force, or force/length].
     force: Vec2,
@@ -60,7 +59,6 @@ impl DragTrial {
     }
 }
 
-/// Unit tangent along a gradient and the inverse length of the gradient [1/length]. The direction is arbitrary if the gradient is zero.
 fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
     let length = gradient.norm();
     match length > 0.0 {
@@ -139,7 +137,6 @@ impl DragPoint {
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Mean position of the point in the completed step, computed from the increments stored in its body.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -172,7 +169,6 @@ impl DragPoint {
         DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.fraction))
     }
 
-    /// Compares the force with the drag law in an iterate. Returns the difference as a fraction of the scale of the velocities.
     pub fn compare(
         &mut self,
         around: &Medium,
@@ -265,7 +261,6 @@ impl DragPoint {
             + self.last_velocity * (rates.by_last * duration)
     }
 
-    /// Force that would remove the residual of the drag law, in the direction of the last linearisation [force].
     pub fn missing(&self) -> Vec2 {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }

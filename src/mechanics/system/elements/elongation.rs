@@ -59,7 +59,6 @@ pub struct Elongation {
     shares: Vec<CoordinateShare>,
     /// Elongation in the initial configuration on the meshes [length, rad].
     initial: f64,
-    /// Growth of the elongation from the initial configuration to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
@@ -81,14 +80,12 @@ pub struct Elongation {
 }
 
 impl Elongation {
-    /// Creates the length of a path through terminals. `at` contains the initial positions of the terminals.
     pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Length(parts), length, terminals, 2)
     }
 
-    /// Creates a component (x or y) of the vector from the first terminal to the second. The second argument contains the initial positions.
     pub fn component(
         terminals: [ElongationEnd; 2],
         [from, to]: [Vec2; 2],
@@ -142,12 +139,10 @@ impl Elongation {
         self.initial
     }
 
-    /// Growth of the elongation since the initial configuration, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
 
-    /// Magnitude of the largest term in the sum for the elongation of an iterate [length, rad]. It determines the rounding error of the elongation.
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
@@ -165,8 +160,6 @@ impl Elongation {
         rounding_error(moved)
     }
 
-    /// If `missing` is within the rounding error of the increments, stores it as a part of the elongation change of the last iterate.
-    /// Returns true if `missing` was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -199,8 +192,6 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant.
-    /// The lag is zero if `share` is `None`. For angles, it is always zero, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -228,7 +219,6 @@ impl Elongation {
         }
     }
 
-    /// Rate of the elongation at the start of the step, computed from the rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -241,7 +231,6 @@ impl Elongation {
         sum
     }
 
-    /// Rate of the elongation at the end of the last step, computed from the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
@@ -340,7 +329,6 @@ impl Elongation {
         }
     }
 
-    /// Lengths of the segments of a path in the present configuration, each with the derivatives of its transverse displacement.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {

@@ -82,7 +82,6 @@ impl Follower {
         }
     }
 
-    /// Adds the work and impulse of the follower force in the step whose increments are stored in the bodies.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.force_parts + self.current;

@@ -44,7 +44,6 @@ impl LoadVector {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// Work and impulse of `factor` times the forces in the step whose increments are stored in the bodies. Forces act at mean positions.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (body, point, [fx, fy, moment]) in &self.entries {

@@ -8,13 +8,11 @@ pub struct MixedForce {
     pub force: f64,
     pub last: f64,
     pub mismatch: f64,
-    /// Derivative of the target force with respect to the elongation change, at the last linearisation.
     pub stiffness: f64,
     target_slope: f64,
     search: IterationState,
 }
 
-/// Number of linearisations in the present step, with the rate and the force at the last linearisation.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
@@ -28,7 +26,6 @@ pub const CORNER_TOLERANCE: f64 = 2e-4;
 /// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
-/// Force that the law requires in a configuration, and its derivative with respect to the elongation change.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceTarget {
     pub force: f64,
@@ -36,8 +33,6 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares the force with its target.
-    /// Returns the difference as a fraction of the force scale, which includes the stiffness times `extent` (a length or angle).
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.target_slope = target.stiffness;
@@ -61,7 +56,6 @@ impl MixedForce {
         self.search = IterationState::default();
     }
 
-    /// Estimate of the impedance of the rest of the system by a secant through the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
@@ -70,7 +64,6 @@ impl MixedForce {
             .then_some(impedance)
     }
 
-    /// Stores the difference from the target, and the derivative of the target, for the next correction.
     pub fn linearise(&mut self, target: ForceTarget) {
         self.mismatch = target.force - self.force;
         self.stiffness = target.stiffness;

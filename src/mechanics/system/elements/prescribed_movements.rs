@@ -89,10 +89,6 @@ pub struct PrescribedMovements {
 }
 
 impl PrescribedMovements {
-    /// Creates the prescribed degrees of freedom of drives, which are numbered after the unknowns and the constraint multipliers.
-    ///
-    /// # Errors
-    /// Returns the name of a drive whose function has no value at the start, and the reason.
     pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = &'d Drive>,
@@ -136,8 +132,6 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers.
-    /// The states of the remaining prescribed degrees of freedom are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -283,7 +277,6 @@ impl PrescribedMovements {
         &self.scratch
     }
 
-    /// Prescribed accelerations at the start of the step, by number of the degree of freedom; zero for unknowns.
     pub fn accelerations(&self) -> Vec<f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
         let ahead = if self.movements.is_empty() { 0 } else { self.first };
@@ -351,7 +344,6 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Sets the reactions for a step of zero length. The reactions are the residual at the prescribed degrees of freedom [force, force·length].
     pub fn start_reactions(&mut self, residual: &[f64]) {
         for (present, reaction) in self.present.iter_mut().zip(&residual[self.first..]) {
             present.reaction = StepMean::at_start(*reaction);

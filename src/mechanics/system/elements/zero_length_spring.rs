@@ -17,14 +17,12 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Springs along x and y, or a single spring along the length, with an optional damper along the connecting vector.
 pub struct ZeroLengthSpring {
     along: Vec<SpringDamper>,
     damper: Option<PointDamper>,
 }
 
 impl ZeroLengthSpring {
-    /// Creates a linear spring [force/length] with a damper between two terminals. The last argument contains the initial positions of the terminals.
     pub fn new(
         name: &str,
         terminals: [ElongationEnd; 2],

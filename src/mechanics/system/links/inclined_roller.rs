@@ -58,7 +58,6 @@ impl InclinedRoller {
         self.force
     }
 
-    /// Values of the unknowns at the degrees of freedom x and y of the point; zero at supported degrees of freedom.
     fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
         Vec2::new(x, y)
@@ -80,7 +79,6 @@ impl InclinedRoller {
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
-    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -112,7 +110,6 @@ impl InclinedRoller {
         out[y] += force * self.normal.y;
     }
 
-    /// Constraint violation in a residual, as a fraction of the size of the scene plus the increments [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
         if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
@@ -150,7 +147,6 @@ impl InclinedRoller {
         }
     }
 
-    /// Calls `take` with the static stiffness of the constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,

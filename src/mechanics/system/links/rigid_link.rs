@@ -19,7 +19,6 @@ pub enum ForceUnknowns {
 }
 
 impl ForceUnknowns {
-    /// Force for a value of the force unknown. The argument `last` is the force before the step or displacement [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -72,7 +71,6 @@ struct Iterated {
 }
 
 impl RigidLink {
-    /// Creates a rigid link from the centre of a body to its control point `point`. `angle` is the initial angle of the body [rad].
     pub fn new(body: usize, point: usize, unknowns: [usize; 2], at: [Vec2; 2], angle: f64) -> Self {
         let rotation = Rotation::by(angle);
         let [centre, end] = at;
@@ -152,7 +150,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -172,7 +169,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds the coupling between the force unknowns and the rates at the start of a step to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         let arm = perpendicular(self.arm());
         self.couple(bodies, 1.0, arm, arm, movements, matrix);

@@ -91,7 +91,6 @@ pub(super) struct ImpactProblem {
     pub(super) response: Vec<Vec<f64>>,
     /// Relative velocities before the impact [length/time].
     before: Vec<f64>,
-    /// Changes of the rates due to rigid links and jumps of prescribed rates, without contact impulses.
     change: Vec<f64>,
     /// Jumps of prescribed rates, indexed by degree of freedom; empty without jumps.
     jumps: Vec<f64>,
@@ -121,25 +120,20 @@ impl ImpactImpulses {
 }
 
 impl ImpactProblem {
-    /// Velocity change in a direction due to rigid links and jumps of prescribed rates, without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
         self.responses[at].velocity(&self.change)
     }
 
-    /// Velocity in a direction before the impact, and its total change with the given impulses [length/time].
     pub(super) fn approach_velocities(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
         let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
-    /// Mean of the velocities before and after the impact for the case without contact impulses [length/time].
     pub(super) fn mean_velocity(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Violations of the given impact laws by the velocities that would result without contact impulses [length/time].
-    /// The laws apply to the last directions of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
         let means = &self.mean_velocity()[first..];
@@ -160,8 +154,6 @@ impl ImpactProblem {
         Ok(laws.iter().enumerate().map(lack).collect())
     }
 
-    /// Means of the velocities before and after the impact if no stop acts, one for each law [length/time].
-    /// The laws apply to the last directions of the impact problem.
     pub(super) fn stop_velocities(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
         let mut means = self.mean_velocity().split_off(first);
@@ -355,7 +347,6 @@ impl System {
         self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
-    /// Creates the impact problem with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
     fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -428,7 +419,6 @@ impl System {
         }
     }
 
-    /// Velocities across the masters due to unit impulses across the masters, one row per slider [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.impulse_responses(&inertia.factorise()?, &self.across());

@@ -16,7 +16,6 @@ use crate::system::{SliderState, SystemError};
 /// Accelerations and forces at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Accelerations of the unknowns [length/time², 1/time²], with the forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     reactions: Reactions,
     /// Force of each slave on its master [force].
@@ -111,11 +110,6 @@ impl System {
         })
     }
 
-    /// Calls a function while the model stores the present forces of its rigid links.
-    /// During other calls, the model stores the forces of the last step, which are zero before the first step.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`instant`](Self::instant), if the model has rigid links.
     pub(crate) fn with_present_link_forces<T>(
         &mut self,
         look: impl FnOnce(&Self) -> T,
@@ -192,8 +186,6 @@ impl System {
         Ok((accelerations, contacts))
     }
 
-    /// Adds the friction of sliders that slip to unit forces across their masters.
-    /// The direction of friction depends on the sign of the force across the master in the solution without friction. Returns true if a slider slips.
     fn add_slip_friction(
         &self,
         inertia: &BandedLu<'_>,

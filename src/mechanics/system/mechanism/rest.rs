@@ -30,7 +30,6 @@ impl System {
         self.links.begin_movement();
     }
 
-    /// Sets the displacements to zero and the contact unknowns to their last values. The contact unknowns are stored after the displacements.
     pub(crate) fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
@@ -76,7 +75,6 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation in a static iterate [-]. It is a fraction of a force scale or of the lengths involved.
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
@@ -98,7 +96,6 @@ impl System {
         self.sliders.update_stop_contacts(&self.bodies, movements, contacts)
     }
 
-    /// Subtracts `load_factor` times loads and weight from `out`. Returns the largest force and the largest moment on a control point.
     pub(crate) fn subtract_static_loads(
         &mut self,
         movements: &[f64],

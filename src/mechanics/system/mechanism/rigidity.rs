@@ -14,7 +14,7 @@ use crate::linalg::{BandedLu, BandedMatrix};
 /// Larger ratios are reduced to this value, for which the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution. Each correction multiplies the error by `MOST` times the machine precision.
+/// Smallest number of corrections of a solution.
 const CORRECTIONS: usize = 4;
 
 /// Largest number of corrections that reduce suppressed strains to zero.
@@ -37,7 +37,6 @@ pub(super) enum Deformation {
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Resistance of the strain to an impulse. For a suppressed strain, the field is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }
@@ -95,9 +94,6 @@ impl Rigidity {
         matrix
     }
 
-    /// Adds the impulses of section forces to a unit impulse, and returns the impulses of the section forces.
-    /// The argument `factors` contains the factors of the [`matrix`](Self::matrix).
-    /// The method of multipliers reduces suppressed strains to zero (Hestenes 1969).
     pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
@@ -159,7 +155,6 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Calls `take` for every strain with a nonzero stiffness. Arguments: degrees of freedom, coefficients, stiffness and type.
 fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -168,7 +163,6 @@ fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], 
     });
 }
 
-/// Adds the impulses of section forces in an impact to `out`. The list `passed` is empty if no strain resists the impulse.
 pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     for_each_stiff_strain(model, |degrees, row, _, _| {

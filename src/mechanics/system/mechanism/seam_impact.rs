@@ -147,7 +147,6 @@ impl System {
         Ok(())
     }
 
-    /// Section directions along which a slider leaves one side of a seam and enters the other side [-].
     fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];
         let along = |beam: usize, end: MasterEnd| {
@@ -158,7 +157,6 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Rotates the relative velocities of sliders at corners. The impact includes only the given deformations.
     pub(super) fn deflect(
         &mut self,
         corners: &[SeamCorner],
@@ -263,7 +261,6 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// Iterative search for the impulse for which the velocity of a slider at a corner rotates by the required angle.
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
@@ -286,7 +283,6 @@ impl TurnSearch {
         }
     }
 
-    /// Corrects the angle from the velocities before and after the impact. Returns true if the rotation angle is within the tolerance.
     fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
         if self.own.is_one_way() || before == Vec2::zeros() {
             return true;

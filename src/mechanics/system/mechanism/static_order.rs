@@ -38,7 +38,6 @@ impl StaticOrder {
         self.position.is_none()
     }
 
-    /// Converts values from this order to the order of time steps. Only the first `unknowns` entries are returned.
     pub(crate) fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,

@@ -17,8 +17,7 @@ impl System {
         self.exchanged.powers = Some(powers.collect());
     }
 
-    /// Power of a drive over the last step: the mean of force times velocity and of moment times spin [energy/time]. `None` if not
-    /// [enabled](Self::enable_powers).
+    /// Power of a drive over the last step [energy/time]; `None` if powers are not enabled.
     pub(in crate::system) fn power_of_drive(&self, drive: usize) -> Option<f64> {
         Some(self.exchanged.powers.as_ref()?[drive].power)
     }
@@ -44,7 +43,6 @@ impl System {
         self.exchanged.powers = Some(powers);
     }
 
-    /// Works since the start of all drives and of all loads, of which only named ones have an account [energy].
     fn works(&self) -> impl Iterator<Item = f64> {
         let of_load = |load: &dyn ExternalForce| load.account().map_or(0.0, |account| account.work);
         self.supports.prescribed().works().chain(self.elements.forces().map(of_load))

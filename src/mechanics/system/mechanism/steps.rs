@@ -50,7 +50,6 @@ impl System {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds the internal forces with the force unknowns eliminated, minus `share` times the external forces, and their derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -84,7 +83,6 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates the momentum change and the mean momentum of a step at the prescribed degrees of freedom.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

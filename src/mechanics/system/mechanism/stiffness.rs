@@ -17,8 +17,7 @@ use crate::system::state::UnknownKind;
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`.
-    /// Supported degrees of freedom follow all unknowns.
+    /// Calls `take` with the static stiffness of every span and spring.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -50,8 +49,6 @@ impl System {
         power
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration.
-    /// The coefficient times the squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -73,8 +70,6 @@ impl System {
     }
 
     /// Calls `take` with the penalty stiffness of every rigid link and contact.
-    /// The penalty stiffness is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
-    /// The callback `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,

@@ -319,9 +319,6 @@ impl System {
         Ok(())
     }
 
-    /// Returns the directions of all contact impulses with their laws [-].
-    /// For a slider that is held or has an impact law at a limit, the directions are along and across the master.
-    /// For any other slider on a master without a kink, the direction is across the master.
     pub(super) fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,

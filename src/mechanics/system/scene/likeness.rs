@@ -95,7 +95,6 @@ mod tests {
     use crate::geometry::Vec2;
     use crate::system::ParticleDefinition;
 
-    /// Scene with two particles, in a given unit of length and unit of mass.
     fn pair(place: Vec2, mass: f64, (length, unit): (f64, f64)) -> Scene {
         let mut scene = Scene::new("pair");
         for (name, at, mass) in [("a", Vec2::new(0.0, 3.0), 1.0), ("b", place, mass)] {

@@ -209,7 +209,6 @@ impl Scene {
     }
 }
 
-/// Place at an arc length of a beam, for the remainder of a sensor name such as `0.5].x`; `None` if there is no such arc length.
 fn place_inside<'s>(
     object: Cow<'s, str>,
     beam: usize,

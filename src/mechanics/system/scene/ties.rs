@@ -211,7 +211,6 @@ pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
-/// Returns true if a gap at a point of a beam of the given length is within the tolerance [length].
 pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
     gap <= CLOSED * (length + at.norm())
 }

@@ -129,8 +129,7 @@ pub(in crate::system) static SLIDER_FRICTION: Quantity =
 pub(in crate::system) static FLIGHT_GAP: Quantity =
     quantity("gap", "length", Present, Index(flight_gap));
 
-/// Quantities of sliders that are recorded on request: the instantaneous force on the master, and the arc length from the start of the master or
-/// track.
+/// Quantities of sliders that are recorded on request.
 pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
     quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
     quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),

@@ -38,7 +38,6 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the contact forces on slave and master to a residual, followed by the values of the contact equations.
     pub fn add_values(
         &self,
         bodies: &[Body],
@@ -54,7 +53,6 @@ impl Connection {
         rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
-    /// Adds the derivatives of [`add_values`](Self::add_values) with respect to the unknowns. Derivatives of the forces on the master are included.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],

@@ -30,7 +30,6 @@ const FROM_END: f64 = 0.01;
 /// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
 const LARGEST_START: f64 = 0.02;
 
-/// Data of the kink that the mesh of a master does not represent, shared by all sliders on the master.
 #[derive(Debug, Clone)]
 pub struct MasterKink {
     pub length: Arc<PiecewisePolynomial>,
@@ -52,7 +51,6 @@ pub struct KinkedAxis {
     none: f64,
     /// Kink length below which the kink is kept constant [length].
     least: f64,
-    /// True if the kink is kept constant in the present step, because the step has no solution with a variable kink.
     is_frozen: bool,
     compliance_derivatives: [f64; 3],
     stretch: f64,
@@ -82,7 +80,6 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts a step of a duration [time]. A kink without mass gets the given rate of the parameter [1/time].
     pub fn begin_step(&mut self, duration: f64, rate: f64) {
         self.duration = duration;
         if !self.is_heavy() {
@@ -116,7 +113,6 @@ impl KinkedAxis {
         self.stretch * rate
     }
 
-    /// Keeps the kink constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
         self.is_frozen = true;
@@ -148,8 +144,6 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts the state of the kink at the end of a step with a mean contact force [force], after [`accept_end`](Self::accept_end).
-    /// The jump of the tangent is stored as the force that would cause it statically. On a rigid axis, the mean force of the step is stored.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
@@ -230,8 +224,6 @@ impl KinkedAxis {
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
-    /// Compliance of the kink [length/force], followed by the derivative of [`offset`](Self::offset) with respect to the parameter [length].
-    /// The last value is the second derivative of the energy with respect to the parameter, for a constant force [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

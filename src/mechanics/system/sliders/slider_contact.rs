@@ -42,7 +42,6 @@ pub struct SliderContact {
     pub impulse: Vec2,
     /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left one.
     pub stop_left_at: f64,
-    /// True if the stop force may be tensile in the next step, because the slider has just left the stop but every step returns it to the stop.
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last attempted step.
     pub is_pulled: bool,
@@ -70,20 +69,14 @@ pub struct SliderContact {
     length: f64,
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, at the start of the step.
-    /// The list is empty if the control points must be read again.
     before: Vec<Vec2>,
     /// Index of the first control point in `before`.
     before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
-    /// Scale of rounding errors: length of the master plus length of the path of the slave in the iterate [length].
     size: f64,
-    /// Chord of the path in the mean configuration of the iterate, as a fraction of the length of the path.
     chord: f64,
-    /// Compressive stop force times the length of the tangent, in the iterate of a slider that is held at a stop [force·length].
     push: f64,
-    /// Compressive stop force times the length of the tangent, on the other side of the seam at which the slider is held [force·length].
     push_beyond: f64,
     /// True if the contact force pulls the slider onto the beam on the other side of the seam.
     pub crosses_seam: bool,
@@ -97,9 +90,6 @@ pub(super) const NEVER: f64 = f64::MAX;
 /// Tensile stop force that counts as zero, as a fraction of the contact force.
 const PULL: f64 = 1e-9;
 
-/// Returns true if a stop force is tensile beyond the tolerance.
-/// The argument `push` is the compressive stop force times the length of the tangent [force·length]. The contact force is `force` [force].
-/// The length of the master per unit of its parameter is `length` [length].
 pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
@@ -164,7 +154,6 @@ impl SliderContact {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
-    /// Number of entries of the contact equations for steps in which the slider passes at most two spans of its master.
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
@@ -186,7 +175,6 @@ impl SliderContact {
         }
     }
 
-    /// Replaces the kinked axis of the master, and returns the previous kinked axis. Without a kinked axis the contact is rigid.
     pub fn exchange_kinked_axis(&mut self, axis: Option<KinkedAxis>) -> Option<KinkedAxis> {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
@@ -238,7 +226,6 @@ impl SliderContact {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Keeps the kink of the master and the force of slip constant in the next step. Returns true if this changes the equations of the step.
     pub fn freeze(&mut self) -> bool {
         let sliding = self.is_sliding();
         let kink = self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding);
@@ -340,7 +327,6 @@ impl SliderContact {
         }
     }
 
-    /// Adds the forces on slave and master to a residual, followed by the contact equations. Returns the contact force [force].
     pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -390,7 +376,6 @@ impl SliderContact {
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
-    /// Largest violations of the contact equations: of length equations, as a fraction of the lengths involved [-], and of force equations [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -399,17 +384,14 @@ impl SliderContact {
         })
     }
 
-    /// Chord of the path in the mean configuration, as a fraction of the length of the path along the master [-].
     pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// Distance of the slider beyond an end of the master for given contact unknowns, as a fraction of the parameter range [-].
     pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.master.overshoot(self.parameter + self.read(unknowns).increment, end)
     }
 
-    /// Evaluates the contact at the end of an accepted step. The caller must not move the bodies before this call.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.active_friction().is_some() {
             let contact = self.evaluate(bodies, increments, unknowns);

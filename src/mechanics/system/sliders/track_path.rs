@@ -74,7 +74,6 @@ impl TrackPath {
         self.lengths[self.segments.len()]
     }
 
-    /// Distance along the track, for a slider after the fraction `part` of its present beam [length]. On closed tracks, completed rounds are added.
     pub fn arc_length(&self, part: f64) -> f64 {
         let leg = self.present();
         let along = leg.heading.along(leg.master.length(), part * leg.master.length());
@@ -85,7 +84,6 @@ impl TrackPath {
         self.segments.iter().map(|leg| leg.path.basis())
     }
 
-    /// Seam beyond an end of the present beam; `None` if the track does not continue, or if the beams do not meet there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
@@ -172,8 +170,6 @@ impl TrackPathSegment {
         }
     }
 
-    /// Derivative of the position on the beam with respect to its parameter at an end, after given increments of all bodies [length].
-    /// If `increments` is empty, the present configuration is used.
     pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: MasterEnd) -> Vec2 {
         let (first, slopes) = &self.slopes[end as usize];
         let body = &bodies[self.beam];

@@ -41,7 +41,6 @@ impl InertiaSolver {
         Ok(())
     }
 
-    /// Velocity in the direction of a unit impulse that the impulse causes [1/mass]. `add_forces` adds its generalised forces.
     pub fn response(&mut self, add_forces: impl FnOnce(&mut [f64])) -> f64 {
         let Self { inertia, forces, rates, .. } = self;
         forces.fill(0.0);

@@ -37,7 +37,6 @@ pub struct Resolution {
     last: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
-    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     duration: f64,
     /// Energy below which motions are attributed to rounding [energy].
     noise: f64,
@@ -61,7 +60,6 @@ impl Resolution {
         self.noise
     }
 
-    /// Records a step or substep of a duration [time] with its prediction errors and its largest rotation increment.
     pub(super) fn add(
         &mut self,
         missed: &GuessErrors,
@@ -106,7 +104,6 @@ impl Resolution {
         self.rotation
     }
 
-    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     pub(crate) fn turned_in(&self) -> f64 {
         self.duration
     }
@@ -136,7 +133,6 @@ impl Resolution {
 mod tests {
     use super::*;
 
-    /// Resolution after steps of the energy–momentum method, for vibrations given by mass, velocity amplitude and `ω h`.
     fn vibrating(vibrations: &[(f64, f64, f64)], steps: usize) -> Resolution {
         let mut resolution = Resolution::above(0.0);
         let mut mean: Option<Vec<f64>> = None;

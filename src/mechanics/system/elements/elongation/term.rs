@@ -42,7 +42,6 @@ impl ElongationTerm {
     }
 }
 
-/// Relative rotation of two sections, with its derivatives with respect to both rotation increments.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],

@@ -22,7 +22,6 @@ impl SpringDamper {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// Force and stiffness by the spring law for an elongation change of `change` in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
@@ -92,12 +91,6 @@ impl SpringDamper {
         }
     }
 
-    /// Extrapolation factor for the rate at a time after the middle of the step.
-    /// The extrapolation factor multiplies the difference between the rates of this step and the previous step.
-    /// Returns `None` if the force does not depend on rates.
-    ///
-    /// A method with forces at both ends of the step evaluates the balance at the fraction `at.weight` of the step.
-    /// The rate at this fraction of the step is extrapolated from the rates at the middle of this step and of the previous step.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,

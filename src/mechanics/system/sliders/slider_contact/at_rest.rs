@@ -63,7 +63,6 @@ impl SliderContact {
         }
     }
 
-    /// Static contact equations for the state of a slider. For a held slider, `way` is the sliding increment to the stop.
     fn static_equations(
         state: SliderState,
         way: Option<f64>,
@@ -92,7 +91,6 @@ impl SliderContact {
         self.crosses_seam || is_tensile(push, force.norm(), self.length)
     }
 
-    /// Accepts the position after a displacement between two equilibria. The caller must move the bodies before this call.
     pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
@@ -110,7 +108,6 @@ impl SliderContact {
         }
     }
 
-    /// Unknowns that the static contact couples: the unknowns of the slave and of the master at the slider, and the position unknown `own`.
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -120,8 +117,6 @@ impl SliderContact {
         [x, y].into_iter().chain(of_master).chain([own]).collect()
     }
 
-    /// Calls `take` with the static stiffness of the contact. A rigid axis has a penalty stiffness [force/length].
-    /// The position unknown of the slider is `own`.
     pub fn static_stiffness(
         &self,
         bodies: &[Body],

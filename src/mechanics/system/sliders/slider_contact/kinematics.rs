@@ -21,7 +21,6 @@ impl SliderContact {
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
-    /// Control points of the master, starting with the first control point whose basis function is nonzero at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.start_path.first()..]
     }
@@ -38,7 +37,6 @@ impl SliderContact {
         (self.tangent(bodies) + slope).normalize()
     }
 
-    /// Directions of motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
     pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
         let axis =
             self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.is_compliant())?;
@@ -59,7 +57,6 @@ impl SliderContact {
         self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
     }
 
-    /// Returns true if the slider is slow enough for a loaded kink at an end, although the kink of the master has no load.
     pub fn is_straight_at_end(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let axis = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         axis.is_some_and(|axis| {
@@ -85,12 +82,10 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Unit normal of the master at the slider, on the side of the flight for a slider that only pushes [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
         self.normal_to(self.along(bodies))
     }
 
-    /// Normal of a direction along the master, on the side of the flight for a slider that only pushes.
     pub fn normal_to(&self, along: Vec2) -> Vec2 {
         let normal = perpendicular(along);
         self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
