@@ -35,7 +35,7 @@ pub struct ForceSummary {
 }
 
 impl ForceSummary {
-    /// Replaces each entry by the larger value of both summaries.
+    /// Replaces each value by the larger of the values in both summaries.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);

@@ -139,7 +139,7 @@ impl ContactPath {
     }
 
     /// Divided differences of the functions: their mean derivatives over the path, accurate to rounding. They sum to zero.
-    /// For a path of zero length, the divided differences are the derivatives at the start.
+    /// The divided differences of a path of zero length are the derivatives of the functions at its start.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }

@@ -8,7 +8,7 @@ use crate::newton::ResidualPart;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// Start of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// At this stage, the load has the value of the linear function at the start of the step.
+    /// The start value of the linear function is used, not the value of the load.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -20,7 +20,7 @@ pub enum Stage {
     /// The value in the enum variant is the dissipation parameter `χ`.
     DampedMidpoint(f64),
     /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// At this stage, the load has the value of the linear function at the end of the step.
+    /// The end value of the linear function is used, not the value of the load.
     End,
 }
 

@@ -7,7 +7,7 @@ use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Integrator that advances a mechanism, the leader, together with companions.
-/// Companions have the structure of the leader, with slightly different parameters and states.
+/// A companion is a mechanism with the structure of the leader, and slightly different parameters and states.
 ///
 /// The step of a companion is solved iteratively, with the matrix factors of the last Newton iteration of the leader.
 /// A few corrections without factorisation reduce the error to rounding.

@@ -20,11 +20,9 @@ const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 /// Number of bisections before a difference is recorded, and again after the record.
 const HALVINGS: usize = 15;
 
-/// Remaining fraction of the recorded difference, above which the function jumps.
-/// The remaining fraction is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// After repeated bisection, the remaining fraction of a difference is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// Smallest ratio of the largest difference in a step to the sum of all other differences for which a jump is searched.
 const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -57,8 +57,8 @@ pub trait Equations {
     /// Computes residual and tangent at `u`, with the internal unknowns eliminated. Both must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Prepares a correction with the factors of the last linearisation.
-    /// Eliminates the internal unknowns from the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
+    /// Eliminates internal unknowns from a residual. A correction with earlier matrix factors needs the result.
+    /// The residual must be the result of the last call of [`imbalance`](Equations::imbalance).
     fn condense(&mut self, residual: &mut [f64]);
 
     /// Updates the internal unknowns after a correction of `u`, using the last linearisation.

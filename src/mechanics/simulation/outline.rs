@@ -94,7 +94,7 @@ impl Outline {
     }
 
     /// Corners of the closed polygon of a rigid body, relative to the line between the two points of [`line`](Self::line).
-    /// Coordinates are along this line and to its left, in units of its length.
+    /// The first coordinate is along the line, the second coordinate is to its left. The unit is the length of the line.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }

@@ -58,7 +58,7 @@ impl TimeGrid {
         self.dt
     }
 
-    /// Largest difference from a given time for which times count as equal [time].
+    /// Largest difference between two times that count as equal [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }

@@ -18,7 +18,6 @@ const MOST_SWEEPS: usize = 40;
 /// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
-/// Number of corrections of each reported eigenvalue.
 const CORRECTIONS: usize = 4;
 
 /// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.

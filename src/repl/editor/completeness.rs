@@ -75,9 +75,7 @@ enum ParseOutcome {
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
-    /// Keyword to which the block at this bracket level belongs.
     owner: Option<&'t str>,
-    /// Keyword whose block has not started yet.
     keyword: Option<&'t str>,
     closed: Option<&'t str>,
     /// True between the bars of a closure such as `|x, y| x + y`.

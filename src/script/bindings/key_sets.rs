@@ -45,8 +45,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the set that is selected by a text.
-    /// If no text selects a set, returns the set with the largest number of given keys. The first of several such sets is returned.
+    /// Returns the key set that is selected by a text.
+    /// If no text selects a key set, returns the first key set with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -273,7 +273,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Columns that exist only in some scenes, with the reason.
+/// Names of columns that exist only in some scenes, and the scenes that have them.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",

@@ -32,7 +32,7 @@ pub struct ViewerOptions<'a> {
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations with drawn paths; `None` for the free ends.
+    /// Stations whose paths are drawn; `None` for the free ends of beams.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],

@@ -111,7 +111,6 @@ impl TimeBracket {
     fn estimate(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Because of rounding, the computed duration may equal one of the ends.
         if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }

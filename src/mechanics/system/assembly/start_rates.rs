@@ -14,7 +14,6 @@ const SAME_VELOCITY: f64 = 1e-9;
 /// The initial rate is computed by finite differences, which have an error.
 const SAME_START: f64 = 1e-6;
 
-/// Names of the components in messages.
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
 const GROUND: &str = "the ground is at rest there";
@@ -207,7 +206,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested rates of single nodes, indexed by the number of the unknown.
+    /// Requested start velocities of nodes. The key is the index of the unknown to which a velocity belongs.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

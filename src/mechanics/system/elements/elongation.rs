@@ -73,9 +73,7 @@ pub struct Elongation {
     pub slope: Vec<f64>,
     /// Derivative of the secant with respect to the coordinates, row by row [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Difference between the direction of the damping force and the secant [-].
     pub lag: Vec<f64>,
-    /// Derivative of `lag` with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,
 }
 

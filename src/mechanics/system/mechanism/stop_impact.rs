@@ -270,7 +270,7 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave them.
+    /// Gives the stored energy of stops back to the sliders that leave the stops.
     /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
     /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.

@@ -54,7 +54,7 @@ impl System {
     }
 
     /// Present force of the kink under a slider, if the kink follows the contact force [force].
-    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
+    /// If the kink does not follow the contact force, returns the [`contact_force`](Self::contact_force) of the slider.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }

@@ -20,7 +20,7 @@ pub const RELATIVE_DISTANCE: f64 = 1e-5;
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// True if variants have been used. No parameter may be added after that.
+    /// True if variants have been used, so that no parameter may be added.
     is_in_use: Cell<bool>,
     reported: RefCell<BTreeSet<(usize, usize)>>,
 }

@@ -37,7 +37,7 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 
 const DIGITS: usize = 6;
 
-/// Error of an option, in a script call or in a command at the prompt.
+/// Error in an option of a picture, which a script or a command at the prompt has given.
 pub struct OptionError {
     key: String,
     message: String,

@@ -7,9 +7,8 @@ use crate::script::state::parts::StudyPart;
 
 pub struct SweepProgress {
     pub results: SweepResults,
-    /// True for rows with a result, and for rows of other parts.
     is_known: Vec<bool>,
-    /// Number of rows that have a result or belong to other parts.
+    /// Number of completed rows of the sweep, including the rows that other parts of a divided study compute.
     pub done: usize,
     pub rows: usize,
     /// First completed row, which defines the names of the results.

@@ -1,16 +1,8 @@
 //! Coulomb friction of a contact point. The contact deflects elastically along the surface before it slips.
 //!
-//! ```text
-//! limit of the force:       B = μ N
-//! deflection at the start:  q₀' = q₀ limited to ±B/k
-//! deflection at the end:    q₁ = q₀' + s limited to ±B/k
-//! mean force:               f = (½ k (q₁² - q₀'²) + B |q₀' + s - q₁|)/s
-//! dissipated energy:        D = f s - ½ k (q₁² - q₀²) ≥ 0
-//! ```
-//!
-//! Here `s` is the slip in the step, `N` the mean normal force, `μ` the coefficient of friction and `k` the stiffness of the contact.
-//! The force is the mean over the exact elastic–plastic path, so `|f| ≤ B`, and a contact that sticks does not creep.
-//! A contact with a restitution below 1 also has a viscous force in parallel with the elastic one. The sum is limited to `±B`.
+//! `docs/theory.md`, section 9.7, derives the mean force of a step.
+//! The force is the mean over the exact path, so it never exceeds the limit, and a contact that sticks does not creep.
+//! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
 use super::point::{GapTrial, SOFT};
 use crate::beams::Movement;
@@ -18,7 +10,7 @@ use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
-/// Largest damping factor of a sticking contact. It gives critical damping.
+/// Damping factor at which a sticking contact is critically damped. Larger factors are reduced to it.
 const MOST_DAMPING: f64 = 2.0;
 
 /// Law of friction in a step.
@@ -29,7 +21,6 @@ struct FrictionLaw {
     /// Largest magnitude of the force [force].
     limit: f64,
     /// Deflection at the start of the step [length].
-    /// Its magnitude may exceed `limit/stiffness`, because the limit of the last step may have been larger.
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
@@ -131,7 +122,6 @@ pub(super) struct PointFriction {
     deflection: f64,
     /// Friction force, as an internal force along the turned normal [force].
     force: MixedForce,
-    /// Derivative of the force with respect to the normal force, at the last linearisation [-].
     by_normal: f64,
     trial: SlipTrial,
     linearised: SlipTrial,
@@ -239,7 +229,6 @@ impl PointFriction {
         -self.applied_moment
     }
 
-    /// Generalised force with its difference from the law condensed out. `normal_mismatch` is the difference of the normal force from its law.
     pub(super) fn condensed(&self, normal_mismatch: f64) -> Movement {
         let force = self.force.force + self.mismatch(normal_mismatch);
         self.linearised.direction.map(|by| by * force)
@@ -254,7 +243,6 @@ impl PointFriction {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    /// Derivative of the condensed force. `normal_slope` is the derivative of the normal force with respect to the displacement.
     pub(super) fn tangent(&self, normal_slope: Vec2) -> [Movement; 3] {
         let SlipTrial { slope, direction, direction_slope, .. } = self.linearised;
         let by_normal = [normal_slope.x, normal_slope.y, 0.0].map(|by| by * self.by_normal);
@@ -295,7 +283,6 @@ impl PointFriction {
     }
 
     /// Generalised internal force at the start of the step, for rates of the point.
-    /// The slip is linear in the movement, so the slip rate follows from the rates.
     pub(super) fn at_start(&self, normal: Vec2, normal_force: f64, rates: Movement) -> Movement {
         let gap = GapTrial::along(normal);
         let SlipTrial { slip: rate, direction, .. } = SlipTrial::new(&gap, self.radius, rates);

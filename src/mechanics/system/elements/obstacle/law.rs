@@ -1,13 +1,7 @@
 //! Contact law: tension in a gap as a function of the gap, from a potential.
 //!
-//! ```text
-//! half-plane:  u(g) = ½ k g²           for g < 0
-//! disc:        u(g) = ½ k R g²/(R + g)  for g < 0
-//! ```
-//!
-//! Here `g` is the gap, `k` the stiffness and `R` the sum of the radii of obstacle and body.
+//! `docs/theory.md`, section 9.7, states the potentials.
 //! The potential of a disc is infinite at its centre, so its energy bounds the penetration.
-//! Both potentials have the stiffness `k` at first touch.
 //! Tensions have the sign of springs: contact forces are negative.
 
 use crate::elementary::ln;
@@ -53,7 +47,6 @@ impl ContactLaw {
     }
 
     /// Mean tension over a change of the gap from `gap` by `change`, whose work is the change of the potential.
-    /// The stiffness is the derivative with respect to the change.
     pub(super) fn mean(&self, gap: f64, change: f64) -> ForceTarget {
         let end = gap + change;
         match (gap < 0.0, end < 0.0) {
@@ -93,7 +86,7 @@ fn distance(radius: f64, gap: f64) -> f64 {
 
 /// Factor `x` of the contact damping for a coefficient of restitution `e`: `(1 + e) x = ln((1 + x)/(1 - e x))`; zero for `e = 1`.
 ///
-/// A linear contact with the force `F (1 + x ġ/v)` rebounds with `e` times its approach speed `v`, for any mass and stiffness.
+/// With this factor, a mass on a linear contact rebounds with `e` times its approach speed. Derivation: docs/theory.md, section 9.7.
 pub(super) fn damping_factor(restitution: f64) -> f64 {
     if restitution >= 1.0 {
         return 0.0;

@@ -17,7 +17,6 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 pub(super) const SOFT: f64 = 1e-2;
 
 /// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
-/// The limit is below the largest number of parts of a halved step, so halving resolves longer chords.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Surface of an obstacle with its contact law.
@@ -27,7 +26,6 @@ pub(super) struct Surface {
     /// Radius of the bodies around their axes and points [length].
     pub(super) radius: f64,
     pub(super) law: ContactLaw,
-    /// Factor of the damping for the coefficient of restitution [-].
     pub(super) damping: f64,
     /// Coefficient of friction [-].
     pub(super) friction: f64,
@@ -79,11 +77,8 @@ impl Surface {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     change: f64,
-    /// Vector `e` with `Δg = e·Δx`; for methods with forces at the ends of steps, the gradient of the gap [-].
     pub(super) secant: Vec2,
-    /// Derivative of the change with respect to the movement [-].
     slope: Vec2,
-    /// Derivative of the secant with respect to the movement, row by row [1/length].
     pub(super) secant_slope: [Vec2; 2],
     moved: f64,
 }
@@ -194,7 +189,7 @@ impl ContactPoint {
     }
 
     /// Prepares the start of a simulation. Computes the effective mass from the diagonal of the inertia matrix.
-    /// The whole mass of a rigid body counts at its points.
+    /// For a point of a rigid body, the effective mass is the mass of the body.
     pub(super) fn begin(&mut self, surface: &Surface, body: &Body, diagonal: &[f64]) {
         self.locate(surface, body);
         let of = |degrees: &[usize; 3]| diagonal.get(degrees[0]).copied().unwrap_or(f64::INFINITY);
@@ -258,7 +253,6 @@ impl ContactPoint {
     }
 
     /// Returns true if a straight movement leads through a disc: from outside to outside, or around its centre by more than 60°.
-    /// A chord that is longer than the distance of its ends from the centre subtends more than 60°.
     pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
         let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
         let (radius, length) = (radius + surface.radius, movement.norm());
@@ -316,7 +310,7 @@ impl ContactPoint {
 
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
-    /// The coefficient is limited to its largest value in an impact that is governed by the contact.
+    /// The damping coefficient is limited to its largest value in an impact of a free mass.
     /// Without the limit, a resting contact would be damped without bound.
     fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
         if elastic.force == 0.0 {
@@ -395,7 +389,7 @@ impl ContactPoint {
         ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the force with its difference from the law condensed out to `out`, and its derivatives to `tangent`.
+    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the law of contact.
     pub(super) fn add_linearised(
         &mut self,
         surface: &Surface,

@@ -26,10 +26,9 @@ const BEYOND: f64 = 1e-9;
 /// Contact of a slider that only pushes.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
-    /// Sign of the distance from the axis, along the left normal, on the side of the flight [-].
+    /// Side of the master on which the slider can fly: 1 for the left side of the axis, -1 for the right side.
     pub sign: f64,
     nearest: NearestPoint,
-    /// True if the slave is on the side of the flight. It can reach the other side beyond an end of the master, and cannot land from there.
     may_land: bool,
     /// Number of take-offs, landings and passages of the axis since the last regular step.
     events: usize,
@@ -40,7 +39,7 @@ pub struct UnilateralContact {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NearestPoint {
     parameter: f64,
-    /// Component of the distance from the axis along the normal, positive on the side of the flight [length].
+    /// Distance from the axis along the normal, positive on the side on which the slider can fly [length].
     pub gap: f64,
     /// True if the slave is not beyond an end of the master.
     pub is_inside: bool,
