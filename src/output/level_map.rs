@@ -199,7 +199,6 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // For very large numbers, cells extend far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }

@@ -1,6 +1,6 @@
 //! Tables, files and pictures from plain data. This module does not depend on simulations.
 //!
-//! Pictures are built from figures, and figures from canvases. A canvas collects marks, which `svg` and `png` write.
+//! A canvas collects the shapes of a picture, and the modules `svg` and `png` write the canvas to a file.
 //! The modules of `terminal` draw charts and heat maps with characters. The module `viewer` writes pages for browsers.
 //!
 //! Pictures look the same on every machine, because the font of their texts is embedded in the program. Equal data give equal bytes.

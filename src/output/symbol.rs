@@ -102,8 +102,8 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol; zero if the symbol has no direction. The length of the vector has no meaning, except for discs and for
-    /// springs, dampers and tendons, which end at `at + direction`.
+    /// Direction of the symbol; zero if the symbol has no direction. Only for discs and connecting symbols, the length has a meaning.
+    /// Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 

@@ -84,7 +84,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Calls a sink with the tangent matrix of each span, multiplied by `weight`. Each part of the body has a separate sink.
     ///
     /// A sink must use only the rows of the control points of its part.
-    /// The sinks of both parts at a cut receive the spans across the cut: the later part first, the earlier part last.
+    /// A span across the cut between two parts is passed to the sinks of both parts: first in the later part, last in the earlier part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,

@@ -20,7 +20,7 @@ pub(super) struct ForcePoint<const N: usize> {
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// Placeholder for an unused lane. Its strain is zero for all increments.
+    /// Quadrature point for an unused vector lane, with zero strain for all increments.
     pub(super) const EMPTY: Self = Self {
         axis: AxisPoint::EMPTY,
         gradient: Vec2::new(1.0, 0.0),
@@ -64,7 +64,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force for the present strain. The second value is true if it is the section force of the last solution.
+    /// Section force for the present strain, and a flag that is true if the last solution has already determined this force.
     /// The section force of the last solution has a smaller rounding error than a force computed from the strain.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);

@@ -24,7 +24,7 @@ pub(super) struct ForcePoints<const N: usize> {
     strain: Pair<Lanes>,
     force: Pair<Lanes>,
     /// Section force of the last step, with which the iteration of the next step starts.
-    /// In fast vibration, this force is closer to the solution than the force for the strain at the start of the step.
+    /// In fast vibration, the section force of the last step is closer to the solution than the force for the strain at the start of the step.
     last_force: Pair<Lanes>,
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
@@ -190,7 +190,6 @@ impl<const N: usize> ForcePoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_strain, increment) = self.configuration(part, at, moved);
-        // If only the strain at the start of the step is used, the section force is known.
         let force = if at.stress == 0.0 {
             stiffness.by_component(self.strain.get(part))
         } else {

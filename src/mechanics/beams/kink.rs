@@ -20,7 +20,6 @@ pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length]: the compliance that the mesh misses, times the shear stiffness.
     pub length: PiecewisePolynomial,
     /// Correction factor of the kinetic energy of a moving kink that the mesh does not represent [-].
-    /// The factor is one for exactly integrated strains.
     pub inertia: f64,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct MomentPoint<const N: usize> {
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// Placeholder for an unused lane. Its curvature is zero for all increments.
+    /// Quadrature point for an unused vector lane, with zero curvature for all increments.
     pub(super) const EMPTY: Self =
         Self { axis: AxisPoint::EMPTY, curvature: 0.0, last_moment: 0.0 };
 

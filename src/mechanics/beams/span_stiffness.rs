@@ -1,6 +1,6 @@
 //! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness due to section forces.
 //!
-//! The product is not formed, because rounding errors of its large terms would exceed the small eigenvalues.
+//! The stiffness matrix is not formed, because rounding errors of its large entries would exceed its small eigenvalues.
 //! Equations: docs/theory.md, section 15.
 
 /// Type of a strain of a beam.

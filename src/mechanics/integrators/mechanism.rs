@@ -49,7 +49,7 @@ pub trait Forces {
     -> f64;
 
     /// Adds `weight` times the forces of a stage to `out`, with the section force unknowns eliminated.
-    /// Adds the derivatives of these forces with respect to the increments to the tangent.
+    /// Adds the derivatives of the forces with respect to the increments to the tangent.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -100,7 +100,7 @@ pub trait Constraints {
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
     /// Adds constraint forces and violations to `out`.
-    /// Adds the derivatives of both with respect to increments and constraint unknowns to the border of the tangent.
+    /// Adds the derivatives of forces and violations with respect to increments and constraint unknowns to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],

@@ -22,7 +22,7 @@ pub struct MotionInStep {
     pub increment: f64,
     /// Rate just after the start of the step [length/time, rad/time].
     pub first_rate: f64,
-    /// Rounding error of the first rate [length/time, rad/time].
+    /// Rounding error of the rate just after the start of the step [length/time, rad/time].
     pub rounding: f64,
     /// Rate just before the end of the step [length/time, rad/time].
     pub rate: f64,

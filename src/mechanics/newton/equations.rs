@@ -19,7 +19,7 @@ impl ResidualNorms {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Part with the largest norm, or with a norm that is NaN.
+    /// Part of the residual with the largest norm, or with a norm that is NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];

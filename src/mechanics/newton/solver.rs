@@ -10,7 +10,7 @@ use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 const NEAR: f64 = 1e-4;
 
 /// Largest number of corrections that take less time than one iteration.
-/// Corrections use earlier factors; an iteration with new factors squares the residual.
+/// An iteration with new factors squares the residual. A correction with earlier factors only reduces it.
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections that reuse the factorised tangent of similar equations. Each correction should gain several digits.

@@ -90,7 +90,7 @@ impl TimeGrid {
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // If times are equal, the last one is used. Cuts are last, because a schedule must be evaluated exactly at the time of its jump.
+        // If a cut and a grid time are equal, the cut is used, because a schedule must be evaluated exactly at the time of its jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })

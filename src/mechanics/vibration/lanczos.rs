@@ -271,8 +271,8 @@ fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Squ
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the errors of the first pass, which increase with the condition number of the block.
-    // Almost parallel vectors need a third pass.
+    // The second pass of the orthogonalisation removes the errors of the first pass, which increase with the condition number of the block.
+    // Almost parallel vectors need a third pass of the orthogonalisation.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));

@@ -29,7 +29,7 @@ const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// At this distance, the matrix is not singular.
+/// If the shift has this distance from the eigenvalue, the matrix of the iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Damping above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
@@ -181,7 +181,7 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate is computed from the force to avoid cancellation.
+                // The rate of a strong dashpot is computed from its force to avoid cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }

@@ -166,7 +166,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// The function has no parameter. It reads the element from `this`.
+    /// A function without parameters reads the element from `this`.
     ElementAsThis,
 }
 

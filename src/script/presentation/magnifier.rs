@@ -131,7 +131,7 @@ impl<'a> Magnifier<'a> {
         Ok(bodies)
     }
 
-    /// Rigid motion of a body: that of its joints if there are several, otherwise the motion closest to that of its points.
+    /// Rigid motion of a body, computed from its joints if there are several, otherwise from all its points.
     fn motion(
         &self,
         body: usize,

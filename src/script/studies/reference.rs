@@ -77,7 +77,7 @@ pub enum Reference {
     /// Independent solution from a table file.
     Table(String, ParsedCsv),
     /// Reference run: its description, its case, and the case with twice the step size, for an error estimate.
-    /// The second case is omitted if all runs of the study have the same time settings. The errors in time then cancel.
+    /// The run with twice the step size is omitted if all runs of the study have the same time settings, because errors in time then cancel.
     ReferenceRun(String, Vec<Case>),
 }
 

@@ -103,7 +103,7 @@ pub struct Contact<'a> {
     pub kink: Option<Kink>,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
-    /// Length of the master divided by its parameter range [length]. The equations are divided by it.
+    /// Length of the master divided by its parameter range [length]. The contact equations are divided by this length.
     pub length: f64,
 }
 

@@ -21,11 +21,11 @@ pub struct Equation {
     pub unit: Unit,
     /// Derivative of `value` with respect to the increment of the slave.
     pub by_slave: Vec2,
-    /// Sensitivity to the end position on the master [unit of the equation/length].
+    /// Derivative of the value with respect to the end position of the slave on the master [unit of the equation/length].
     pub by_end: Vec2,
-    /// Sensitivity to the mean position on the master [unit of the equation/length].
+    /// Derivative of the value with respect to the mean position of the slave on the master [unit of the equation/length].
     pub by_mean: Vec2,
-    /// Sensitivity to the mean tangent of the master [unit of the equation/length].
+    /// Derivative of the value with respect to the mean tangent of the master [unit of the equation/length].
     pub by_difference: Vec2,
     /// Derivatives with respect to the contact force, the couple and the sliding increment.
     pub by_unknowns: ContactUnknowns,

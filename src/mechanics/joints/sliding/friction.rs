@@ -1,6 +1,6 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
-//! A velocity error across the master changes its sign from step to step without moving anything.
+//! An error of the velocity across the master changes its sign from step to step, and has no effect on positions.
 //! The force that reverses the error grows with the inverse of the step length. The friction limit excludes this force.
 
 use super::{Contact, Equation};

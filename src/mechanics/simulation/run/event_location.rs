@@ -31,7 +31,6 @@ const CHATTER: usize = 3;
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
 pub(super) struct EventStep {
-    /// Interval of the step and its work. `None` if the event is at the start of the step.
     pub(super) step: Option<(Interval, NewtonReport)>,
     event: Event,
 }

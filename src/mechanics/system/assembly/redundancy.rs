@@ -9,8 +9,7 @@ use crate::system::{Scene, System, SystemError};
 /// Ratio of a pivot of the Cholesky factorisation to the diagonal entry, below which the pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Velocity change due to a unit impulse at a slider, as a fraction of the velocity change of the total mass.
-/// Below this fraction, the velocity change is due to rounding.
+/// Largest velocity change due to an impulse at a slider that counts as zero, as a fraction of the velocity change of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

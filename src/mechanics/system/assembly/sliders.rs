@@ -179,7 +179,7 @@ impl System {
     }
 
     /// Checks the velocity of the slave across the master.
-    /// The slave of a slider that only pushes starts in flight if it moves away from the axis on the side of the flight.
+    /// A slider that only pushes starts in flight if its slave moves away from the axis to the side on which it can fly.
     fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);
         if speed.abs() <= negligible || self.slider(slider).is_separated() {

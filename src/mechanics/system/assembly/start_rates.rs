@@ -38,7 +38,6 @@ struct RequestedRate<'a> {
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
-    /// Initial rates, preceded by unused entries for the contact unknowns.
     rates: &'a [f64],
     constraints: usize,
 }

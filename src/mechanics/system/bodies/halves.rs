@@ -17,7 +17,7 @@ pub(super) struct BodyHalves {
     pub(super) body: usize,
     /// First row of the tangent in which no body of the first half has entries.
     pub(super) row: usize,
-    /// Bodies of the second half with rows before `row`.
+    /// Bodies of the second half that have entries in rows of the first half.
     pub(super) astride: Vec<usize>,
 }
 

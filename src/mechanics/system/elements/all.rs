@@ -73,7 +73,7 @@ impl Elements {
         }
     }
 
-    /// Prepares all elements for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    /// Prepares all elements for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
     pub fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
         self.resistances.iter_mut().for_each(|one| one.begin(bodies, inertia));
     }

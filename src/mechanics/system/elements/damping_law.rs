@@ -9,7 +9,7 @@ use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
 /// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
-/// A force of this size is accepted at zero rate, and also in the direction in which it adds energy.
+/// A law may have such a small force at zero rate, or in the direction in which the force adds energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
@@ -38,7 +38,7 @@ impl From<f64> for DampingLaw {
 pub enum NegativeDamping {
     /// Point of the law that adds energy: its rate [length/time, rad/time] and its force [force, force·length].
     At { rate: f64, force: f64 },
-    /// Linear extrapolation beyond the end of the law at the rate `end`. It adds energy beyond the rate `from`.
+    /// Linear extrapolation of the law beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },
 }
 

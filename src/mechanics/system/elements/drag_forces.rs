@@ -1,7 +1,7 @@
 //! Drag in a step (docs/theory.md, section 9.3).
 //!
 //! The dissipated power is computed from the force alone by means of the drag law, so that rounding cannot change its sign.
-//! The work of the wind is computed as the remainder, so that the energy balance is exact.
+//! The work of the wind follows from the work of the drag force and the dissipated energy, so that the energy balance is exact.
 
 use super::drag_law::DragLaw;
 use super::drag_point::{DragPoint, Medium};

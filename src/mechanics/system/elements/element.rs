@@ -14,7 +14,7 @@ use crate::system::SystemError;
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
 /// To add a type, add a variant and a file in `system/elements` with its [`ElementDef`].
-/// The file also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
+/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.

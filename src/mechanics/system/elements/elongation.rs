@@ -63,8 +63,6 @@ pub struct Elongation {
     movements: Vec<f64>,
     corrected: Vec<f64>,
     pub change: f64,
-    /// Elongation change of the last accepted iterate, and the further change that its force implies [length, rad].
-    /// A change computed from increments would have a rounding error that stores energy in a stiff spring.
     settled: (f64, f64),
     /// Secant: factors of the coordinates that give the elongation change [-].
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end.

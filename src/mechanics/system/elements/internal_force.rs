@@ -28,7 +28,7 @@ pub struct SpringTrialState {
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares the element for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    /// Prepares the element for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
     fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
 
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.

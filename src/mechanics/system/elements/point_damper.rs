@@ -1,7 +1,7 @@
 //! Damper along the line between two points, whose distance may pass through zero.
 //!
 //! The rate of the distance would be zero for ends that pass each other within a step and exchange their sides.
-//! The rate along the mean connecting vector is correct also in this case.
+//! The rate along the mean connecting vector is correct also for ends that pass each other.
 //! The force acts along the mean line, so that angular momentum is conserved.
 
 use super::damping_law::DampingLaw;

@@ -18,7 +18,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
-/// If the ratio is smaller, the bodies count as rigid in the direction of the impulse.
+/// Bodies with a smaller ratio count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, with the resulting velocities.
@@ -51,14 +51,14 @@ impl ImpulseResponse {
 
 /// Impact law: condition on the impulse of a contact, and on its velocities before and after the impact.
 ///
-/// The work of the impulse is the impulse times the mean of both velocities.
+/// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// Laws of stops use the mean velocity in the same impact without stop impulses.
-/// This mean velocity contains no velocities across masters, which change their signs from step to step.
+/// Velocities across masters are excluded, because they change their signs from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
-    /// The velocity after the impact is zero. The impulse may have either sign.
+    /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
     Ends,
-    /// The mean velocity is zero, so the impulse does no work. The impulse may have either sign.
+    /// Law of a contact whose impulse does no work, because the mean relative velocity is zero. The impulse may have either sign.
     Elastic,
     /// Law of a slider in contact that only pushes: a compressive impulse without work, or separation.
     Unilateral,
@@ -338,7 +338,7 @@ impl System {
 
     /// Creates the impact problem for the given directions.
     /// The argument `links` is the factor by which the velocity violation of each rigid link changes.
-    /// With `links = -2`, the impact reverses the violations, and the links do no work.
+    /// A factor of -2 reverses the violations. The links then do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -3,7 +3,7 @@
 //! A corner is the limit of a rounded corner: the contact acts by impulses normal to the rotating tangent, which do no work.
 //! The relative velocity of the slave rotates with the tangent, in a metric that depends on the masses.
 //! The rotation consists of the rotation of the section direction and of the difference of the shear angles.
-//! Only the second part of the rotation applies to vibrations that the steps do not resolve.
+//! For vibrations that the steps do not resolve, only the difference of the shear angles is applied.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};

@@ -217,7 +217,7 @@ impl KinkedAxis {
     }
 
     /// Derivative of [`offset`](Self::offset) with respect to the parameter.
-    /// The second value is half the product of the offset and its second derivative.
+    /// Returns also half the product of the offset and its second derivative.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

@@ -46,7 +46,7 @@ impl MasterEnd {
 pub enum SliderState {
     /// Sliding along its master.
     Sliding,
-    /// Held at the stop at an end of its master.
+    /// State of a slider that a stop holds at an end of its master.
     Held(MasterEnd),
     /// In flight: a slider that only pushes has left its master, and can land on it.
     Separated,

@@ -211,7 +211,7 @@ impl SliderContact {
     }
 
     /// Contact force on the master at the present time [force]. If a kink follows the force, its force is returned.
-    /// Otherwise, the mean force of the last step is returned.
+    /// If no kink follows the force, returns the mean force of the last step.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -358,7 +358,7 @@ impl SliderContact {
     }
 
     /// Adds the forces and equations of the contact to a residual.
-    /// Adds their derivatives with respect to increments and contact unknowns to the tangent.
+    /// Adds the derivatives of the contact forces and equations to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],

@@ -20,7 +20,6 @@ pub struct StepMeasures {
     pub returned: f64,
     /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
-    /// `None` until a step with friction begins.
     pub inertia_solver: Option<Box<InertiaSolver>>,
 }
 

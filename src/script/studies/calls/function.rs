@@ -29,7 +29,7 @@ pub fn changes(name: &str) -> String {
 
 struct ParameterReading {
     names: BTreeSet<String>,
-    /// True if the map is used as a whole, so that the function may read any name.
+    /// True if the function uses its map of values as a whole, so that it may read any name.
     is_whole: bool,
 }
 

@@ -82,9 +82,7 @@ struct SlipTrial {
     slope: Movement,
     /// Generalised force of a unit friction force: force [-] and moment [length].
     direction: Movement,
-    /// Derivatives of the direction with respect to the displacement, row by row [1/length, 1/length, -].
     direction_slope: [Vec2; 3],
-    /// Largest increment in the sum for the slip [length].
     moved: f64,
 }
 
@@ -234,7 +232,7 @@ impl PointFriction {
         self.linearised.direction.map(|by| by * force)
     }
 
-    /// Generalised force that would remove the present difference from the law.
+    /// Force and moment that would remove the present difference between the friction force and its law.
     pub(super) fn missing(&self, normal_mismatch: f64) -> Movement {
         self.linearised.direction.map(|by| by * self.mismatch(normal_mismatch))
     }

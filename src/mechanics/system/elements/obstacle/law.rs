@@ -92,7 +92,7 @@ pub(super) fn damping_factor(restitution: f64) -> f64 {
         return 0.0;
     }
     let excess = |x: f64| ln((1.0 + x) / (1.0 - restitution * x)) - (1.0 + restitution) * x;
-    // The excess is negative between the trivial root 0 and the wanted root, and infinite at 1/e.
+    // The function `excess` is negative between its trivial root 0 and the root `x`, and infinite at 1/e.
     let (mut low, mut high) = (0.0, 1.0 / restitution);
     loop {
         let middle = 0.5 * (low + high);

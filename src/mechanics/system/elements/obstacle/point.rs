@@ -92,7 +92,7 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    /// No movement from a surface with the given normal.
+    /// Zero change of the gap, for a surface with the given normal.
     pub(super) fn along(normal: Vec2) -> Self {
         Self { secant: normal, slope: normal, ..Self::NONE }
     }
@@ -182,7 +182,7 @@ impl ContactPoint {
         }
     }
 
-    /// Adds friction with the coefficient of the surface.
+    /// Adds friction to the contact point, with the coefficient of friction of the obstacle.
     pub(super) fn with_friction(self, surface: &Surface) -> Self {
         let friction = Box::new(PointFriction::new(surface.friction, surface.radius));
         Self { friction: Some(friction), ..self }

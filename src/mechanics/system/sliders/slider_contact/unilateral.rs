@@ -207,8 +207,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance of a slave in flight behind the axis at the end of the attempted step, negative in front of it, as a fraction of the size of the
-    /// contact [-]. The value is `None` within rounding of the axis.
+    /// Distance of a slave in flight behind the axis at the end of the attempted step [-]. Unit: size of the contact. Negative in front of the axis.
+    /// Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
