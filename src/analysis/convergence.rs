@@ -89,8 +89,8 @@ pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
     /// Returns the errors of one integrator for several sizes.
-    /// The first element of the result contains the error of all positions together, as a fraction of the length.
-    /// Each other element contains the error of a single observable.
+    /// The first returned element contains the error of all positions together, as a fraction of the length scale.
+    /// Each further returned element contains the error of a single observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

@@ -31,7 +31,7 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 pub enum ErrorVerdict {
     /// The runs agree to rounding.
     Exact,
-    /// The observed order is that of the method. If this order is unknown, the runs converge at least with first order.
+    /// The observed order agrees with the order of the method or, if the order of the method is unknown, is at least one.
     Converged,
     /// The runs do not converge yet. The estimate is a lower bound.
     PreAsymptotic,

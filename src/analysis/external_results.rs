@@ -44,7 +44,7 @@ const SETTING: [(&str, &str); 4] =
 impl ExternalResult {
     /// Reads runs from a table.
     /// Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
-    /// The position columns have the names of columns in a reference table.
+    /// The columns of positions are named as in the table of reference values.
     /// Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ pub struct Deviation {
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
     /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// Without this rule, a result with the same error as the reference would appear to be exact.
+    /// A result with the same error as the reference would otherwise appear to be exact.
     pub is_of_own_run: bool,
 }
 

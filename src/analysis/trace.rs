@@ -105,7 +105,7 @@ impl Trace {
 
     /// Returns the value at a time; `None` outside the trace.
     /// A value recorded at the requested time is returned directly.
-    /// Otherwise a cubic polynomial through the four nearest recorded values is evaluated.
+    /// Between recorded times, a cubic polynomial through the four nearest recorded values is evaluated.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

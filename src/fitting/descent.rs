@@ -289,7 +289,6 @@ mod tests {
     }
 
     /// Test with the valley function of H. H. Rosenbrock (1960), also with a bound that excludes its minimum.
-    /// With the bound, the solution is (0.5, 0.25).
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

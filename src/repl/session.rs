@@ -252,7 +252,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // This deprecated function is the only function that keeps imports and constants between inputs.
+            // A deprecated function of Rhai is used, because no other function keeps imports and constants between inputs.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });

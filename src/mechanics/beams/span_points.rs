@@ -17,7 +17,6 @@ use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
 /// Number of spans whose points are arranged in lanes together.
-/// With this number of spans, few vector lanes are unused and the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
 #[derive(Debug, Clone)]

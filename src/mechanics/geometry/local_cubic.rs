@@ -4,7 +4,7 @@ use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
 /// Largest angle between two chords that count as parallel [rad].
-/// A sum of chords counts as zero if it is shorter than this number times the lengths of the chords.
+/// Largest length of a sum of chords that counts as zero, as a multiple of the lengths of the chords.
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.

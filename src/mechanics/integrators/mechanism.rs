@@ -131,7 +131,7 @@ pub trait Constraints {
         Ok(())
     }
 
-    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation [-]. Its unit is the initial length of the path.
+    /// Shortest chord of the path of a slider in the mean configuration, as a fraction of the initial length of the path [-].
     fn shortest_chord(&self) -> f64;
 }
 

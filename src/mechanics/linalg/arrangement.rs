@@ -3,7 +3,7 @@
 use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the elimination work to the work for the same band without blocks. Below this ratio, the order of the band is kept.
+/// Largest ratio of the elimination work to the work for the same band without blocks, for which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, and the resulting profile of the matrix.

@@ -6,7 +6,7 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
 /// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest [-].
-/// Elimination with the smaller diagonal entry loses half of the digits at this ratio. Corrections with the same factors recover them.
+/// At this limit, elimination with the smaller diagonal entry loses half of the digits. Corrections with the same factors recover the digits.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.

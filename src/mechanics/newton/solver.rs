@@ -196,7 +196,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // This call of `linearise` eliminates the internal unknowns. Its tangent is not used.
+        // The method `linearise` is called to eliminate the internal unknowns. The tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {

@@ -15,7 +15,7 @@ const SHORTEST_WAY: f64 = 1e-3;
 /// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
 /// If the distance `v²/g` is very short, the scale is the largest distance of a body from the origin.
 ///
-/// A scene may have no such length, for example a scene of a particle that starts at the origin almost at rest.
+/// A scene may have no length scale, for example a scene of a particle that starts at the origin almost at rest.
 /// The length scale of a scene without a length is 1 [length]. Only for such a scene, the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();

@@ -8,13 +8,13 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
-/// With this value of the constant, the error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// In the time scale of a motion, the accumulated error due to sampling is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
 ///
-/// First, the whole step and its halves use the controller values at the start of the step. Their difference is the error of the method.
-/// Then the controllers are sampled in the middle of the step, and the second half is repeated.
+/// The error of the method is the difference between a whole step and two half steps that both use the controller values at the start.
+/// After sampling of the controllers in the middle of the step, the second half step is repeated.
 /// The difference between both results of the second half is the error due to sampling.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].

@@ -1,6 +1,6 @@
 //! Recorded control points at many times.
 
-/// Largest number of stored values. Beyond this number, every second configuration is discarded.
+/// Largest number of stored values of a trajectory. If it is exceeded, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Trajectory of a run: control points of all bodies [length] at some times of the run.

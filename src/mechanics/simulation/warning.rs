@@ -191,7 +191,7 @@ pub enum Warning {
         body: String,
         /// Largest penetration of the body [length].
         depth: f64,
-        /// Energy that the contact of this body stores [energy].
+        /// Energy that the contacts of the body store [energy].
         energy: f64,
     },
     /// Elastic contact of a slider that is shorter than a step.

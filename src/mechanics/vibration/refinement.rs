@@ -181,7 +181,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction removes the rounding errors of the displacements. Its size is therefore not the residual of the pair.
+            // The first correction removes the rounding errors of the displacements, so the residual of the pair follows from a later correction.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL

@@ -79,7 +79,7 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Replaces the step on the same side of the arrival.
+    /// Replaces an attempted step that ends on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);

@@ -55,7 +55,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Ratio of the step size that resolves the motion of the scene to the mean step size, above which a warning is given.
-/// With this ratio, the steps follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps shorter by this ratio follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders whose resolution is described.

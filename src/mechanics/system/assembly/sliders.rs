@@ -15,7 +15,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero. Its unit is the velocity of the fastest point of the scene.
-/// At a dead centre of a mechanism, rounding errors of velocities have about this size.
+/// The limit is about the size of the rounding errors of velocities at a dead centre of a mechanism.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {

@@ -57,12 +57,12 @@ pub trait ExternalForce {
     /// Evaluates the element just after a time, for example at the end of a static load step.
     ///
     /// # Errors
-    /// Fails if a value at this time is not finite.
+    /// Fails if a value of the element is not finite.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }
 
-    /// Returns true if the value may jump at this time.
+    /// Returns true if the value of the element may jump at the given time.
     fn may_jump_at(&self, _time: f64) -> bool {
         false
     }

@@ -42,7 +42,7 @@ impl ZeroLengthSpring {
     }
 
     /// Creates a spring with a law for the length, and a damper, between two terminals.
-    /// The last argument contains the initial positions of the terminals.
+    /// The initial positions of the terminals are also given [length].
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],

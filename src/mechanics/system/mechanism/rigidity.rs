@@ -11,7 +11,7 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Largest ratio of weighted stiffness to inertia.
-/// Larger ratios are reduced to this value, for which the deformation is rigid to at least five digits.
+/// With the largest ratio, the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
 /// Smallest number of corrections of a solution.

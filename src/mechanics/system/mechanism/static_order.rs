@@ -19,12 +19,12 @@ impl StaticOrder {
         self.count
     }
 
-    /// Half-bandwidth of matrices in this order.
+    /// Half-bandwidth of matrices whose unknowns have this order.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Position of an unknown in this order. Supported degrees of freedom follow all unknowns.
+    /// Position of an unknown in the order of unknowns. Supported degrees of freedom follow all unknowns.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {

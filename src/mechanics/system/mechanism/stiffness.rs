@@ -12,8 +12,8 @@ use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
 /// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
-/// The penalty changes frequencies by a relative amount below the inverse of this number.
-/// All other stiffnesses remain resolved, because the matrices have 32 digits.
+/// The penalty stiffness changes frequencies by a relative amount below the inverse of the constant.
+/// Rounding does not affect other stiffnesses, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
 
 impl System {

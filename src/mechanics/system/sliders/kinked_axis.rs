@@ -17,7 +17,7 @@ const FASTEST: f64 = 0.8;
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Kink lengths near the ends are below this limit.
+/// Near the ends of a master, kinks are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
 /// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed of a variable kink.

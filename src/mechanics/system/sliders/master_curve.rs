@@ -98,7 +98,7 @@ pub enum SliderEvent {
     SlipEnd(usize),
     /// The slip of this slider with friction starts.
     SlipStart(usize),
-    /// This slider in flight reaches the axis of its master.
+    /// A slider in flight, given by its index, reaches the axis of its master.
     Landing(usize),
     /// The contact force of this slider, which only pushes, becomes tensile.
     TakeOff(usize),

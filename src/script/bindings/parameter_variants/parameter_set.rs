@@ -12,7 +12,7 @@ use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Default perturbation, as a fraction of the parameter.
-/// The relative error of the difference quotient is about the square of this number, plus the rounding error divided by this number.
+/// The relative error of the difference quotient is about the square of the fraction, plus the rounding error divided by the fraction.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
 /// Parameters of a scene. The unperturbed variant contains the given values.

@@ -130,7 +130,7 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // The companion has changed the outputs of controllers, which it shares with this simulation. The call restores them.
+        // A companion run changes outputs of controllers that it shares with this simulation. The call restores these outputs.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)

@@ -22,9 +22,9 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// The result with this name is to be minimised.
+    /// The result with the given name is minimised.
     Least(String),
-    /// The result with this name is to be maximised.
+    /// The result with the given name is maximised.
     Largest(String),
 }
 

@@ -310,8 +310,7 @@ impl ContactPoint {
 
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
-    /// The damping coefficient is limited to its largest value in an impact of a free mass.
-    /// Without the limit, a resting contact would be damped without bound.
+    /// The damping coefficient is limited to its largest value in an impact of a free mass, so that a resting contact is not damped without bound.
     fn damping(&self, surface: &Surface, elastic: ForceTarget) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
