@@ -54,7 +54,7 @@ impl RateResolution {
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time.
-        // The middles of a forward and a backward substep may coincide, and no interpolation between them exists.
+        // If the middles of a forward and a backward substep coincide, no interpolation between them exists.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }

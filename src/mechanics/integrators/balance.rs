@@ -32,7 +32,7 @@ impl BalanceCoefficients {
 
 /// Balance of a step, as equations for the increments and the constraint multipliers.
 /// The unknown is the deviation of the increments from a motion with constant velocity.
-/// Hence the rounding error of the final velocity is proportional to the change of velocity, and momenta do not drift.
+/// The rounding error of the final velocity is therefore proportional to the change of velocity in the step, and momenta do not drift.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,

@@ -16,7 +16,7 @@ const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
 /// Force rows, such as the equation of a frictionless contact, are preferred as long as the preference loses at most four digits.
-/// With the preference for force rows, a zero force is exactly zero.
+/// If force rows are preferred, a contact force of zero is computed without rounding error.
 const LENGTHS: f64 = 1e-4;
 
 #[derive(Debug, Clone)]

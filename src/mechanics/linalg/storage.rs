@@ -117,7 +117,7 @@ impl Storage {
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
     /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
     /// If one scaled entry is far above all others, the diagonal entry of its column is negligible and would be an inaccurate pivot.
-    /// The size of such a row is limited, so that the row of the constraint becomes the pivot row.
+    /// Sizes of rows of constraints are limited, so that the row of the constraint becomes the pivot row.
     /// Rows that are coupled only to constraints are treated like rows of constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());

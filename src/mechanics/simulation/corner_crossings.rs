@@ -6,7 +6,7 @@ use crate::system::{Along, Branch, System};
 /// Branches of spring laws with sharp corners during a step: at its start, middle and end, for the whole step and for its two halves.
 ///
 /// A whole step and its halves may give nearly equal positions but different impact times with a stiff bumper.
-/// Hence, if a spring changes its branch within a step, the difference of the rates times the step duration is added to the error.
+/// If a spring changes its branch within a step, the difference of the rates of whole step and half steps, times the duration, is added to the error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

@@ -136,7 +136,7 @@ impl Sensitivities {
 
     /// Applies a release of the main run to the perturbed runs.
     /// Positions and rates are continuous, and the time of the release does not depend on parameters.
-    /// Hence a release does not change the derivatives of the state, except their numbering.
+    /// A release does not change the derivatives of the state, except their numbering.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built again, although it was built before.

@@ -177,7 +177,7 @@ impl<'s> Continuation<'s> {
 
     /// Distance from the last point to the turning point of the load factor.
     /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
-    /// The first crossing of the requested load factor is the solution.
+    /// The solution is the equilibrium at which the path crosses the requested load factor for the first time.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];

@@ -1,7 +1,7 @@
 //! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of the strains.
 //!
 //! Section forces are unknowns in addition to the displacements. The stiffness multiplies only strain residuals.
-//! Hence the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
+//! With section forces as unknowns, the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 

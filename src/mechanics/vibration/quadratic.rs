@@ -3,7 +3,7 @@
 //!
 //! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
 //! A single matrix would give accurate values only for the largest eigenvalues.
-//! Therefore several problems with increasing positive real shifts are solved ([`Resolvent`]).
+//! Several problems with increasing positive real shifts are solved ([`Resolvent`]), because each is accurate for the largest eigenvalues only.
 
 use nalgebra::{Complex, DMatrix};
 

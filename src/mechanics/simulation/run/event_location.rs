@@ -14,11 +14,11 @@ use crate::system::{Arriving, END_TOLERANCE, MasterEnd, MasterLimit, SliderEvent
 const MOST_TRIES: usize = 60;
 
 /// Distance from an end, as a fraction of the length of the master, below which an approaching slider has reached the end.
-/// A step over a shorter distance would convert rounding errors of positions to velocities.
+/// A step over a very short distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
 /// Fraction of a step. An end of slip or a take-off within this fraction of the start of the step is moved to the start.
-/// In a shorter step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
+/// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
 /// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
@@ -396,7 +396,7 @@ impl Simulation {
     }
 
     /// Returns true if a slider is held at a seam instead of passing it.
-    /// Either both sides return the slider to the seam at once, or the slider oscillates about the seam within few steps.
+    /// A slider is held if both sides of the seam return it at once, or if it oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
         let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)

@@ -19,7 +19,7 @@ const STRETCHED: f64 = 1.5;
 const FOLDING_FORCE: f64 = 0.1;
 
 /// Smallest distance from an end of its master that a slider can reach, as a fraction of the length of the master.
-/// The kink of the master under the contact force keeps a slider at this distance from the end.
+/// The kink of the master under the contact force prevents a slider from coming closer to the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

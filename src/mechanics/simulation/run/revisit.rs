@@ -65,7 +65,7 @@ impl Simulation {
 
     /// Repeats, in this copy, the original run up to a row of its history.
     /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original.
-    /// The two runs may differ if script functions were called during the original run.
+    /// The repeated run may differ from the original run if script functions were called during the original run.
     ///
     /// # Errors
     /// Fails in the same cases as [`run_to`](Self::run_to), or if the row does not exist.

@@ -143,7 +143,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
-    /// A velocity counts as zero if the strain of its wave is below the rounding error of strains.
+    /// A velocity counts as zero if it would cause a wave with a strain below the rounding error of strains.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         self.follow_masters();

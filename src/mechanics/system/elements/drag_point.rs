@@ -244,7 +244,7 @@ impl DragPoint {
         self.force += self.mismatch + Vec2::new(across, along) + resisted.by_angle * turn;
     }
 
-    /// Applied force of the last iterate in space [force].
+    /// Drag force that was applied in the last iterate, in components along x and y [force].
     pub fn applied_force(&self) -> Vec2 {
         self.applied_force
     }

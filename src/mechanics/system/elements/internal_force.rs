@@ -22,8 +22,8 @@ pub struct SpringTrialState {
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
 /// Residuals use the present value of the force.
-/// Linearisations condense the force out. Corrections update the force together with the increments.
-/// Hence the rounding error of the configuration is not multiplied by the stiffness. The number of iterations does not increase with the stiffness.
+/// Linearisations eliminate the force. Corrections update the force together with the increments.
+/// A force that is an unknown contains no rounding error of the configuration times the stiffness. The number of iterations does not increase with the stiffness.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;

@@ -79,8 +79,8 @@ const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
     /// Target of a linearisation at `change`: the intersection of an increasing law with a line of negative slope.
-    /// The slope of the line is the impedance of the rest of the system.
-    /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
+    /// The slope of the line is the impedance of all other objects of the scene.
+    /// If no intersection were used, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,
         force: f64,

@@ -17,7 +17,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
+/// Smallest ratio of the velocity response to an impulse with the included deformations to the velocity response with all deformations.
 /// Bodies with a smaller ratio count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
@@ -214,7 +214,7 @@ impl System {
     }
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives. Differences below `negligible` are ignored [length/time].
-    /// Without the adjustment, the difference of the velocities would alternate in sign from step to step.
+    /// If the velocities differed at the start, the sign of the difference would alternate from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -235,7 +235,7 @@ impl System {
     }
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
-    /// Without the impact, the violation of the velocity constraints would alternate in sign from step to step.
+    /// If no impact were computed, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {

@@ -1,7 +1,7 @@
 //! Forces transmitted by joints.
 //!
 //! A joint connects two sets of nodes at one point. The forces of other joints within one set cancel in the sum over its nodes.
-//! Hence the force of the joint on one side is the sum of the forces of joints and supports on all nodes of this side.
+//! The force of a joint on one side is the sum of the forces of joints and supports on all nodes of this side.
 //! If one side is the ground, the force on it is opposite to the force on the other side.
 //! Scenes reject redundant joints, so no other joint connects both sides.
 

@@ -51,7 +51,7 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the linearisation uses the intersection of the law with a straight line.
-    /// The straight line represents the impedance of the rest of the system. The intersection is unique if the law is increasing.
+    /// The straight line represents the impedance of all other objects of the scene. Its intersection with an increasing law is unique.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

@@ -8,18 +8,18 @@ use crate::system::bodies::Body;
 
 /// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
 /// An impulse removes this velocity.
-/// Without the tolerance, the rest of a step after the end of the slip could be too short for an accurate energy balance.
+/// The tolerance prevents a step after the end of the slip that is too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
 const ROUNDING: f64 = 1e-14;
 
 /// Duration of a step below which friction does not act, as a fraction of the longest step.
-/// The forces of such a short step consist of rounding errors.
+/// The forces of a very short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
 /// Duration of a step above which the law of friction is not replaced by a constant force, as a fraction of the longest step.
-/// Shorter steps with the law are tried first.
+/// If a step with the law of friction fails, shorter steps are tried first.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
 /// Number of transitions in successive steps, above which slip does not end within a step.
