@@ -236,7 +236,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // The margin is twice the violation, because the solution may lie slightly on either side of the limit.
+            // A violated constraint is tightened by twice its violation, because the solution may lie slightly on either side of the limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }

@@ -20,7 +20,7 @@ const DENSE_COPIES: usize = 5;
 /// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair is rejected.
+/// Residual above which a pair of eigenvalue and shape is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.

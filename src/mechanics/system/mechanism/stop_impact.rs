@@ -159,7 +159,7 @@ impl System {
     /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
     ///
     /// Stops have the law [`ImpactLaw::Restitution`] and do no positive work.
-    /// Stops that hold sliders already have restitution zero. A corner at a seam rotates the velocity of the slider.
+    /// A stop that holds a slider has no restitution. A corner at a seam rotates the velocity of the slider.
     /// All other contacts are constraints.
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///

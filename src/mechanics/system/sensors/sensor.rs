@@ -36,7 +36,7 @@ pub enum SensorSource {
     InternalForce(usize),
     /// Whole scene.
     Scene,
-    /// Caller, which provides the value after every row.
+    /// No object: the caller of the simulation provides the value after every row.
     External,
 }
 
