@@ -89,7 +89,7 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes one of the three steps of a call of [`step`](Self::step).
+    /// Takes a whole step or one of the two half steps of [`step`](Self::step).
     /// If the step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,

@@ -393,7 +393,7 @@ impl Context {
     }
 
     /// Removes the objects that contribute to the report, and the reserved names of studies.
-    /// A session writes no report, and its next input may repeat a study.
+    /// An interactive session writes no report, and its next input may use the name of the same study again.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();

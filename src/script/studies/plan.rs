@@ -92,7 +92,7 @@ impl ErrorStudyPlan {
 
     /// Adds columns of the history to the observables. With a reference table, only the columns in the table are added.
     /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
-    /// Without a table, all columns of the history are added.
+    /// Without a reference table, all columns of the history are added to the observables.
     ///
     /// The option `columns` (argument `given`) assigns history columns to further names, and replaces columns with the same names.
     pub fn add_columns(

@@ -32,7 +32,7 @@ pub struct SpringDamper {
     rises: bool,
     /// Elongation changes from the initial configuration at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
-    /// Elongation in the scene for which the argument of the law is zero.
+    /// Elongation for which the argument of the force law is zero [length, rad].
     offset: f64,
     ranges: [Option<LawRange>; 2],
     law_text: Option<String>,

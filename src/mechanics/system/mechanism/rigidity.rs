@@ -10,7 +10,7 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of weighted stiffness to inertia.
+/// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
 /// With the largest ratio, the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
