@@ -80,7 +80,7 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if steps of this size end only at observation times, schedule breaks and releases. Larger step sizes then give the same run.
+    /// Returns true if every step of size `dt` ends at an observation time, a schedule break or a release. Larger step sizes then give the same run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -221,8 +221,6 @@ mod tests {
     fn a_load_that_does_not_come_back_is_given_up() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
-        // The function in this test behaves like a script function that does not return.
-        // The script engine stops a function that does not return. The function then fails with an error after the deadline.
         let function = Rc::new(|t: f64| match t {
             0.5.. => {
                 while !is_past_deadline() {}

@@ -14,7 +14,6 @@ pub struct ObservedScene {
 }
 
 impl ObservedScene {
-    /// Total number of spans, which measures the refinement of the meshes.
     pub fn spans(&self) -> usize {
         self.scene.beams.iter().map(|beam| beam.mesh.spans()).sum()
     }
@@ -35,7 +34,6 @@ impl Combination {
     }
 }
 
-/// All combinations of scenes and settings, scene by scene.
 pub fn all_combinations(
     subjects: &[ObservedScene],
     settings: &[SimulationSettings],

@@ -89,8 +89,8 @@ pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
     /// Returns the errors of one integrator for several sizes.
-    /// The first element of the result contains the error of all positions together, as a fraction of the length.
-    /// Each other element contains the error of a single observable.
+    /// The first returned element contains the error of all positions together, as a fraction of the length scale.
+    /// Each further returned element contains the error of a single observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
@@ -127,7 +127,6 @@ impl Convergence {
         names
     }
 
-    /// Errors of a quantity. There is one refinement per integrator.
     pub fn ladders_with<'s>(&'s self, quantity: &'s str) -> impl Iterator<Item = &'s Refinement> {
         self.ladders.iter().filter(move |ladder| ladder.quantity == quantity)
     }
@@ -183,7 +182,6 @@ mod tests {
         let trial = |method: Method, dt: f64| {
             let mut case = spinning(dt, &[0.5, 1.0]);
             case.settings.method = method;
-            // The stiffness is small enough that the steps resolve all vibrations.
             let mut section = case.scene.beams[0].section.mean();
             (section.axial_stiffness, section.shear_stiffness) = (100.0, 100.0);
             (section.bending_stiffness, section.rotary_inertia) = (10.0, 1.0);

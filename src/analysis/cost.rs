@@ -23,16 +23,12 @@ pub struct StepCost {
     pub outcome: CaseOutcome,
     pub unknowns: usize,
     pub half_bandwidth: usize,
-    /// Number of columns in the border of the matrix, for the contact unknowns.
     pub border: usize,
     pub columns: usize,
-    /// Average number of Newton iterations per step.
     pub iterations: f64,
-    /// Average number of factorisations per step.
     pub factorisations: f64,
     /// Average time of a step in the fastest run.
     pub shortest: Duration,
-    /// Median over the runs of the average time of a step.
     pub median: Duration,
 }
 

@@ -31,7 +31,7 @@ pub enum ParsedCsvError {
     },
 }
 
-/// Largest allowed magnitude of a number. The square of this number is finite.
+/// Largest allowed magnitude of a number in a table. Squares of allowed numbers are finite.
 const LARGEST: f64 = 1e150;
 
 /// Largest number of characters of a cell in a message.

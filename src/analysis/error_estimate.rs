@@ -27,12 +27,11 @@ const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 /// Growth of the distance of two runs after their last convergence, above which the motion counts as chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
-/// Reliability of an error estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
     /// The runs agree to rounding.
     Exact,
-    /// The observed order is that of the method. If this order is unknown, the runs converge at least with first order.
+    /// The observed order agrees with the order of the method or, if the order of the method is unknown, is at least one.
     Converged,
     /// The runs do not converge yet. The estimate is a lower bound.
     PreAsymptotic,
@@ -62,17 +61,14 @@ pub struct DiscretisationError {
     pub over_time: Vec<(f64, f64)>,
     /// Observed order; `None` if the runs agree to rounding or do not converge.
     pub order: Option<f64>,
-    /// Reliability of the estimate.
     pub verdict: ErrorVerdict,
 }
 
 impl DiscretisationError {
-    /// Error at the present time, in the dimension of the quantity.
     pub fn present(&self) -> f64 {
         self.over_time.last().map_or(0.0, |(_, error)| *error)
     }
 
-    /// Largest error of the run, in the dimension of the quantity.
     pub fn largest(&self) -> f64 {
         largest(&self.over_time)
     }
@@ -94,15 +90,11 @@ impl DiscretisationError {
 /// A quantity on three levels of refinement, from fine to coarse. The third level is optional.
 #[derive(Debug, Clone, Copy)]
 pub struct RefinementLevels<'a> {
-    /// Step or mesh sizes, from fine to coarse.
     pub sizes: [f64; 3],
-    /// Trace of each level.
     pub traces: [Option<&'a Trace>; 3],
-    /// Index of the level whose error is estimated.
     pub level: usize,
     /// Order of the method; `None` if unknown.
     pub order: Option<f64>,
-    /// Scale of the quantity.
     pub scale: f64,
 }
 
@@ -136,7 +128,6 @@ impl RefinementLevels<'_> {
         scaled(factor.max(1.0), order, verdict)
     }
 
-    /// Error of the level, divided by the distance of the two finest levels.
     fn factor(&self, order: f64) -> f64 {
         let order = self.order.map_or(order, |claimed| order.min(claimed));
         let [h1, h2, _] = self.sizes.map(|size| power(size / self.sizes[0], order));
@@ -147,7 +138,6 @@ impl RefinementLevels<'_> {
         order >= self.order.map_or(LEAST_ORDER, |claimed| SHARE_OF_ORDER * claimed)
     }
 
-    /// Order that agrees with the distances of both pairs of levels; `None` if the distances do not decrease.
     fn observed_order(&self, near: f64, far: f64) -> Option<f64> {
         let [_, h2, h3] = self.sizes.map(|size| size / self.sizes[0]);
         let ratio = |order: f64| (power(h3, order) - power(h2, order)) / (power(h2, order) - 1.0);
@@ -168,7 +158,6 @@ impl RefinementLevels<'_> {
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;
-        // The zero crossings of the distances are smoothed by windows whose length is a twentieth of the run.
         let window = (end - start) / 20.0;
         let within = |distances: &[(f64, f64)], to: f64| {
             let inside =

@@ -30,7 +30,6 @@ pub enum ExternalResultError {
     /// The positions of a run were measured at a time that the study does not use.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
-        /// Row number. The first row below the header has the number 1.
         row: usize,
         /// Time of the measurement [time].
         measured: f64,
@@ -39,14 +38,13 @@ pub enum ExternalResultError {
     },
 }
 
-/// Columns that describe the settings of a run, with the prefix of their values.
 const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
     /// Reads runs from a table.
     /// Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
-    /// The position columns have the names of columns in a reference table.
+    /// The columns of positions are named as in the table of reference values.
     /// Optional columns are integrator, elements, dof and dt.
     ///
     /// # Errors
@@ -124,7 +122,6 @@ mod tests {
         let rivals =
             ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
         assert_eq!(rivals[0].error, 0.05);
-        // The second run equals the reference, so it has only rounding errors.
         assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
         assert_eq!(rivals[0].setting, "euler, dt = 0.1");
         assert!(rivals[1].energy_drift.is_nan());

@@ -57,7 +57,6 @@ fn beam_mass(scene: &Scene) -> f64 {
     scene.beams[0].mass()
 }
 
-/// Small fraction of the force that would bend the beam by its own length [force].
 fn small_force(scene: &Scene) -> f64 {
     SMALL * scene.beams[0].section.mean().bending_stiffness / square(length(scene))
 }

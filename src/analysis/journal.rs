@@ -24,10 +24,8 @@ const LARGEST: u64 = 1 << 32;
 
 const FORMAT: u32 = 1;
 
-/// Identification of the program build, independent of the machine.
 type Build = (&'static str, Option<(u64, u32)>);
 
-/// Version of the program, with the length and checksum of the executable if it can be read.
 fn build() -> Build {
     static BUILD: OnceLock<Build> = OnceLock::new();
     *BUILD.get_or_init(|| {
@@ -53,7 +51,6 @@ pub struct JournalError {
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    /// Serialised results, by the fingerprints of the cases.
     known: BTreeMap<u64, Vec<u8>>,
     file: Option<File>,
 }
@@ -302,13 +299,11 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..3);
-        // If the file cannot be rewritten, the old file is kept.
         let anew = home.path().join("study.journal.new");
         fs::create_dir(&anew).unwrap();
         let mut journal = Journal::open(&path).unwrap();
         assert!(journal.write(3, &0.0).unwrap_err().to_string().contains("cannot be written"));
         assert_eq!(found_cases(&path), [0, 1, 2]);
-        // A temporary file that a crash left incomplete is overwritten.
         fs::remove_dir(&anew).unwrap();
         fs::write(&anew, b"half").unwrap();
         written(&path, 3..5);

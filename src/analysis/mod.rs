@@ -1,11 +1,4 @@
 //! Studies: series of runs and their evaluation. This module neither draws nor prints.
-//!
-//! ```text
-//! stability, cost → features
-//! error_estimate → trace
-//! precision, convergence → combination, reference, external_results → run_result, observable, csv_table
-//! run_result, timing → case, outcome → run_limits, workers → journal
-//! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

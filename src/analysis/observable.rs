@@ -54,7 +54,6 @@ impl Observable {
         Self { name: name.to_owned(), kind }
     }
 
-    /// Observables for all columns of a history that describe the motion.
     pub fn of_history(history: &History) -> impl Iterator<Item = Self> {
         let columns = history.columns().filter(|(name, _)| is_of_the_motion(name));
         columns.map(|(name, _)| Self::of_column(name, name, 1.0))

@@ -70,7 +70,6 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// Marks the combinations on the Pareto front.
     pub fn mark_front(&mut self) {
         let points: Vec<_> = self.rows.iter().map(PrecisionRow::cost_and_error).collect();
         for (row, is_on_front) in self.rows.iter_mut().zip(pareto_front(&points)) {
@@ -78,7 +77,6 @@ impl Precision {
         }
     }
 
-    /// Combinations on the Pareto front, fastest first.
     pub fn front(&self) -> Vec<&PrecisionRow> {
         let mut front: Vec<_> = self.rows.iter().filter(|row| row.is_on_front).collect();
         front.sort_by(|a, b| a.cost_and_error().0.total_cmp(&b.cost_and_error().0));

@@ -8,15 +8,13 @@ use crate::geometry::{Vec2, larger};
 /// Values of observables at the times of a study. The first index is the time, the second index the observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
-/// Deviation of a result from the reference, and the uncertainty of the reference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
-    /// Distance from the reference, in the unit of the observable.
     pub distance: f64,
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
     /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// Without this rule, a result with the same error as the reference would appear to be exact.
+    /// A result with the same error as the reference would otherwise appear to be exact.
     pub is_of_own_run: bool,
 }
 
@@ -74,7 +72,6 @@ pub enum ReferenceError {
         first: u64,
         second: u64,
     },
-    /// The reference contains no station of the study.
     #[error(
         "it has no station of the study: the station '{station}' needs the columns x{station} and y{station}, but its columns are {known}"
     )]
@@ -95,7 +92,6 @@ struct KnownValue {
 pub struct ReferenceSolution {
     pub source: String,
     pub is_own: bool,
-    /// Values: the first index is the time, the second index the observable. `None` if a value is unknown.
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
@@ -127,7 +123,6 @@ fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
     }
 }
 
-/// Number in the first existing column among `columns`; zero if no column exists.
 fn estimate(sheet: &ParsedCsv, row: usize, columns: &[String]) -> Result<f64, ParsedCsvError> {
     let found = columns.iter().find(|column| sheet.has(column));
     found.map_or(Ok(0.0), |column| sheet.size(row, column))

@@ -19,7 +19,6 @@ const DELAY: Duration = Duration::from_millis(100);
 pub enum RowEntry {
     /// First entry: identification of the sweep.
     Sweep {
-        /// Hash of all data that affect the rows.
         fingerprint: u64,
         rows: u64,
         /// Part number of the sweep, counted from 1, and number of parts. The whole sweep is (1, 1).

@@ -5,9 +5,7 @@ use std::time::{Duration, Instant};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunLimits {
-    /// Maximum number of steps, including failed steps.
     pub steps: usize,
-    /// Maximum wall-clock time.
     pub wall: Duration,
 }
 

@@ -12,13 +12,10 @@ use crate::simulation::{History, Invariant, Simulation};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunResult {
     pub outcome: CaseOutcome,
-    /// Observables at the observation times that the run reached.
     pub readings: Readings,
     pub unknowns: usize,
     pub steps: usize,
-    /// Number of Newton iterations of the successful steps.
     pub newton_iterations: usize,
-    /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
     pub retries: usize,
     /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`].

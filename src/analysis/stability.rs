@@ -15,15 +15,12 @@ pub struct StabilityVerdict {
     /// The time before the last break of a schedule is ignored. The increase is NaN if the run did not start or an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
-    /// Average number of Newton iterations per step.
     pub mean_iterations: f64,
-    /// Maximum number of Newton iterations of a step.
     pub most_iterations: usize,
     pub retries: usize,
 }
 
 impl StabilityVerdict {
-    /// Runs a case and assesses it.
     pub fn of(case: &Case, patience: RunLimits, stop: &AtomicBool) -> Self {
         let (outcome, simulation) = case.run(patience, stop, |_| ());
         match simulation {

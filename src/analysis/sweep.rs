@@ -78,7 +78,6 @@ pub enum RowLayout {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDesign {
-    /// Parameters, in the order of their names.
     pub parameters: Vec<SweptParameter>,
     pub rows: usize,
     pub arrangement: RowLayout,
@@ -130,7 +129,6 @@ impl SweepResults {
         self.names = names;
     }
 
-    /// Sets the results of a row, in the order of the names.
     pub fn find(&mut self, row: usize, values: &[f64]) {
         for (column, value) in self.columns.iter_mut().zip(values) {
             column[row] = *value;
@@ -175,7 +173,6 @@ impl Sweep {
         own.or_else(|| self.results.column(name).map(SweepColumn::Result))
     }
 
-    /// Names of all columns: parameters, then results.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         let parameters = self.design.parameters.iter().map(|of| of.name.as_str());
         parameters.chain(self.results.names.iter().map(String::as_str))
@@ -253,7 +250,6 @@ mod tests {
         assert_eq!(sweep.design.parameters[0].values.label(4), Some("2"));
         assert!(sweep.names().eq(["a", "b", "sum"]));
         let shares = sweep.variance_fractions("sum").unwrap();
-        // The function is additive. The variances of its terms are 1/4 and 2/3.
         assert!((shares[0].first - 3.0 / 11.0).abs() < 1e-15, "{shares:?}");
         assert_eq!(shares[1].total.map(|x| (x - 8.0 / 11.0).abs() < 1e-15), Some(true));
     }
@@ -270,7 +266,6 @@ mod tests {
         assert!(sweep.variance_fractions("sum").is_none());
         assert_eq!(sweep.telling_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
-        // With two parameters a block has four rows. The first block has a failed row, and the second block is incomplete.
         assert_eq!(sweep.telling_rows("sum"), 0);
     }
 }

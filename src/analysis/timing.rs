@@ -10,9 +10,7 @@ use super::{Case, RunLimits};
 pub struct Timing {
     /// Median time to build the scene and its model.
     pub setup: Duration,
-    /// Median wall-clock time of the run.
     pub run: Duration,
-    /// Shortest wall-clock time of the run.
     pub shortest: Duration,
     /// Median processor time of the run; `None` if not available. The time of other processes on a busy machine is not included.
     pub processor: Option<Duration>,

@@ -10,15 +10,11 @@ const SAME_TIME: f64 = 1e-9;
 /// Quantity whose values are recorded during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TracedQuantity {
-    /// Name of the station or column.
     pub name: String,
-    /// Dimension of the values.
     pub dimension: &'static str,
-    /// Source of the values.
     pub source: TraceSource,
 }
 
-/// Source of the values of a traced quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TraceSource {
     /// Position of a station in all recorded configurations [length].
@@ -67,7 +63,6 @@ impl Trace {
         }
     }
 
-    /// Creates a trace of present values.
     #[cfg(test)]
     pub fn of_values(times: Vec<f64>, values: impl IntoIterator<Item = f64>) -> Self {
         let values = values.into_iter().map(scalar).collect();
@@ -110,7 +105,7 @@ impl Trace {
 
     /// Returns the value at a time; `None` outside the trace.
     /// A value recorded at the requested time is returned directly.
-    /// Otherwise a cubic polynomial through the four nearest recorded values is evaluated.
+    /// Between recorded times, a cubic polynomial through the four nearest recorded values is evaluated.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

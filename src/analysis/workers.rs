@@ -64,7 +64,6 @@ pub fn on_all_cores<R: Send>(
                     pulse(Some((number, &result)));
                     results[number] = Some(result);
                 }
-                // Results of cases that end after the stop are discarded.
                 Ok(_) => (),
                 Err(mpsc::RecvTimeoutError::Timeout) => pulse(None),
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
@@ -75,7 +74,6 @@ pub fn on_all_cores<R: Send>(
     for (number, _) in waiting {
         pulse(None);
         let result = caught(|| work(&cases[number]));
-        // An interrupt may have stopped the case. `heed` is called to detect the interrupt.
         pulse(None);
         if is_stopped() {
             break;

@@ -5,7 +5,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::output::{printable, printable_in_colours};
 
-/// True if some output could not be written. A closed pipe does not count as lost output.
 static LOST: AtomicBool = AtomicBool::new(false);
 
 /// Prints a line to stdout and flushes stdout. A closed pipe is not an error.

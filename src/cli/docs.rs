@@ -68,13 +68,11 @@ fn write_definitions(catalog: &Catalog, folder: &Path) -> Result<String, Diagnos
     Ok(listing)
 }
 
-/// Returns true if the file is a definition file, which may be replaced. A definition file contains the line `module static;`.
 fn is_definition(path: &Path) -> bool {
     read_text(path, LARGEST_DEFINITION)
         .is_ok_and(|text| text.lines().any(|line| line == "module static;"))
 }
 
-/// Prints a text to stdout. A closed pipe is not an error.
 fn show(text: &str) -> Exit {
     let mut out = stdout();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {

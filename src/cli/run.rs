@@ -42,7 +42,6 @@ pub fn run(options: &RunOptions) -> Exit {
     }
 }
 
-/// Runs the script, and records the files that it reads.
 fn run_once(options: &RunOptions, interrupt: &Arc<AtomicBool>, files_read: FilesRead) -> Exit {
     let wish = if options.quiet { ProgressPreference::Hide } else { ProgressPreference::Show };
     let inputs = match options.inputs.inputs() {
@@ -155,7 +154,6 @@ pub fn check(options: &CheckOptions) -> Exit {
     }
 }
 
-/// Prints a table of the inputs of a script, if there are any.
 fn list_inputs(inputs: &Inputs) {
     let declared = inputs.declared();
     if declared.is_empty() {

@@ -38,7 +38,6 @@ fn wait(read: &FilesRead, interrupt: &AtomicBool) -> Option<String> {
     let mut seen = false;
     while !interrupt.load(Ordering::Relaxed) {
         match read.changed() {
-            // An editor may still be writing the file at the first sight of a change.
             Some(path) if seen => {
                 return Some(path.strip_prefix(".").unwrap_or(&path).display().to_string());
             }

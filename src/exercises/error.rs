@@ -8,11 +8,7 @@ use crate::output::OutputError;
 #[derive(Debug, thiserror::Error)]
 pub enum ExerciseError {
     #[error("there is no exercise '{name}'; {}", meant(.nearest.as_deref()))]
-    Unknown {
-        name: String,
-        /// Name of the exercise that is most similar to the given name.
-        nearest: Option<String>,
-    },
+    Unknown { name: String, nearest: Option<String> },
     #[error(transparent)]
     Write(#[from] OutputError),
     #[error("cannot read '{}': {source}; check that you may read it", path.display())]
@@ -33,11 +29,7 @@ pub enum ExerciseError {
     #[error("'{}' is damaged ({why}); move it away to restart the record of progress; your attempts are kept", path.display())]
     Progress { path: PathBuf, why: serde_json::Error },
     #[error("'{}' has no submissions; it must contain a folder for each student, with folders such as '{track}'", path.display())]
-    NoSubmissions {
-        path: PathBuf,
-        /// Name of a track, as an example in the description of the expected folders.
-        track: &'static str,
-    },
+    NoSubmissions { path: PathBuf, track: &'static str },
 }
 
 fn meant(nearest: Option<&str>) -> String {

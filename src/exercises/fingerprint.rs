@@ -37,8 +37,6 @@ fn reads_files(attempt: &Source) -> bool {
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 
-/// Appends the names and contents of all files in a folder and its subfolders to `noted`.
-/// Links are not followed, because scripts cannot follow them either.
 fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {
     for entry in folder.entries().unwrap_or_default() {
         *count += 1;

@@ -82,7 +82,7 @@ impl StudentReport {
 pub enum GradingTask {
     /// No work: the mark and its message are known without judging.
     Known(Mark, String),
-    /// The attempt in the given file must be judged.
+    /// The mark is unknown: the attempt in the given file must be judged.
     Judge(PathBuf),
 }
 

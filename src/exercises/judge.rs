@@ -10,9 +10,7 @@
 /// Parsed header of a judge's script.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
-    /// Variables of the attempt that the judge uses.
     pub needs: Vec<Need>,
-    /// Hints, from vague to explicit.
     pub hints: Vec<String>,
 }
 

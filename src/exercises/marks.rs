@@ -18,7 +18,6 @@ const LARGEST: u64 = 1 << 30;
 
 const HEAD: &str = "{\"student\":";
 
-/// Marks of earlier runs, by student and exercise.
 #[derive(Debug, Default)]
 pub struct KnownMarks(BTreeMap<StudentExercise, KnownMark>);
 
@@ -69,7 +68,6 @@ fn read_line(line: &str) -> Option<(StudentExercise, KnownMark)> {
     let line: Value = serde_json::from_str(line).ok()?;
     let text = |key: &str| Some(line.get(key)?.as_str()?.to_owned());
     let mark = Mark::of(&text("result")?)?;
-    // A mark without a fingerprint is not reused: its attempt is judged again.
     let fingerprint = text("fingerprint").unwrap_or_default();
     let known = KnownMark { fingerprint, mark, message: text("message")? };
     Some(((text("student")?, text("exercise")?), known))

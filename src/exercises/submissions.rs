@@ -10,7 +10,6 @@ use super::workbook;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Submission {
-    /// Name of the student, which is the name of the folder.
     pub student: String,
     pub folder: PathBuf,
 }

@@ -49,7 +49,6 @@ impl<'a> Watcher<'a> {
     }
 }
 
-/// Content of an exercise file; `None` if it is unreadable. The next run of the attempt then reports the error.
 fn content(workbook: &Workbook, exercise: &Exercise) -> Option<Vec<u8>> {
     read_file(&workbook.file(exercise), LARGEST).ok()
 }

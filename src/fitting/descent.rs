@@ -34,7 +34,6 @@ struct Descent<'d, 'f, E> {
     rate_with_slopes: &'d mut RateWithSlopes<'f, E>,
     rate: &'d mut Rate<'f, E>,
     best: Option<(Vec<f64>, Rating)>,
-    /// Last evaluated design, in scaled parameters.
     last: Option<(Vec<f64>, SlopedRating)>,
     worst: f64,
     runs: usize,
@@ -68,7 +67,6 @@ impl<E> Descent<'_, '_, E> {
 
     fn evaluate(&mut self, scaled: &[f64]) -> Result<Option<SlopedRating>, Ended<E>> {
         let x = self.design.unscaled(scaled);
-        // The design counts as one run, although a second call is needed if derivatives are missing.
         self.runs += 1;
         match (self.rate_with_slopes)(&x).map_err(Ended::Error)? {
             Ok(mut found) => {
@@ -96,8 +94,6 @@ impl<E> Descent<'_, '_, E> {
         }
     }
 
-    /// Returns true if the derivatives of objective and constraints agree with finite differences.
-    /// The finite differences are computed from values without derivatives.
     fn are_true(&mut self, x: &[f64], found: &SlopedRating) -> Result<bool, Ended<E>> {
         let [low, high] = test_points(&self.design.ranges, x);
         self.runs += 2;
@@ -138,10 +134,7 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Minimises like [`solve`](Self::solve), but with derivatives, by SLSQP (D. Kraft, 1988).
-    ///
-    /// Each step of SLSQP minimises a quadratic model of the objective under linearised constraints.
-    /// The second derivatives of the model come from BFGS updates.
+    /// Minimises like [`solve`](Self::solve), with derivatives, by SLSQP (D. Kraft, 1988).
     /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
     ///
     /// # Errors
@@ -197,7 +190,6 @@ impl Design {
             Some(rating) => Ok(Some(rating)),
             None => rate(x),
         })?;
-        // `solve` starts from the best design of SLSQP, so its result is never worse.
         Ok(more.map(|more| Designed {
             runs: runs + more.runs - asked_again,
             gradient_runs,
@@ -244,7 +236,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // The margin is twice the violation, because the solution may lie slightly on either side of the limit.
+            // A violated constraint is tightened by twice its violation, because the solution may lie slightly on either side of the limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }
@@ -297,7 +289,6 @@ mod tests {
     }
 
     /// Test with the valley function of H. H. Rosenbrock (1960), also with a bound that excludes its minimum.
-    /// With the bound, the solution is (0.5, 0.25).
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

@@ -10,8 +10,7 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// Largest violation of a satisfied constraint. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Distance from zero at which the search of an unbounded parameter ends, as a multiple of the size of the parameter.
-/// A parameter counts as diverged if its distance from zero comes near this multiple of its size.
+/// Multiple of the size of an unbounded parameter near which the parameter counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;
@@ -20,7 +19,6 @@ pub(super) const PENALTY: f64 = 10.0;
 pub struct Design {
     pub ranges: Vec<SearchRange>,
     pub constraints: usize,
-    /// Tolerance of the parameters, as a fraction of their sizes.
     pub tolerance: f64,
     pub most_runs: usize,
 }
@@ -71,9 +69,8 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this design is better than `other`. A feasible design is better than an infeasible one.
-    /// Of two feasible designs, the design with the lower objective is better.
-    /// Of two infeasible designs, the design with the smaller violation is better.
+    /// Returns true if this design is better than `other`: feasible designs precede infeasible ones.
+    /// Feasible designs are compared by the objective, infeasible designs by the violation.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -178,7 +175,6 @@ impl Design {
         Scaled { start, bounds }
     }
 
-    /// Index of the first parameter that diverged in an unbounded direction.
     pub(super) fn runaway(&self, parameters: &[f64]) -> Option<usize> {
         self.ranges.iter().zip(parameters).position(|(range, x)| {
             let bound = if *x < 0.0 { range.low } else { range.high };

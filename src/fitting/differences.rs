@@ -5,11 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Evaluate, Evaluation, SearchRange};
 
 /// Default perturbation, as a fraction of the size of a parameter.
-///
-/// For a perturbation `h`, central differences have a truncation error of `h² f‴/6`.
-/// If the results have noise, central differences have an error of the noise divided by `h`.
-/// The noise of a run is about 1e-12 of its results, which is the tolerance of Newton's method.
-/// With a perturbation of 1e-4, the truncation error and the error due to noise are both about 1e-8.
+/// With this default, truncation and the noise of runs cause about equal errors of central differences, 1e-8 each.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
@@ -20,7 +16,7 @@ enum Stencil {
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // The step is limited. A one-sided difference also uses a point at a distance of two steps, which must lie between the bounds.
+        // A one-sided difference uses a point at a distance of two steps. The step is limited so that this point lies between the bounds.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),

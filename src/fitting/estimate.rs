@@ -11,17 +11,13 @@ pub struct Estimate {
     pub deviation: f64,
     /// Degrees of freedom: number of residuals minus number of free parameters.
     pub freedom: usize,
-    /// Covariance matrix of the parameters, as a list of its rows.
     pub covariance: Vec<Vec<f64>>,
 }
 
 impl Estimate {
-    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum.
-    /// With the variance `s²` of a residual, the covariance matrix is `C = s² (JᵀJ)⁻¹`.
-    /// The argument `squares` is the sum of the squared residuals.
-    ///
-    /// Returns `None` if there are no degrees of freedom or the derivatives are linearly dependent.
-    /// A parameter at a bound is not `free` and counts as known.
+    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum: `C = s² (JᵀJ)⁻¹` with the residual variance `s²`.
+    /// `squares` is the sum of the squared residuals. A parameter at a bound is not `free` and counts as known.
+    /// Returns `None` without degrees of freedom, or if the derivatives are linearly dependent.
     /// The covariances of a parameter on which no residual depends are NaN.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
@@ -67,7 +63,6 @@ impl Estimate {
 mod tests {
     use super::*;
 
-    /// The standard errors of slope and intercept of a fitted straight line must agree with the formulas of textbooks.
     #[test]
     fn errors_of_a_straight_line_are_those_of_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];

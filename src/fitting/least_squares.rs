@@ -12,11 +12,9 @@ const MORE_STEPS: usize = 6;
 const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;
-/// Largest cosine of the angle between the residuals and a column of the Jacobian at convergence.
-/// The search has converged if the cosines for all columns are smaller than this constant.
+/// Largest cosine of the angle between the residuals and a column of the Jacobian, at which the search has converged.
 const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted relative reduction of the sum of squares for which the search continues.
-/// With a smaller reduction, parameters change by less than `1e-3 √(n - p)` standard errors. There are `n` residuals and `p` parameters.
 const NOTHING: f64 = 1e-6;
 /// Sum of squares that is attributed to rounding, as a fraction of its initial value.
 const ROUNDING: f64 = 1e-26;
@@ -68,7 +66,6 @@ impl LeastSquaresState {
         self.residuals.norm_squared()
     }
 
-    /// Marks the free parameters. No bound prevents the change of a free parameter, and at least one residual depends on it.
     fn free(&self, ranges: &[SearchRange]) -> Vec<bool> {
         let gradient = self.derivatives.tr_mul(&self.residuals);
         let is_free = |at: usize| {
@@ -163,10 +160,8 @@ impl LeastSquaresState {
 }
 
 enum Round {
-    /// The search has converged, or no further reduction of the sum of squares is predicted.
     Converged,
     NeedsDerivatives(Option<DMatrix<f64>>),
-    /// No step achieves the reduction that newly computed derivatives predict.
     Stalled,
 }
 
@@ -176,16 +171,11 @@ impl LeastSquares {
     }
 
     /// Minimises the sum of squares of the residuals.
-    ///
-    /// The derivatives are computed by central differences at the start and are updated after each step.
-    /// The derivatives are computed again when updated derivatives no longer reduce the sum of squares.
-    /// The derivatives are also computed again when the search seems to have converged far from the point at which they were computed.
-    /// A failed step is repeated with a smaller length.
+    /// Derivatives are computed by central differences, and updated after each step as long as the updates reduce the sum of squares.
     ///
     /// # Errors
     /// Returns an error of `evaluate`.
-    /// The inner error is the reason why the search cannot start or continue.
-    /// The reason is a required evaluation that has failed or has returned values that are not finite.
+    /// The inner error is the reason why a required evaluation failed or was not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
@@ -323,7 +313,6 @@ impl LeastSquares {
             *steps += 1;
             taken += 1;
             is_fresh = false;
-            // If the function has returned exact derivatives, they replace the updated derivatives.
             if state.squares() <= least || derivatives.is_some() {
                 return Ok(Round::NeedsDerivatives(derivatives));
             }

@@ -1,12 +1,5 @@
 //! Parameter estimation from runs by least squares, constrained minimisation and root finding.
 //! The methods evaluate functions that return numbers. They do not depend on how the functions compute these numbers.
-//!
-//! ```text
-//! least_squares → evaluator → differences
-//!               → estimate → student
-//! descent → design
-//! root
-//! ```
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

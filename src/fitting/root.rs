@@ -109,7 +109,6 @@ mod tests {
 
     #[test]
     fn roots_are_found_to_the_tolerance_in_few_calls() {
-        // First natural frequency of a cantilever: the solution of cos x cosh x = -1.
         let found = root((1.0, 3.0), 1e-12, |x| good(cos(x) * cosh(x) + 1.0)).unwrap();
         assert!((found.at - 1.875_104_068_711_961).abs() < 1e-12 && found.calls < 12, "{found:?}");
         let found = root((3.0, 1.0), 1e-10, |x| good(x * x * x - 8.0)).unwrap();

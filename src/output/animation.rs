@@ -64,7 +64,6 @@ impl Animation<'_> {
                 Some(before) => changed(before, &now, width),
             };
             if before.is_some() {
-                // The size of the next frame must fit at the offset of the previous frame. At the corner, any size fits.
                 writer.set_frame_position(0, 0).map_err(refused)?;
                 writer.set_frame_dimension(region.width, region.height).map_err(refused)?;
                 writer.set_frame_position(region.left, region.top).map_err(refused)?;

@@ -42,7 +42,6 @@ impl BarChart {
         self
     }
 
-    /// Marks a reference value by a line across all bars.
     pub fn mark(mut self, value: f64) -> Self {
         self.mark = Some(value);
         self

@@ -45,14 +45,12 @@ pub enum SeriesEmphasis {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     pub name: String,
-    /// Points of the series, in the order in which they are connected.
     pub points: Vec<Point>,
     /// Line style of the series. If `None`, the chart draws continuous lines until all colours are used.
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the line style has markers.
     pub marker: Marker,
     pub ink: SeriesColour,
-    /// Line width and paleness of the series.
     pub weight: SeriesEmphasis,
 }
 
@@ -104,7 +102,6 @@ pub struct LineChart {
 }
 
 impl LineChart {
-    /// Empty line chart of 900 by 560 pixels.
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -184,7 +181,6 @@ impl LineChart {
         })
     }
 
-    /// Maps each series, called with its index.
     pub fn each(mut self, change: impl Fn(usize, Series) -> Series) -> Self {
         let series = self.series.into_iter().enumerate();
         self.series = series.map(|(index, series)| change(index, series)).collect();

@@ -9,7 +9,7 @@ use super::{
 
 const TEXT: f64 = 12.0;
 const LABEL: f64 = 13.0;
-/// Distance of the bar from the plot [pixels]. The next constants are the width of the bar and the distance of the numbers from the bar.
+/// Distance of the bar from the plot [pixels].
 const GAP: f64 = 22.0;
 const BREADTH: f64 = 12.0;
 const NUMBERS: f64 = 8.0;

@@ -10,7 +10,6 @@ use super::OutputError;
 pub struct CsvTable {
     /// Comment lines above the table, each written after a `#`: title, units, origin.
     pub comments: Vec<String>,
-    /// Names and values of the columns, from left to right.
     pub columns: Vec<(String, Vec<f64>)>,
 }
 

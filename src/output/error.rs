@@ -18,13 +18,7 @@ pub enum OutputError {
     #[error(
         "column '{name}' has {length} values but column '{first}' has {expected}; give every column one value per row"
     )]
-    RaggedColumns {
-        name: String,
-        length: usize,
-        /// Name of the first column, which determines the number of rows.
-        first: String,
-        expected: usize,
-    },
+    RaggedColumns { name: String, length: usize, first: String, expected: usize },
     #[error("cannot create the table: {0}; check its column names")]
     Csv(#[from] ::csv::Error),
     #[error("cannot create the archive of arrays: {0}; check that all names are different")]

@@ -37,7 +37,6 @@ impl FieldPicture {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a beam, given by points along it and their values.
     pub fn beam(mut self, values: Vec<(Point, f64)>) -> Self {
         self.beams.push(values);
         self
@@ -202,7 +201,6 @@ impl Panel for FieldPicture {
             (plot.left..=plot.right).contains(&at.0) && (plot.top..=plot.bottom).contains(&at.1)
         };
         for beam in &beams {
-            // If limits clip a beam, partly visible pieces between two samples are drawn completely.
             for seen in beam.chunk_by(|(a, _), (b, _)| is_inside(*a) && is_inside(*b)) {
                 Self::draw_beam(canvas, piece, seen);
             }

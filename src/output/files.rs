@@ -1,7 +1,7 @@
 //! Atomic writing of files.
 //!
 //! The bytes are written to a hidden file in the folder of the target. When this file is completely written to disk, it is renamed to the target.
-//! Hence a reader never sees an incomplete file. After a failure, an older file is unchanged.
+//! A program that reads the file never sees it incomplete. After a failure, an older file is unchanged.
 
 use std::{fs, path::Path};
 

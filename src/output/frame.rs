@@ -206,7 +206,7 @@ impl Frame {
 /// Title or label. A text that is too long for a line is first reduced in size and then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
-    /// Size of the letters. The next field is the size before the reduction.
+    /// Size of the letters of a reduced title or label [pixels].
     size: f64,
     full: f64,
 }

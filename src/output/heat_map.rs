@@ -31,7 +31,6 @@ const LINE: f64 = 14.0;
 pub struct HeatCell {
     /// Number that determines the colour; `None` for a hatched cell.
     pub value: Option<f64>,
-    /// Text in the cell. Line breaks are kept.
     pub text: String,
 }
 
@@ -69,7 +68,6 @@ impl HeatMap {
         self
     }
 
-    /// Sets the text that explains hatched cells.
     pub fn hatched(mut self, meaning: impl Into<String>) -> Self {
         self.hatched = meaning.into();
         self

@@ -199,7 +199,6 @@ impl Panel for LevelMap {
                         };
                         canvas.fill(cell, ramp(bar.part(*value)));
                     }
-                    // For very large numbers, cells extend far beyond the plot.
                     false => hatch(canvas, &cell.within(plot)),
                 }
             }
@@ -245,7 +244,6 @@ mod tests {
         let ends = map.x.drawn_ends();
         assert_eq!((map.values[1].len(), ends.len()), (143, 144));
         assert_eq!((ends[0], ends[1], ends[143]), (-0.5, 6.5, 999.5));
-        // The last cell contains the mean of 994 to 999.
         assert_eq!((map.values[1][0], map.values[2][142]), (1003.0, 2996.5));
         map.values[0][0] = f64::NAN;
         assert_eq!(

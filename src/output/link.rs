@@ -6,7 +6,7 @@ use crate::elementary::hypot;
 pub const LINK: f64 = 1.2;
 /// Length of the straight pieces at the ends of a spring: largest length [pixels], and fraction of the length of the spring.
 const LEAD: (f64, f64) = (8.0, 0.15);
-/// Length of a coil of a spring. The next constant gives the smallest and largest number of coils.
+/// Length of a coil of a spring [pixels].
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
 /// Half width of a spring and of the cylinder of a damper.
@@ -34,7 +34,6 @@ impl Link {
         (self.from.0 + ahead * x - aside * y, self.from.1 + ahead * y + aside * x)
     }
 
-    /// Straight line between both points.
     pub fn ends(&self) -> Vec<Point> {
         vec![self.from, self.at((self.length, 0.0))]
     }

@@ -12,7 +12,6 @@ pub enum Marker {
     Square,
     /// Outline of a square that stands on a corner.
     Diamond,
-    /// Outline of a triangle.
     Triangle,
     /// Outline of a circle.
     Ring,

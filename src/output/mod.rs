@@ -1,12 +1,7 @@
 //! Tables, files and pictures from plain data. This module does not depend on simulations.
 //!
-//! ```text
-//! chart, heat_map, level_map, bars, motion, strips, field → page → mechanism_outline → plane, symbol
-//! → frame, hatching, legend, colour_bar → axis, curve, stroke, marker → canvas → figure → svg, png → files
-//! chart, heat_map → terminal → symbol, axis, curve
-//! motion → animation → figure
-//! viewer (a page for browsers) → symbol, canvas, colour
-//! ```
+//! A canvas collects the shapes of a picture, and the modules `svg` and `png` write the canvas to a file.
+//! The modules of `terminal` draw charts and heat maps with characters. The module `viewer` writes pages for browsers.
 //!
 //! Pictures look the same on every machine, because the font of their texts is embedded in the program. Equal data give equal bytes.
 

@@ -26,7 +26,6 @@ pub struct MotionFrame {
     pub lines: Vec<Vec<Point>>,
     /// Points that are marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
-    /// Point masses, which are drawn as larger dots.
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
 }

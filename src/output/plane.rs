@@ -5,7 +5,7 @@ use super::{
     canvas::Point,
 };
 
-/// Preferred width of a separate plot [pixels]. The next constants are the range of its height and its smallest width.
+/// Preferred width of a separate plot [pixels].
 const WIDTH: f64 = 740.0;
 const HEIGHTS: (f64, f64) = (220.0, 700.0);
 const LEAST_WIDTH: f64 = 300.0;
@@ -85,7 +85,6 @@ impl View {
         is_within(x, self.centre.0, self.needs.0) && is_within(y, self.centre.1, self.needs.1)
     }
 
-    /// Ends of the box along x and along y.
     pub fn ends(&self) -> [(f64, f64); 2] {
         let ends = |centre: f64, size: f64| (centre - size / 2.0, centre + size / 2.0);
         [ends(self.centre.0, self.needs.0), ends(self.centre.1, self.needs.1)]

@@ -98,7 +98,6 @@ impl PngPage<'_> {
                 covered.push((corner.x as i32 + x as i32, corner.y as i32 + y as i32, amount))
             });
             for (x, y, amount) in covered {
-                // Each pixel is a square. In a text rotated by 90°, the pixel to the right of the start point becomes the pixel above it.
                 let (x, y) = match text.direction {
                     TextDirection::Level => (start.0 + x, start.1 + y),
                     TextDirection::Upwards => (start.0 + y, start.1 - x - 1),
@@ -152,7 +151,6 @@ impl PixelCoverage {
         let rows = clip(a.1.min(b.1) - reach, a.1.max(b.1) + reach, self.top, self.rows);
         for row in rows {
             let y = (self.top + row) as f64 + 0.5;
-            // Range of pixels of this row that are near the segment: around the intersection with the centre line, and between its ends.
             let (mut low, mut high) = (a.0.min(b.0), a.0.max(b.0));
             if dy != 0.0 {
                 let crossing = a.0 + (y - a.1) * dx / dy;

@@ -9,7 +9,6 @@ pub struct CsvRecords {
     /// Comment lines above the table, each written after a `#`.
     pub comments: Vec<String>,
     pub names: Vec<String>,
-    /// Rows with one text for every column.
     pub rows: Vec<Vec<String>>,
 }
 

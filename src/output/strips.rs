@@ -70,7 +70,6 @@ impl StripPicture {
         self
     }
 
-    /// Sets the side on which positive values are drawn.
     pub fn side(mut self, side: BeamSide) -> Self {
         self.side = side;
         self
@@ -170,7 +169,6 @@ impl StripPicture {
         line(canvas, &edge, EDGE, colour);
     }
 
-    /// Points along the drawn beams, so dense that no label fits between them.
     fn on_beams(&self, frame: &Frame, plot: &Area) -> Vec<Point> {
         let lines = self.strips.iter().flat_map(|strip| frame.curve(plot, &strip.line));
         let dense = |run: Vec<Point>| {

@@ -29,12 +29,10 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     let opening = opening(size);
     let drawn =
         body.strip_prefix(&opening).ok_or_else(|| refused("the document begins otherwise"))?;
-    // All shapes are opaque, so the attribute `opacity` is not needed.
-    // Texts are drawn as outlines, so the removed characters do not occur in a text.
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of the document as written by plotters for a grid of this size. The stated picture size is wrong, and title and description are missing.
+/// Start of the SVG document as written by the library plotters. It states a wrong picture size, and has no title and description.
 /// The function [`head`] replaces the start that plotters has written.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();

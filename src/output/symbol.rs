@@ -37,7 +37,6 @@ pub enum Symbol {
     Carriage,
     /// Revolute joint between beams.
     Joint,
-    /// Rigid joint between beams.
     RigidJoint,
     /// Point that slides along a beam.
     Slider,
@@ -73,7 +72,6 @@ impl Symbol {
         matches!(self, Self::Wall | Self::Disc)
     }
 
-    /// Name of the symbol in viewer data.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hinge => "hinge",
@@ -104,8 +102,8 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol; zero if the symbol has no direction. The length of the vector has no meaning, except for discs and for
-    /// springs, dampers and tendons, which end at `at + direction`.
+    /// Direction of the symbol; zero if the symbol has no direction. Only for discs and connecting symbols, the length has a meaning.
+    /// Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }
 

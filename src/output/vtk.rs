@@ -25,7 +25,6 @@ pub struct VtkGrid {
 /// Body: a polyline, or a dot if it has only one point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkCell {
-    /// Name of the body, which is written as a comment.
     pub name: String,
     pub points: Vec<Point>,
 }

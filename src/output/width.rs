@@ -9,7 +9,6 @@ pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
 
-/// Number of columns of a text that has one line.
 pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }

@@ -132,7 +132,6 @@ pub fn parts(operand: &str) -> Vec<&str> {
         match (token.kind, token.of(operand)) {
             (TokenKind::Open(_), _) => depth += 1,
             (TokenKind::Close(_), _) => depth = depth.saturating_sub(1),
-            // Bars enclose the parameters of a closure. A bar after a value is an operator.
             (TokenKind::Symbol, "|") => {
                 let is_operator =
                     matches!(before, TokenKind::Word | TokenKind::Number | TokenKind::Close(_));
@@ -153,7 +152,6 @@ pub fn parts(operand: &str) -> Vec<&str> {
     parts
 }
 
-/// Summary of a curve in one line: first, last, smallest and largest value.
 pub fn summary(curve: &PlotCurve) -> String {
     let values = curve.points.iter().map(|(_, value)| *value);
     let shown = |value: Option<f64>| value.map_or_else(String::new, |x| significant(x, DIGITS));

@@ -13,7 +13,6 @@ const DEEPEST: usize = 8;
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
-    /// Variables shared by closures, with their values as text.
     shared: Vec<(Dynamic, String)>,
     files: usize,
 }

@@ -78,7 +78,6 @@ impl SessionRecord {
             self.sources().map(|source| source.map(written).unwrap_or_default()).collect();
         let mut script = format!("{HEADER}\n\n");
         for (index, entry) in self.entries.iter().enumerate() {
-            // The value of `ans` is needed until the next expression changes it.
             let later = || self.entries[index + 1..].iter().zip(&asked[index + 1..]);
             let next = later().position(|(entry, _)| matches!(entry, RecordedInput::Expression(_)));
             let is_asked = || {
@@ -124,7 +123,6 @@ impl SessionRecord {
         twice
     }
 
-    /// Source text of the last definition of a function.
     pub fn definition(&self, name: &str) -> Option<String> {
         self.entries.iter().rev().filter_map(RecordedInput::source).find_map(|source| {
             let found = written(source).into_iter().rev();
@@ -146,7 +144,6 @@ impl RecordedInput {
     fn source(&self) -> Option<&Source> {
         match self {
             Self::Statements(text) | Self::Expression(text) => Some(text),
-            // An input that is not repeated defines no functions and does not use `ans`.
             Self::EarlyReturn(_) => None,
             Self::Moved(line) => Some(line),
         }
@@ -194,13 +191,11 @@ fn value_text(engine: &Engine, text: &str) -> String {
     terminated(&format!("{before}{space}let {ANSWER} = {}", expression.trim_start()).into())
 }
 
-/// Source texts of the functions defined in a text.
 pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
     written(source).into_iter().map(|definition| &source[definition.bytes])
 }
 
 struct FunctionText {
-    /// Name and number of parameters. For a method, the name includes the type.
     name: (String, usize),
     /// Byte range of the definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,

@@ -31,7 +31,6 @@ pub struct Sampling {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figures {
     pub runs: usize,
-    /// Duration of the shortest run, which was least disturbed by other processes.
     pub least: Duration,
     pub median: Duration,
     pub quartiles: (Duration, Duration),

@@ -7,7 +7,6 @@ use rhai::{Dynamic, ImmutableString, Scope};
 /// Variables of a scope that are not shadowed; `None` if the scope has no shadowed variables.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
-    // The newest variables come first. They shadow older variables.
     let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
     if seen.len() == scope.len() {
         return None;

@@ -97,7 +97,7 @@ impl Session {
     }
 
     /// Discards a Ctrl-C that was pressed between evaluations.
-    /// After a later Ctrl-C, every evaluation stops until this function is called again.
+    /// After a later Ctrl-C, every evaluation stops until the interrupt is cleared again.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -128,7 +128,6 @@ impl Session {
         }
         self.with_engine(program, |context, engine| match parse(engine, program) {
             Ok(ast) => declare_inputs(engine, context, (&ast, &program.text), &self.folder),
-            // The evaluation reports the error.
             Err(_) => Ok(Vec::new()),
         })
     }
@@ -225,7 +224,6 @@ impl Session {
     fn restore(&mut self, checkpoint: StatementCheckpoint) {
         self.scope = checkpoint.scope;
         self.global = checkpoint.global;
-        // Functions stored by scenes and simulations share the constants of the session.
         if let Some(constants) = &self.global.constants {
             *constants.borrow_mut() = checkpoint.constants;
         }
@@ -254,7 +252,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // This deprecated function is the only function that keeps imports and constants between inputs.
+            // A deprecated function of Rhai is used, because no other function keeps imports and constants between inputs.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -266,7 +264,6 @@ impl Session {
         if value.is_unit() || text.ends_in_semicolon() {
             return Reply::Done;
         }
-        // A constant with this name, defined by the user, is not changed.
         match (self.scope.is_constant(ANSWER), self.scope.get_mut(ANSWER)) {
             (Some(false), Some(answer)) => *answer = value.clone(),
             (None, _) => _ = self.scope.push_dynamic(ANSWER, value.clone()),

@@ -53,9 +53,7 @@ pub struct Shell {
     session: Session,
     screen: ReplyTarget,
     watched: Vec<String>,
-    /// Number of written files that have been reported to the user.
     reported_files: usize,
-    /// Scripts that this shell has saved, with their paths.
     saved: HashMap<PathBuf, String>,
     clock: Rc<dyn Clock>,
     pager: Option<Box<dyn Pager>>,
@@ -309,10 +307,7 @@ impl Shell {
             value.read_lock::<SimulationHandle>().is_some_and(|held| held.is_same(&latest))
         };
         let variables = self.session.variables();
-        let held = variables.iter_raw().find(|(name, _, value)| {
-            // The next expression changes the value of `ans`, so this variable is ignored.
-            *name != ANSWER && is_it(value)
-        });
+        let held = variables.iter_raw().find(|(name, _, value)| *name != ANSWER && is_it(value));
         Ok(held.map_or_else(|| LATEST.into(), |(name, ..)| name.to_owned()))
     }
 

@@ -21,7 +21,6 @@ pub enum Distribution {
     },
     LogNormal {
         median: f64,
-        /// Standard deviation of the natural logarithm of the parameter.
         deviation: f64,
     },
     Triangular {
@@ -56,7 +55,6 @@ impl Distribution {
         }
     }
 
-    /// Distribution in the syntax of scripts.
     pub fn describe(&self) -> String {
         match self {
             Self::Uniform { from, to } => format!("uniform({from}, {to})"),

@@ -1,11 +1,5 @@
 //! Random sampling of parameters: distributions, sets of points, and sensitivity indices.
 //!
-//! ```text
-//! latin_hypercube, sobol, saltelli → random
-//! distribution → normal
-//! sensitivity      computes indices from results at random points or on grids
-//! ```
-//!
 //! Equal seeds give equal points on every machine. The random number generator is ChaCha with twelve rounds, whose output is defined bit by bit.
 //! The conversion of its output to numbers is implemented here, because the conversion in a library may change with its version.
 

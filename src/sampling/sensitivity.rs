@@ -110,9 +110,6 @@ mod tests {
         sin(a) + 7.0 * sin(b) * sin(b) + 0.1 * power(c, 4.0) * sin(a)
     }
 
-    /// Indices of the Ishigami function in closed form.
-    /// The contributions of the three parameters to the variance are 1/2 (1 + b π⁴/5)², a²/8 and 0.
-    /// The interaction of the first and the third parameter contributes 8 π⁸ b²/225.
     fn known() -> ([f64; 3], [f64; 3]) {
         let fourth = power(PI, 4.0);
         let first = 0.5 * power(1.0 + 0.1 * fourth / 5.0, 2.0);

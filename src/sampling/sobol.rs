@@ -110,7 +110,6 @@ mod tests {
             .collect()
     }
 
-    /// Points computed by the program of Joe and Kuo in three dimensions.
     #[test]
     fn points_are_those_of_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
@@ -133,7 +132,6 @@ mod tests {
         let columns = sobol(4096, 4, 1);
         let product = |at: usize| columns.iter().map(|values| 2.0 * values[at]).product::<f64>();
         let mean = (0..4096).map(product).sum::<f64>() / 4096.0;
-        // With random points, the error of the mean would be about 0.023.
         assert!((mean - 1.0).abs() < 2e-3, "{mean}");
     }
 }

@@ -293,7 +293,6 @@ mod tests {
                 let (way, aside, link) =
                     (own.join("way"), home.path().join("aside"), home.path().join("link"));
                 while !stop.load(Ordering::Relaxed) {
-                    // The writing thread may create the folder between two renames.
                     if aside.exists() {
                         let _ = fs::remove_dir_all(&way).and_then(|()| fs::rename(&aside, &way));
                     }

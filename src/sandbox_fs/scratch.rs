@@ -12,7 +12,7 @@ use super::Folder;
 const PREFIX: &str = "withy-scratch-";
 /// Name of a file in each temporary folder. The file is locked until the process ends, which shows other processes that the folder is in use.
 const HELD: &str = ".held";
-/// Age above which a folder without this file counts as abandoned. A younger folder may belong to a process that is starting.
+/// Age above which a temporary folder without a lock file counts as abandoned. A younger folder may belong to a process that is starting.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
 /// New folder in the temporary folder of the system. It is removed when this value is dropped.
@@ -34,7 +34,6 @@ impl Scratch {
 
     fn within(home: &Path) -> io::Result<Self> {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(home)?;
-        // The file is locked before it gets its name, because other processes may look for an unlocked file of this name at any time.
         let open = Folder::open(folder.path())?;
         let (begun, held) = (Path::new(".begun"), Path::new(HELD));
         let file = open.create(begun)?;
@@ -112,12 +111,10 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();
-        // Simulates a killed process: the folder stays, but the lock is released.
         let Scratch { folder, _held } = Scratch::within(home.path()).unwrap();
         fs::write(folder.path().join("big"), "left behind").unwrap();
         let left = folder.keep();
         drop(_held);
-        // A folder of a process that is starting, and a file with a similar name, must not be removed.
         fs::create_dir(home.path().join("withy-scratch-begun")).unwrap();
         fs::write(home.path().join("withy-scratch-file"), "").unwrap();
         let next = Scratch::within(home.path()).unwrap();

@@ -68,7 +68,6 @@ impl Folder {
             reading::expect_ordinary(about.is_file())?;
         }
         let (mut file, partial) = folder.create_partial(name)?;
-        // If a later call fails, `prepared` is dropped, which removes the file.
         let prepared = Prepared { folder, partial, name: name.to_owned() };
         write(&mut file)?;
         file.sync_all()?;

@@ -182,7 +182,6 @@ mod tests {
                 assert!(WrittenFiles::of(&folder).may_replace(&folder, "a"));
             }
         }
-        // The next added line must first complete the incomplete line.
         folder.append(Path::new(FILE)).unwrap().write_all(b"0123").unwrap();
         let mut record = WrittenFiles::of(&folder);
         record.record(&folder, "a", checksum(b"three")).unwrap();

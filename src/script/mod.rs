@@ -3,7 +3,7 @@
 //!
 //! A domain is a [`BindingTable`](bindings::table::BindingTable) of bindings. [`engine`] registers the tables and runs a script on a large stack.
 //! [`diagnose`] converts every error to a message with line and column of the script.
-//! These modules contain no mechanics: bindings are short and call the solver library.
+//! The modules of the language contain no mechanics: bindings are short and call the solver library.
 //!
 //! A module may use only modules that precede it in this order:
 //! Order: `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.

@@ -132,7 +132,6 @@ impl<'a> EventLoop<'a> {
                 }
             }
             self.state.set_report(report);
-            // The program in another window may have changed the progress file.
             if let Ok(progress) = self.workbook.progress() {
                 self.state.progress = progress;
             }

@@ -1,12 +1,7 @@
 //! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints, and the user presses keys.
 //! Each attempt runs in a separate process.
 //!
-//! ```text
-//! event_loop → terminal → keys
-//!            → judge_process                              starts one process per run
-//!            → screen → result_page, solution → line      converts the state to lines
-//!            → state                                      changes the state after a key
-//! ```
+//! The module `event_loop` reads keys, changes the state, starts the process of a run and draws the screen.
 
 mod event_loop;
 pub(super) mod judge_process;

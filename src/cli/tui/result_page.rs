@@ -8,7 +8,6 @@ use crate::exercises::report::{AttemptError, AttemptOutcome, AttemptReport, Scri
 use crate::output::columns_of;
 
 const PRINTED: usize = 12;
-/// Duration after which a run is displayed as running [s].
 const SHORTEST_SHOWN: u64 = 1;
 
 pub fn outcome(state: &TuiState, columns: usize) -> Vec<ScreenLine> {

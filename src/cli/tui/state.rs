@@ -209,7 +209,6 @@ impl TuiState {
             Key::PageDown | Key::Letter(' ') => (chosen + window.rows).min(last),
             Key::Home => 0,
             Key::End => last,
-            // Consecutive digits form one number.
             Key::Letter(digit) if digit.is_ascii_digit() => {
                 let digit = digit as usize - '0' as usize;
                 let numbers = [typed * 10 + digit, digit];

@@ -23,7 +23,7 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Consecutive quadrature points of the axis, one per vector lane. The struct stores the first control point of the span of each point.
+/// Consecutive quadrature points of the axis, one in each vector lane.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -64,8 +64,7 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Increments of control points, arranged in vector lanes.
-/// Each lane belongs to a quadrature point and contains the increments of all control points of its span.
+/// Increments of the control points of several spans, one span in each vector lane.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {
@@ -79,12 +78,9 @@ impl<const N: usize> Windows<'_, N> {
     }
 }
 
-/// Axis of a beam, given by control points, with its approximate length.
 pub(super) struct BeamAxis<'a> {
     basis: &'a Basis,
     control_points: &'a [Vec2],
-    /// Smallest length of the derivative with respect to the parameter for which the axis has a direction [length].
-    /// A derivative shorter than this limit is due to rounding.
     least_speed: f64,
 }
 

@@ -2,7 +2,6 @@
 
 use pulp::Simd;
 
-/// Row of the tangent matrix of one span: an entry for each of the `N` control points and each component x, y, ω.
 pub(super) type BlockRow<const N: usize> = [[f64; 3]; N];
 
 /// Tangent matrix of one span: `rows[a][i][b][j]` for control points `a`, `b` and components `i`, `j` of x, y, ω.

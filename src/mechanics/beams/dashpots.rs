@@ -1,16 +1,7 @@
-//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity.
-//! Axial, shear and bending deformation have relaxation times `τ`.
+//! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity (docs/theory.md, section 9.2).
 //!
-//! ```text
-//! force:   N = C τ ΔΓ/Δt
-//! strain:  ΔΓ = Λ̄ᵀ (Δx' - Δω J x̄')
-//! moment:  M = EI τ Δκ/Δt
-//! energy:  D = Σ w (N·ΔΓ + M Δκ) ≥ 0
-//! ```
-//!
-//! Here `C = diag(EA, GA)`, `w` are quadrature weights and `D` is the dissipated energy.
-//! The dashpots are separate from the quadrature points for `Γ` and `κ`, so that undamped beams need no additional time.
 //! The dashpot forces are independent unknowns, like section forces.
+//! The dashpots are separate from the elastic quadrature points, so that undamped beams need no additional time.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +13,7 @@ use super::sections::SectionsOnAxis;
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
 
-/// Relaxation times of a Kelvin–Voigt material: the section forces are `C (Γ + τ Γ̇)` and `EI (κ + τ κ̇)` [time].
+/// Relaxation times of a Kelvin–Voigt material, by which the viscous section forces are proportional to strain rates [time].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Relaxation {
     /// Relaxation time of axial deformation [time].
@@ -50,22 +41,20 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rates of a step. The rate of a quantity `q` is `by_change · Δq - by_last · q̇`.
-/// Here `Δq` is the change in the step, and `q̇` is the rate in the previous step.
+/// Rule for the rate of a quantity in a step: `by_change` times its change in the step, minus `by_last` times its rate in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction `s` of the step at which the directions of forces are evaluated [-].
+    /// Fraction of the step at which the directions of forces are evaluated [-].
     /// Position and rotation are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
-    /// Factor of the change `Δq` in the step [1/time].
+    /// Factor of the change of the quantity in the step [1/time].
     pub by_change: f64,
-    /// Factor of the rate `q̇` in the previous step [-].
+    /// Factor of the rate of the quantity in the previous step [-].
     pub by_last: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// Basis functions at a point of a beam, with the quadrature weight [length]. Values [-], and derivatives with respect to arc length [1/length].
 #[derive(Debug, Clone)]
 pub(super) struct Functions {
     pub(super) shape: Vec<f64>,
@@ -74,8 +63,6 @@ pub(super) struct Functions {
 }
 
 impl Functions {
-    /// Interpolates increments of the control points of the span at the quadrature point.
-    /// Returns the increment of the derivative of the axis, the rotation increment, and the derivative of the rotation increment.
     pub(super) fn interpolate(&self, moved: &[Movement]) -> (Vec2, f64, f64) {
         let (mut gradient, mut rotation, mut bend) = (Vec2::zeros(), 0.0, 0.0);
         for ((shape, slope), [x, y, omega]) in self.shape.iter().zip(&self.slope).zip(moved) {
@@ -100,7 +87,6 @@ pub struct Dashpots {
     order: usize,
     spans: Vec<SpanDashpots>,
     resolution: RateResolution,
-    /// Buffer for the derivatives of the forces of a span, stored row by row.
     block: Vec<f64>,
 }
 
@@ -177,7 +163,7 @@ impl Dashpots {
     }
 
     /// Calls `give` with the dashpot forces on control points in the present iterate.
-    /// Returns the largest dashpot force, and the largest difference between a dashpot force and its damping law.
+    /// Returns the largest dashpot force, and its largest deviation from the damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -197,8 +183,8 @@ impl Dashpots {
         summary
     }
 
-    /// Calls `give` with the dashpot forces on control points. The unknown dashpot forces are condensed out.
-    /// Calls `tangent` with the first control point of each span and the derivatives of the forces of the span, row by row.
+    /// Calls `give` with the dashpot forces on control points after elimination of the dashpot unknowns.
+    /// Calls `tangent` with the first control point of each span and the derivatives of the forces, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -219,8 +205,8 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the correction of the forces on control points that removes the residuals of the damping laws.
-    /// The directions of the correction are those of the last linearisation.
+    /// Calls `give` with the force corrections on control points that satisfy the damping laws.
+    /// The directions of the corrections are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -269,8 +255,6 @@ impl Dashpots {
         sum
     }
 
-    /// Calls `give` with the dashpot forces at the start of the step, computed from the given rates.
-    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn emit_dashpot_forces(
         &self,
         rates: &[Movement],
@@ -283,9 +267,6 @@ impl Dashpots {
         }
     }
 
-    /// Calls `take` for each rate of strain and curvature at the start of the step. The rates are computed from the rates of the control points.
-    /// The second argument of `take` is the damping coefficient times the quadrature weight.
-    /// The sum of the damping coefficients times the squared rates is a power [energy/time].
     pub(crate) fn each_damped_rate(&self, rates: &[Movement], take: &mut dyn FnMut(f64, f64)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             let rates = &rates[*first..*first + self.order];
@@ -294,9 +275,6 @@ impl Dashpots {
         }
     }
 
-    /// Dashpot force in space [force] and dashpot moment [force·length] at a section at the start of the step.
-    /// Dashpot forces are interpolated like section forces.
-    /// Rates that the steps do not resolve are replaced by an extrapolation of the means of the last two steps.
     pub(crate) fn transmitted(&self, place: &SectionPlace, rates: &[Movement]) -> (Vec2, f64) {
         let of_span = |span: usize| {
             let span = &self.spans[span];
@@ -335,7 +313,6 @@ impl Dashpots {
     }
 }
 
-/// Residual of the damping law, converted to a strain by the derivative of the force; zero if the derivative is zero.
 pub(super) fn strain_missing(force: f64, resistance: f64) -> f64 {
     if resistance > 0.0 { (force / resistance).abs() } else { 0.0 }
 }

@@ -12,19 +12,19 @@ pub type Movement = [f64; 3];
 /// Fractions of a step, from start (0) to end (1), at which internal forces are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collocation {
-    /// Fraction `τ` of the step for the configuration [-]: positions `(1-τ) x0 + τ x1` and rotations `(1-τ) Λ0 + τ Λ1`.
+    /// Fraction of the step at which positions and rotations are evaluated, by linear interpolation between start and end [-].
     pub configuration: f64,
-    /// Fraction `σ` of the step for the strain that determines the section forces [-]: `(1-σ) Γ0 + σ Γ1`.
+    /// Fraction of the step at which the strain for the section forces is evaluated, by linear interpolation between start and end [-].
     pub stress: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
 }
 
-/// Largest strain mismatch, forces and rotation in an evaluation of the internal forces.
+/// Largest forces, rotation and strain residual in an evaluation of the internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest difference between the strain of the configuration and the strain that belongs to the section force [-].
-    /// In the strain mismatch, curvatures are multiplied by a length.
+    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
+    /// Residuals of curvatures are multiplied by a length.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -35,7 +35,7 @@ pub struct ForceSummary {
 }
 
 impl ForceSummary {
-    /// Replaces each entry by the larger value of both summaries.
+    /// Replaces each value by the larger of the values in both summaries.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
@@ -44,7 +44,7 @@ impl ForceSummary {
     }
 }
 
-/// Function that receives the tangent matrix of a span. Its arguments are the first control point of the span and the rows of the matrix.
+/// Function that receives the first control point of a span and the rows of its tangent matrix.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
 /// Dynamics of a beam, particle or rigid body.
@@ -80,12 +80,11 @@ pub trait BodyDynamics: Send + Sync {
         forces: &mut [Movement],
     ) -> ForceSummary;
 
-    /// Adds `weight` times the internal forces, with the strain mismatches condensed out.
-    /// Calls the sink of each part, span by span, with `weight` times the derivatives of the internal forces.
+    /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
+    /// Calls a sink with the tangent matrix of each span, multiplied by `weight`. Each part of the body has a separate sink.
     ///
-    /// Spans across the cut between two parts are passed to the sinks of both parts.
-    /// The part after the cut receives the spans across the cut before its own spans. The part before the cut receives them after its own spans.
-    /// Each sink must use only the rows of the control points of its part.
+    /// A sink must use only the rows of the control points of its part.
+    /// A span across the cut between two parts is passed to the sinks of both parts: first in the later part, last in the earlier part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -95,7 +94,8 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
+    /// Adds `weight` times the forces that would remove the present strain residuals.
+    /// The derivatives of the strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces after an iteration has corrected the increments.
@@ -107,7 +107,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Calls `tangent` with pieces of the rows of `factor · M`.
+    /// Calls `tangent` with consecutive entries of each row of `factor · M`.
     /// The arguments are the control point of the row, the first control point of the columns, and three entries per column.
     fn add_inertia_tangent(
         &self,
@@ -116,7 +116,7 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Calls `tangent` with pieces of the diagonals of `factor · M`.
+    /// Calls `tangent` with consecutive entries of each diagonal of `factor · M`.
     /// The arguments are the first control point of the rows, the offset of the columns, and three entries per control point.
     /// The offset counts control points and is negative to the left of the main diagonal.
     fn each_inertia_diagonal(
@@ -134,7 +134,7 @@ pub trait BodyDynamics: Send + Sync {
     fn extent(&self) -> Option<(Section, f64)>;
 
     /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
-    /// The list contains one normal for each quadrature point for the strain `Γ`.
+    /// The list contains one normal for each quadrature point of the axial and shear strain.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].
@@ -146,10 +146,10 @@ pub trait BodyDynamics: Send + Sync {
     /// Section forces and strains at a section at the start of the step; zero for particles and rigid bodies.
     fn section_forces(&self, place: &SectionPlace) -> SectionForces;
 
-    /// Length `∫ N_a dX` that belongs to each control point [length].
+    /// Length assigned to each control point: the integral of its basis function along the beam [length].
     fn lumped_lengths(&self) -> Vec<f64>;
 
-    /// Mass `∫ ρA N_a dX` that belongs to each control point, without point masses [mass].
+    /// Mass assigned to each control point: the integral of its basis function times the mass per length, without point masses [mass].
     fn lumped_masses(&self) -> Vec<f64>;
 
     /// Appends the present state to `state`.

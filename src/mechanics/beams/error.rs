@@ -34,10 +34,7 @@ pub enum BeamError {
     #[error(
         "taper: a place is {value}, but places must increase from 0 (start of the beam) to 1 (its end)"
     )]
-    TaperPlace {
-        /// First position that is not in increasing order [-].
-        value: f64,
-    },
+    TaperPlace { value: f64 },
     #[error(
         "taper: sections of different shapes (rectangle, circle, tube) cannot be interpolated; give sections of one shape, or stiffnesses and inertias"
     )]

@@ -1,19 +1,4 @@
-//! Dashpot for axial and shear strain at a quadrature point.
-//!
-//! ```text
-//! force:           N = C τ (by_change · ΔΓ - by_last · Γ̇)
-//! force in space:  n = Λs N
-//! rotation:        Λs = (1-s) Λ0 + s Λ1
-//! gradient:        gs = g0 + s Δg
-//! nodal force:     R_a = w N_a' n
-//! nodal moment:    S_a = -w N_a gs × n
-//! strain:          δΔΓ = Λ1ᵀ δg - J (Γ1 + e1) δω/q
-//! ```
-//!
-//! The vectors `R_a` and `S_a` are the force and moment on control point `a`.
-//! The vector `g = x'` is the derivative of the position with respect to arc length.
-//! The number `s` is the fraction of the step at which the directions are evaluated.
-//! Index 0 denotes the start of the step and 1 its end.
+//! Dashpot for axial and shear strain at a quadrature point. Equations: docs/theory.md, section 9.2.
 
 use super::dashpots::{Functions, RateCollocation, larger_missing};
 use super::dynamics::{ForceSummary, Movement};
@@ -25,18 +10,12 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 #[derive(Debug, Clone)]
 pub(super) struct ForceDashpot {
     functions: Functions,
-    /// Damping `C τ` [force·time].
     damping: Vec2,
-    /// Derivative `g0` of the position at the start of the step.
     gradient: Vec2,
-    /// Section rotation `Λ0` at the start of the step.
     rotation: Rotation,
-    /// Mean strain rate `Γ̇` of the previous step. `rate_before` is the mean strain rate of the step before the previous step.
     last_rate: Vec2,
     rate_before: Vec2,
-    /// Strain rate `Γ̇` at the start of the step, computed from the rates of the control points.
     start_rate: Vec2,
-    /// Force `N` of the present iterate.
     force: Vec2,
     last_force: Vec2,
     mismatch: Vec2,
@@ -46,22 +25,15 @@ pub(super) struct ForceDashpot {
 #[derive(Debug, Clone, Copy)]
 struct DashpotKinematics {
     end_rotation: Rotation,
-    /// Vector `Γ1 + e1` at the end of the step: the strain plus the first unit vector.
     end_stretch: Vec2,
-    /// Strain change `ΔΓ` in the step.
     change: Vec2,
-    /// Rotation `Λs` at the fraction `s` of the step.
     rotation: Rotation,
-    /// Derivative `gs` of the position at the fraction `s` of the step.
     gradient: Vec2,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle.
     inverse_q: f64,
-    /// Derivative of the force with respect to `ΔΓ`.
     resistance: Vec2,
 }
 
 impl ForceDashpot {
-    /// Creates a dashpot with the damping `C τ` [force·time] at a point of the initial axis with the given unit tangent.
     pub(super) fn new(functions: Functions, tangent: Vec2, damping: Vec2) -> Self {
         let rotation = Rotation { cos: tangent.x, sin: tangent.y };
         Self {
@@ -96,14 +68,10 @@ impl ForceDashpot {
         self.force = Vec2::zeros();
     }
 
-    /// Rate at the start of the step, extrapolated from the mean rates of the last two steps.
     fn carried(&self, late: f64) -> Vec2 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the error of the axial and shear rates in the last accepted step.
-    /// The argument `share` is the start of the last step on a scaled time axis.
-    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, share: f64) -> [RateMismatch; 2] {
         let of = |axis: usize| {
             let means = [self.rate_before[axis], self.last_rate[axis]];
@@ -127,7 +95,7 @@ impl ForceDashpot {
         }
     }
 
-    /// Strain change `ΔΓ = Λ̄ᵀ (Δg - t J ḡ)`, with means `Λ̄` and `ḡ` over the step and the tangent-scaled rotation increment `t`.
+    /// Strain change in the step, computed from increments.
     /// A difference of two strains would have the rounding error of numbers close to one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
@@ -188,7 +156,7 @@ impl ForceDashpot {
         self.mismatch = wanted - self.force;
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
-        // Derivatives: δn = A δg + b δω  and  δ(gs × n) = e·δg + f δω. The geometric terms contain the force of the present iterate.
+        // Derivatives of the force and of its moment. The geometric terms contain the force of the present iterate.
         let (end, share) = (now.end_rotation, at.fraction);
         let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
         let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));
@@ -247,14 +215,11 @@ impl ForceDashpot {
         self.functions.weight * self.force.dot(&change)
     }
 
-    /// Strain rate `Γ̇` at the start of the step, computed from rates of the control points.
     fn rate(&self, rates: &[Movement]) -> Vec2 {
         let (gradient, spin, _) = self.functions.interpolate(rates);
         self.rotation.to_section(gradient - perpendicular(self.gradient) * spin)
     }
 
-    /// Returns the strain rates at the start of the step.
-    /// For each component, the argument `selected` chooses between the present rate and a rate extrapolated from the last two steps.
     fn selected_rates(&self, selected: DashpotRates<'_>) -> Vec2 {
         let (present, carried) =
             (self.rate(selected.present), self.carried(selected.extrapolation));
@@ -265,8 +230,6 @@ impl ForceDashpot {
         )
     }
 
-    /// Returns the dashpot force in space at the start of the step [force], and its contribution to the moment [force·length].
-    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.damping.component_mul(&self.selected_rates(rates)));
         (force, self.functions.weight * cross(self.gradient, force))

@@ -1,4 +1,4 @@
-//! Largest strain mismatch, section forces and rotation over quadrature points. Several points are processed at once in vector lanes.
+//! Largest section forces, strain residual and rotation over quadrature points. Several points are processed at once in vector lanes.
 
 use pulp::Simd;
 
@@ -27,7 +27,6 @@ impl ForceMaxima<Lanes> {
         self.force.put(part, self.force.get(part).larger(force));
     }
 
-    /// Includes the strain mismatch and the moment of a quadrature point. Quadrature points for the curvature have a moment but no section force.
     #[inline(always)]
     pub(super) fn join_moment<V: Simd>(
         &mut self,

@@ -13,17 +13,14 @@ const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
-    /// Derivative `g0 = x'` of the position with respect to arc length at the start of the step.
     pub(super) gradient: Vec2,
-    /// Section rotation `Λ0` at the start of the step.
     pub(super) rotation: Rotation,
-    /// Axial and shear strain `Γ0` at the start of the step.
     pub(super) strain: Vec2,
     pub(super) last_force: Vec2,
 }
 
 impl<const N: usize> ForcePoint<N> {
-    /// Placeholder for an unused lane. Its strain is zero for all increments.
+    /// Quadrature point for an unused vector lane, with zero strain for all increments.
     pub(super) const EMPTY: Self = Self {
         axis: AxisPoint::EMPTY,
         gradient: Vec2::new(1.0, 0.0),
@@ -67,18 +64,14 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force for the present strain. The second value is true if the section force of the last solution is returned.
-    ///
-    /// A section force from the last solution has a small rounding error, in proportion to its own size.
-    /// A section force computed from the strain has a larger rounding error: the stiffness times the rounding error of a number close to one.
+    /// Section force for the present strain, and a flag that is true if the last solution has already determined this force.
+    /// The section force of the last solution has a smaller rounding error than a force computed from the strain.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;
         (if is_known { self.last_force } else { force_of(section, self.strain) }, is_known)
     }
 
-    /// Returns the section force `n` in space [force] and its contribution to the moment [force·length] at the start of the step.
-    /// The moment contribution is `w x' × n`, with the quadrature weight `w` and the derivative `x'` of the axis.
     pub(super) fn transmitted(&self, section: &Section) -> (Vec2, f64) {
         let force = self.rotation.to_space(self.present_force(section).0);
         (force, self.axis.weight * cross(self.gradient, force))
@@ -112,12 +105,10 @@ impl<const N: usize> ForcePoint<N> {
     }
 }
 
-/// Section force `C Γ` of a strain.
 fn force_of(section: &Section, strain: Vec2) -> Vec2 {
     Vec2::new(section.axial_stiffness * strain.x, section.shear_stiffness * strain.y)
 }
 
-/// Strain `C⁻¹ N` of a section force.
 fn strain_from(section: &Section, force: Vec2) -> Vec2 {
     Vec2::new(force.x / section.axial_stiffness, force.y / section.shear_stiffness)
 }

@@ -1,21 +1,7 @@
-//! Quadrature points for the axial and shear strain `Γ` in vector lanes. The section force is an independent unknown.
+//! Quadrature points for the axial and shear strain in vector lanes. The section force is an independent unknown (docs/theory.md, section 11).
 //!
-//! Definitions: `Δg = Σ N_a' Δx_a`, `Δω = Σ N_a Δω_a`, `1/q = dΔθ/dΔω` and `C = diag(EA, GA)`.
-//!
-//! ```text
-//! rotation at the end:  Λ1 = Λ0 R(Δθ(Δω))
-//! strain at the end:    Γ1 = Λ1ᵀ (g0 + Δg) - e1
-//! gradient:             gτ = g0 + τ Δg
-//! rotation:             Λτ = (1-τ) Λ0 + τ Λ1
-//! force:                N = C ((1-σ) Γ0 + σ Γ1)
-//! force in space:       n = Λτ N
-//! nodal force:          R_a = w N_a' n
-//! nodal moment:         S_a = -w N_a gτ × n
-//! ```
-//!
-//! The vectors `R_a` and `S_a` are the force and moment on control point `a`. The quadrature weight is `w`.
-//! Each point stores its gradient `g = x'` and its rotation, and updates them by increments.
-//! Because of these updates, the rounding errors of strains do not depend on the distance from the origin.
+//! Each point stores the derivative of its position and its rotation, and updates them by increments.
+//! With updates by increments, the rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 
@@ -28,28 +14,20 @@ use super::pair::Pair;
 use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 use super::{Rotation, RotationIncrement};
 
-/// Stiffness `C = diag(EA, GA)` of the points that one vector instruction processes.
 pub(super) type Stiffness<V> = Pair<Vector<V>>;
 
 #[derive(Debug, Clone)]
 pub(super) struct ForcePoints<const N: usize> {
     axis: AxisPoints<N>,
-    /// Gradient `g0` at the start of the step.
     gradient: Pair<Lanes>,
-    /// Section rotation `Λ0` at the start of the step.
     rotation: Rotation<Lanes>,
-    /// Strain `Γ0` at the start of the step.
     strain: Pair<Lanes>,
-    /// Section force `N` of the present iterate.
     force: Pair<Lanes>,
     /// Section force of the last step, with which the iteration of the next step starts.
-    /// In fast vibration, the last section force is closer to the solution than the section force for the strain at the start of the step.
-    /// The section force for the strain at the start may alternate in sign from step to step.
+    /// In fast vibration, the section force of the last step is closer to the solution than the force for the strain at the start of the step.
     last_force: Pair<Lanes>,
-    /// Strain mismatch `m = Γσ - C⁻¹ N` at the last evaluation: the difference between the strain of the configuration and the strain `C⁻¹ N`.
     mismatch: Pair<Lanes>,
     linearised_at: StrainKinematics<Lanes>,
-    /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
@@ -60,26 +38,19 @@ struct StrainKinematics<T> {
     end_strain: Pair<T>,
     collocated_rotation: Rotation<T>,
     collocated_gradient: Pair<T>,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle.
     inverse_q: T,
 }
 
-/// Section force `w n` and moment `w gτ × n` with the quadrature weight `w`, which are distributed to the control points.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Resultant {
     force: Pair<Lanes>,
     torque: Lanes,
 }
 
-/// Derivatives of the forces on control points.
-/// The entry `rows[i]` contains the derivatives of force component `i` with respect to the gradient and the rotation.
-/// The derivatives are multiplied by the quadrature weight and the basis functions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ForceTangent<const N: usize> {
     rows: [[Lanes; 3]; 3],
-    /// Factors `w N_a'`, with the quadrature weight `w` and the derivatives of the basis functions.
     weighted_slope: [Lanes; N],
-    /// Factors `-w N_a`, with the quadrature weight `w` and the basis functions.
     weighted_shape: [Lanes; N],
 }
 
@@ -136,7 +107,6 @@ impl<const N: usize> ForcePoints<N> {
         self.force = self.last_force;
     }
 
-    /// Interpolates increments of the control points. Returns the increment of the gradient, `Δg`, and the rotation increment, `Δω`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -154,7 +124,6 @@ impl<const N: usize> ForcePoints<N> {
         (gradient, rotation)
     }
 
-    /// Returns the configuration of an iterate, the strain `Γσ = (1-σ) Γ0 + σ Γ1` that determines the section force, and the rotation increment `Δω`.
     #[inline(always)]
     fn configuration<V: Simd>(
         &self,
@@ -179,7 +148,6 @@ impl<const N: usize> ForcePoints<N> {
         (configuration, strain + (end_strain - strain) * sigma, increment)
     }
 
-    /// Multiplies a section force in space by `weight` and the quadrature weights.
     #[inline(always)]
     fn apply_weights<V: Simd>(
         &self,
@@ -222,7 +190,6 @@ impl<const N: usize> ForcePoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_strain, increment) = self.configuration(part, at, moved);
-        // If only the strain at the start of the step is used, the section force is known.
         let force = if at.stress == 0.0 {
             stiffness.by_component(self.strain.get(part))
         } else {
@@ -259,7 +226,7 @@ impl<const N: usize> ForcePoints<N> {
         let condensed = force_in_space(rotation, stiffness, collocated_strain);
         self.apply_weights(part, weight, (gradient, condensed), resultant);
 
-        // Derivatives: δn = A δg + b δω  and  δ(gτ × n) = e·δg + f δω. The geometric terms contain the section force of the present iterate.
+        // Derivatives of the force and of its moment. The geometric terms contain the section force of the present iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
         let (e1, e2) = (Pair::first_axis(tau), Pair::second_axis(tau));
         let a1 = force_in_space(rotation, stiffness, end.to_section(e1)) * sigma;
@@ -294,7 +261,6 @@ impl<const N: usize> ForcePoints<N> {
         tangent: &ForceTangent<N>,
         block: &mut SpanTangent<V, N>,
     ) {
-        // For each component, the rows of all control points are multiples of one row.
         let mut rows: [BlockRow<N>; 3] = [[[0.0; 3]; N]; 3];
         for (row, [by_x, by_y, by_rotation]) in rows.iter_mut().zip(&tangent.rows) {
             let functions = self.axis.slope.iter().zip(&self.axis.shape);
@@ -316,7 +282,6 @@ impl<const N: usize> ForcePoints<N> {
         }
     }
 
-    /// Computes the forces `C m` that would remove the strain mismatch `m`. The directions of the forces are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -330,8 +295,7 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces after a correction of the increments:
-    /// Formula: `N ← N + C (m + σ δΓ1)`, with the strain mismatch `m` and the strain correction `δΓ1 = Λ1ᵀ δg - J (Γ1 + e1) δω/q`.
+    /// Corrects the section forces after a correction of the increments (docs/theory.md, section 11).
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,
@@ -381,13 +345,11 @@ impl StrainKinematics<Lanes> {
     }
 }
 
-/// Axial and shear strain `Γ = Λᵀ x' - e1`.
 #[inline(always)]
 fn strain_of<T: Number>(rotation: Rotation<T>, gradient: Pair<T>) -> Pair<T> {
     rotation.to_section(gradient) - Pair::first_axis(gradient.x)
 }
 
-/// Section force in space, `Λ C Γ`.
 #[inline(always)]
 fn force_in_space<T: Number>(
     rotation: Rotation<T>,

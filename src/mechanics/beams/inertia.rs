@@ -11,15 +11,11 @@ use super::sections::MassIntegral;
 /// Number of control points whose rows are processed together. The rows of these points stay in the cache while all diagonals are processed.
 const ROWS_PER_PASS: usize = 16;
 
-/// Inertia matrix of a beam with `N` nonzero basis functions per span: `∫ ρA N_a N_b dX` for x and y, `∫ ρI N_a N_b dX` for rotations.
+/// Inertia matrix of a beam with `N` nonzero basis functions per span, for displacements and rotations.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
-    /// Integrals `∫ N_a N_{a+k} dX` for k = 0 … N-1 [length]. If the inertia varies along the beam, also the integrals weighted with the inertia.
     gram: Vec<[I; N]>,
-    /// For each k, the integrals of all control points and components.
     diagonals: [Vec<f64>; N],
-    /// Factors that convert the integrals to inertia, for all control points and components.
-    /// A factor is the inertia per length, or one if the integrals contain the inertia already.
     shares: Vec<f64>,
     section: Section,
 }
@@ -56,8 +52,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(InertiaProduct { matrix: self, points, factor, rates, forces });
     }
 
-    /// Calls `take` with pieces of the diagonals of `factor · M`.
-    /// The arguments are the first control point of the rows, the offset of the columns, and three entries per control point.
     pub(super) fn each_diagonal(
         &self,
         factor: f64,
@@ -67,8 +61,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         Arch::new().dispatch(Diagonals { matrix: self, points, factor, take });
     }
 
-    /// Calls `take` with pieces of the rows of `factor · M`.
-    /// The arguments are the control point of the row, the first control point of the columns, and three entries per column.
     pub(super) fn each_row(
         &self,
         factor: f64,
@@ -88,7 +80,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
     }
 }
 
-/// Loop of [`each_diagonal`](InertiaMatrix::each_diagonal), compiled for each instruction set.
 struct Diagonals<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -123,7 +114,6 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
     }
 }
 
-/// Loop of [`add_product`](InertiaMatrix::add_product), compiled for each instruction set. The values of all components form one vector.
 struct InertiaProduct<'a, const N: usize, I> {
     matrix: &'a InertiaMatrix<N, I>,
     points: Range<usize>,
@@ -135,7 +125,6 @@ struct InertiaProduct<'a, const N: usize, I> {
 impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     type Output = ();
 
-    /// Adds the products diagonal by diagonal, in the order of the columns.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix: InertiaMatrix { gram, diagonals, shares, .. }, points, factor, .. } =
@@ -164,7 +153,6 @@ impl<const N: usize, I> WithSimd for InertiaProduct<'_, N, I> {
     }
 }
 
-/// Writes the products of a factor and the corresponding entries of two vectors.
 #[inline(always)]
 fn multiply<S: Simd>(simd: S, factor: f64, [one, two]: [&[f64]; 2], out: &mut [f64]) {
     let (head, rest) = S::as_mut_simd_f64s(out);
@@ -208,7 +196,6 @@ mod tests {
         rotary_inertia: 0.3,
     };
 
-    /// Product with rates, computed from the entries that [`InertiaMatrix::each_row`] gives.
     fn by_rows<const N: usize>(
         matrix: &InertiaMatrix<N, f64>,
         rates: &[Movement],
@@ -251,7 +238,6 @@ mod tests {
         assert_same_entries(count, cut.min(count)..count, &matrix);
     }
 
-    /// Compares the entries of diagonals and rows with those of a dense matrix.
     fn assert_same_entries<const N: usize>(
         count: usize,
         points: Range<usize>,

@@ -17,29 +17,17 @@ const ROUNDING: f64 = 1e-11;
 /// Kink of the axis under a point force, as far as the mesh does not represent it.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// Kink length `g(ξ)` as a function of the position `ξ` of the kink [length].
+    /// Kink length as a function of the position of the kink [length]: the compliance that the mesh misses, times the shear stiffness.
     pub length: PiecewisePolynomial,
-    /// Correction factor `μ` of the inertia of a moving kink [-].
-    /// The mesh misses the kinetic energy `½ μ ρA g |a|² v²` of a kink `a` with the speed `v`, averaged over the positions of the kink.
-    /// For exactly integrated strains, the correction factor is `μ = 1`.
+    /// Correction factor of the kinetic energy of a moving kink that the mesh does not represent [-].
     pub inertia: f64,
 }
 
-/// Computes the part of a kink that the mesh does not represent.
-/// A force `λ` across the beam at `ξ` displaces the axis at `ξ` by `g(ξ) λ/GA` more than the mesh represents.
+/// Computes the part of a kink that the mesh does not represent (docs/theory.md, section 10.1).
+/// A force across the beam displaces the axis by more than the mesh shows: by the kink length times the force divided by the shear stiffness.
 ///
-/// ```text
-/// kink length:                g(ξ) = l(ξ)ᵀ M⁻¹ r(ξ)
-/// matrix:                     M = Σ w t tᵀ/|x_ξ|
-/// integrals before the kink:  l = ∫ t dξ from the start to ξ
-/// integrals after the kink:   r = ∫ t dξ from ξ to the end
-/// ```
-///
-/// The matrix `M` contains products of the splines `t` of one degree less, summed over the points and weights of the shear strain.
-/// The length `g` is the compliance of the exact string under a point load minus the compliance of the string on the mesh.
-/// The kink length does not depend on the supports of the string.
-/// The kink length `g` is a polynomial of twice the degree on each span, and zero where the basis is C⁰.
-/// Returns `None` if `g` is not positive at a point where the basis is smoother. This occurs with fewer quadrature points than the patch rule has.
+/// The kink length is a polynomial of twice the degree on each span, and zero where the basis is only continuous.
+/// Returns `None` if the kink length is not positive at a smooth point, for example with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or the axis has a point without a tangent.
@@ -80,14 +68,11 @@ pub fn unresolved_kink(
     Ok(Some(MissedKink { length, inertia }))
 }
 
-/// Length of the control polygon of a span [length].
 fn control_polygon_length(control_points: &[Vec2], span: &Span, degree: usize) -> f64 {
     let own = &control_points[span.first..=span.first + degree];
     own.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
-/// For each B-spline of degree p-1 on a span, returns the integral from the start of the span as coefficients of a polynomial.
-/// The polynomial has a coordinate from -1 to 1 over the span. Its values are the sums `Σ_(a > t) N_a` of splines of degree p.
 fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     let degree = mesh.basis().degree();
     let half = 0.5 * (span.end - span.start);
@@ -100,12 +85,10 @@ fn fractions(mesh: &Mesh, span: &Span) -> Vec<Vec<f64>> {
     (0..degree).map(|lower| (0..=degree).map(|order| behind(lower, order)).collect()).collect()
 }
 
-/// String on a mesh of splines: its matrix `M`, the solution of `M a = 1`, and the entries of `M⁻¹` near the diagonal.
 struct SplineString {
     degree: usize,
     products: PositiveBand,
     factors: PositiveFactors,
-    /// Solution `a` of `M a = 1`: the coefficients of the strains of the string under a constant force.
     stretched: Vec<f64>,
     inverse: PositiveBand,
 }
@@ -119,9 +102,6 @@ impl SplineString {
         Some(Self { degree, products, factors, stretched, inverse })
     }
 
-    /// Residual for a load on the string that is one for all splines before index `cut`, and zero for the others.
-    /// The approximate response to the load has the strains under a constant force for the splines before `cut`, and zero strains for the others.
-    /// The residual is nonzero in a few entries around `cut` only. Returns the index of the first of these entries, and the entries.
     fn load_residual(&self, cut: usize) -> (usize, Vec<f64>) {
         let (size, reach) = (self.stretched.len(), self.degree - 1);
         let first = cut.saturating_sub(reach);
@@ -137,26 +117,17 @@ impl SplineString {
         (first, (first..(cut + reach).min(size)).map(entry).collect())
     }
 
-    /// Returns the entry `row` of the response `M⁻¹ r` to a load `r`.
     fn response(&self, row: usize, (first, load): &(usize, Vec<f64>)) -> f64 {
         (*first..).zip(load).map(|(at, r)| self.inverse.get(row, at) * r).sum()
     }
 
-    /// Coefficients of `g = lᵀ M⁻¹ r` on a span. The argument `fractions` contains, for each spline of the span, the part in front of the kink.
-    /// The splines of earlier spans lie entirely in front of the kink, and the splines of later spans behind it.
-    ///
-    /// The splines before the kink, and those after the kink, contribute the response to a load. The load is one for all splines up to an index.
-    /// The response consists of the strains under a constant force up to the index, and the response to the residual.
     fn polynomial(&self, span: &Span, fractions: &[Vec<f64>]) -> Vec<f64> {
         let own = span.first..span.first + self.degree;
         let (before, behind) = (self.load_residual(own.start), self.load_residual(own.end));
         let mut sum = vec![0.0; 2 * self.degree + 1];
-        // Products of splines before the kink with splines after the kink.
         sum[0] -=
             (before.0..).zip(&before.1).map(|(at, r)| r * self.response(at, &behind)).sum::<f64>();
         for (i, part) in own.clone().zip(fractions) {
-            // Product of the splines of earlier spans and the part of this spline behind the kink.
-            // Product of the part of this spline in front of the kink and the splines of later spans.
             let (earlier, later) = (self.response(i, &before), -self.response(i, &behind));
             sum[0] += earlier;
             sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += (later - earlier) * c);

@@ -30,7 +30,7 @@ pub struct Mesh {
 /// Numbers of quadrature points of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// Quadrature points for the axial and shear strain `Γ`. The section force at each point is an unknown that is condensed out.
+    /// Quadrature points for the axial and shear strain `Γ`. The section force at each point is an unknown that is eliminated.
     pub force: usize,
     /// Quadrature points for the bending strain `κ`.
     pub moment: usize,
@@ -38,8 +38,7 @@ pub struct PointCounts {
     pub inertia: usize,
 }
 
-/// Span of the mesh, its quadrature points for the strain `Γ`, and the number of points for the curvature `κ`.
-/// The quadrature is `∫ f dξ ≈ Σ weight · f(point)`.
+/// Span of the mesh with its quadrature points and weights for axial and shear strain, and the number of points for the curvature.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -48,7 +47,6 @@ pub(super) struct QuadratureSpan {
 }
 
 impl QuadratureSpan {
-    /// Quadrature rule of the span for the curvature `κ`.
     pub(super) fn moment_rule(&self) -> Result<GaussRule, GeometryError> {
         GaussRule::new(self.moment_points)
     }
@@ -191,7 +189,7 @@ impl Mesh {
     /// Spans with their quadrature points for `Γ` and `κ`.
     ///
     /// # Errors
-    /// Fails if the lengths of the spans in a smooth piece differ so much that no patch rule exists.
+    /// Fails if the lengths of smoothly joined spans differ so much that no patch rule exists.
     pub(super) fn quadrature_spans(&self) -> Result<Vec<QuadratureSpan>, BeamError> {
         let mut spans = Vec::with_capacity(self.spans());
         for run in self.runs() {
@@ -210,7 +208,6 @@ impl Mesh {
     }
 
     pub(super) fn is_smooth(&self, a: &Span, b: &Span) -> bool {
-        // Two consecutive spans with a C⁰ knot between them share a single basis function.
         b.first < a.first + self.basis.degree()
     }
 

@@ -1,10 +1,4 @@
-//! Dashpot for the curvature at a quadrature point.
-//!
-//! ```text
-//! moment:        M = EI τ (by_change · Δκ - by_last · κ̇)
-//! curvature:     Δκ = Δω'/q
-//! nodal moment:  S_a = w N_a' M/q
-//! ```
+//! Dashpot for the curvature at a quadrature point. Equations: docs/theory.md, section 9.2.
 
 use super::RotationIncrement;
 use super::dashpots::{Functions, RateCollocation, strain_missing};
@@ -14,14 +8,10 @@ use super::present_rates::{DashpotRates, RateMismatch};
 #[derive(Debug, Clone)]
 pub(super) struct MomentDashpot {
     functions: Functions,
-    /// Damping `EI τ` [force·length²·time].
     damping: f64,
-    /// Mean curvature rate `κ̇` of the previous step. `rate_before` is the mean curvature rate of the step before the previous step.
     last_rate: f64,
     rate_before: f64,
-    /// Curvature rate `κ̇` at the start of the step, computed from the rates of the control points.
     start_rate: f64,
-    /// Moment `M` of the present iterate.
     moment: f64,
     last_moment: f64,
     mismatch: f64,
@@ -30,12 +20,9 @@ pub(super) struct MomentDashpot {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct RotationKinematics {
-    /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: f64,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, followed by its derivative with respect to `Δω`.
     inverse_q: f64,
     inverse_q_slope: f64,
-    /// Derivative of the moment with respect to `Δκ`.
     resistance: f64,
 }
 
@@ -46,7 +33,6 @@ impl RotationKinematics {
 }
 
 impl MomentDashpot {
-    /// Creates a dashpot with the damping `EI τ` [force·length²·time] at a point of the axis.
     pub(super) fn new(functions: Functions, damping: f64) -> Self {
         Self {
             functions,
@@ -70,15 +56,10 @@ impl MomentDashpot {
         self.moment = 0.0;
     }
 
-    /// Curvature rate at the start of the step, extrapolated from the mean rates of the last two steps.
-    /// The argument `late` is the time since the middle of the last step. Its unit is the time between the middles of the last two steps.
     fn carried(&self, late: f64) -> f64 {
         self.last_rate + (self.last_rate - self.rate_before) * late
     }
 
-    /// Returns the error of the rate in the last accepted step.
-    /// The argument `fraction` is the start of the last step on a scaled time axis.
-    /// On the scaled time axis, the middle of the step before is 0, and the middle of the last step is 1.
     pub(super) fn last_rate_mismatch(&self, fraction: f64) -> RateMismatch {
         let damping = self.functions.weight * self.damping;
         RateMismatch::of(damping, self.start_rate, [self.rate_before, self.last_rate], fraction)
@@ -137,7 +118,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // Derivative δ(M/q) of the moment on control points. The geometric term contains the moment of the present iterate.
+        // Derivative of the moment on control points. The geometric term contains the moment of the present iterate.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =
@@ -180,7 +161,6 @@ impl MomentDashpot {
         self.functions.weight * self.moment * change
     }
 
-    /// Moment at the start of the step, computed from the given rates [force·length].
     pub(super) fn transmitted(&self, rates: DashpotRates<'_>) -> f64 {
         let [_, _, is_carried] = rates.is_extrapolated;
         self.damping

@@ -6,19 +6,17 @@ use super::Section;
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 
-/// Largest difference of two curvatures that are equal within rounding, multiplied by the integration length [rad].
 const SAME_TURN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoint<const N: usize> {
     pub(super) axis: AxisPoint<N>,
-    /// Curvature `κ0` at the start of the step.
     pub(super) curvature: f64,
     pub(super) last_moment: f64,
 }
 
 impl<const N: usize> MomentPoint<N> {
-    /// Placeholder for an unused lane. Its curvature is zero for all increments.
+    /// Quadrature point for an unused vector lane, with zero curvature for all increments.
     pub(super) const EMPTY: Self =
         Self { axis: AxisPoint::EMPTY, curvature: 0.0, last_moment: 0.0 };
 
@@ -31,7 +29,6 @@ impl<const N: usize> MomentPoint<N> {
         span.add_strain(StrainKind::Bending, self.axis.weight * section.bending_stiffness, row);
     }
 
-    /// Moment `M` at the start of the step [force·length]. The moment of the last solution is used if it agrees with the curvature within rounding.
     pub(super) fn transmitted(&self, section: &Section) -> f64 {
         let missing = self.curvature - self.last_moment / section.bending_stiffness;
         let is_known = self.axis.weight * missing.abs() <= SAME_TURN;

@@ -1,15 +1,7 @@
-//! Quadrature points for the curvature `κ` in vector lanes. The moment is an independent unknown.
+//! Quadrature points for the curvature in vector lanes. The moment is an independent unknown (docs/theory.md, section 11).
 //!
-//! ```text
-//! curvature at the end:              κ1 = κ0 + Δω'/q
-//! derivative of the rotation angle:  1/q = dΔθ/dΔω
-//! moment:                            M = EI ((1-σ) κ0 + σ κ1)
-//! nodal moment:                      S_a = w N_a' M/q
-//! ```
-//!
-//! The moment is linear in the curvature, so Newton's method would converge without the moment as an unknown.
-//! A moment computed from the increments would have the rounding error of the increments, multiplied by `EI`.
-//! In a stiff beam, the rounding error of a moment computed from increments is larger than the forces in the balance.
+//! A moment computed from increments would have the rounding error of the increments times the bending stiffness.
+//! In a stiff beam, the rounding error of such a moment exceeds the forces in the balance.
 
 use pulp::Simd;
 
@@ -24,30 +16,22 @@ use super::simd::{LANES, LaneChunk, Lanes, Number, Vector};
 #[derive(Debug, Clone)]
 pub(super) struct MomentPoints<const N: usize> {
     axis: AxisPoints<N>,
-    /// Curvature `κ0` at the start of the step.
     curvature: Lanes,
-    /// Moment `M` of the present iterate.
     moment: Lanes,
-    /// Moment of the last step, with which the iteration of the next step starts.
     last_moment: Lanes,
-    /// Curvature mismatch `m = κσ - M/EI` at the last evaluation.
     mismatch: Lanes,
     linearised_at: CurvatureKinematics<Lanes>,
-    /// Fraction `σ` of the step at the last linearisation.
     linearised_stress: f64,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
 struct CurvatureKinematics<T> {
-    /// Derivative `Δω'` of the rotation increment with respect to arc length.
     slope: T,
-    /// Derivative `1/q = dΔθ/dΔω` of the rotation angle, followed by its derivative with respect to `Δω`.
     inverse_q: T,
     inverse_q_slope: T,
 }
 
 impl<T: Number> CurvatureKinematics<T> {
-    /// Factors of `δω'` and `δω` in the correction of the curvature, `δκ1 = δω'/q + Δω' δ(1/q)`.
     #[inline(always)]
     fn curvature_by(&self) -> (T, T) {
         (self.inverse_q, self.slope * self.inverse_q_slope)
@@ -72,7 +56,6 @@ impl CurvatureKinematics<Lanes> {
     }
 }
 
-/// Derivatives of the moments on control points with respect to their rotations.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MomentTangent<const N: usize>([[Lanes; N]; N]);
 
@@ -115,7 +98,6 @@ impl<const N: usize> MomentPoints<N> {
         self.moment = self.last_moment;
     }
 
-    /// Interpolates increments of the control points. Returns the derivative of the rotation increment, `Δω'`, and the rotation increment, `Δω`.
     #[inline(always)]
     fn interpolate<V: Simd>(
         &self,
@@ -131,7 +113,6 @@ impl<const N: usize> MomentPoints<N> {
         (slope, rotation)
     }
 
-    /// Returns the rotation derivatives of an iterate, and the curvature `κσ = (1-σ) κ0 + σ κ1` that determines the moment.
     #[inline(always)]
     fn bend<V: Simd>(
         &self,
@@ -145,7 +126,6 @@ impl<const N: usize> MomentPoints<N> {
         (CurvatureKinematics { slope, inverse_q: rate, inverse_q_slope: rate_slope }, curvature)
     }
 
-    /// Adds the moment of the point in a lane to the moments on the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(&self, lane: usize, moment: &Lanes, forces: &mut [Movement; N]) {
         let moment = moment.lane(lane);
@@ -154,8 +134,6 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the weighted moments `w M/q` in the present iterate.
-    /// The quadrature weight is `w`, and the derivative of the rotation angle is `1/q = dΔθ/dΔω`.
     #[inline(always)]
     pub(super) fn take_forces<V: Simd>(
         &mut self,
@@ -167,7 +145,6 @@ impl<const N: usize> MomentPoints<N> {
         maxima: &mut ForceMaxima<Lanes>,
     ) {
         let (now, collocated_curvature) = self.bend(part, at, moved);
-        // If only the curvature at the start of the step is used, the moment is known.
         let known = stiffness * self.curvature.get(part);
         let moment = if at.stress == 0.0 { known } else { self.moment.get(part) };
         let length = self.axis.weight.get(part);
@@ -190,7 +167,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // Derivative δ(M/q) of the moment on control points. The geometric term contains the moment of the present iterate.
+        // Derivative of the moment on control points. The geometric term contains the moment of the present iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;
@@ -225,7 +202,6 @@ impl<const N: usize> MomentPoints<N> {
         }
     }
 
-    /// Computes the moments `EI m` that would remove the curvature mismatch `m`. The rotation derivatives are those of the last linearisation.
     #[inline(always)]
     pub(super) fn take_mismatch_forces<V: Simd>(
         &self,
@@ -239,7 +215,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the increments: `M ← M + EI (m + σ δκ1)`, with the mismatch `m` and the curvature correction `δκ1`.
+    /// Corrects the moments after a correction of the increments (docs/theory.md, section 11).
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

@@ -46,13 +46,13 @@ impl<T> Planar<T> for Pair<T> {
 }
 
 impl<T: Number> Pair<T> {
-    /// First unit vector. Its components have the number type of `like`.
+    /// First unit vector, with components of the same number type as `like`.
     #[inline(always)]
     pub(super) fn first_axis(like: T) -> Self {
         Self { x: like.same(1.0), y: like.same(0.0) }
     }
 
-    /// Second unit vector. Its components have the number type of `like`.
+    /// Second unit vector, with components of the same number type as `like`.
     #[inline(always)]
     pub(super) fn second_axis(like: T) -> Self {
         Self { x: like.same(0.0), y: like.same(1.0) }

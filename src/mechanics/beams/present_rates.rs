@@ -1,25 +1,21 @@
-//! Strain rates at the end of a step. They are accurate even if the steps are longer than the relaxation time of the dashpots.
+//! Strain rates at the end of a step, accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
-//! In the energy–momentum method, a rate that decays within a step changes from `v0` to about `-v0`.
-//! If a stiff dashpot takes part in a large motion, the error of the end rate, multiplied by the damping, appears in the forces at the end of a step.
-//! The mean rate over a step is accurate, but the rates at the start and the end of the step are not.
-//! The mean rates of the last two steps, extrapolated to the end, have an error of second order.
+//! In the energy–momentum method, a rate that decays within a step changes its sign from step to step.
+//! The mean rates of the last two steps are extrapolated to the end of the last step. The extrapolated rate has an error of second order.
 
 use super::Movement;
 
-/// Rates from which dashpot forces at the present time are computed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct DashpotRates<'a> {
     pub(super) present: &'a [Movement],
     /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-].
     pub(super) extrapolation: f64,
-    /// For axial, shear and bending rates: true if the rate is extrapolated from the means of the last two steps.
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Two squared differences of rates, multiplied by the damping coefficient of axial, shear or bending dashpots [energy/time].
-/// The field `off` is the difference between the rate at the start of a step and the interpolation of the mean rates of two steps.
-/// The field `apart` is the difference of the mean rates of this step and the previous one.
+/// Squared errors of a rate in a step, multiplied by the damping coefficient [energy/time].
+/// The field `off` compares the rate at the start of the step with the interpolated mean rates of two steps.
+/// The field `apart` compares the mean rates of this step and the previous step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -27,10 +23,6 @@ pub(super) struct RateMismatch {
 }
 
 impl RateMismatch {
-    /// Errors of a rate of a dashpot with the given damping coefficient [force·time; energy/time].
-    /// The argument `start` is the rate at the start of a step. The mean rates of the previous step and of this step are `before` and `now`.
-    /// The argument `fraction` is the start of the step on a scaled time axis.
-    /// On the scaled time axis, the middle of the previous step is 0, and the middle of this step is 1.
     pub(super) fn of(damping: f64, start: f64, [before, now]: [f64; 2], fraction: f64) -> Self {
         let (change, off) = (now - before, start - before);
         let off = off - fraction * change;
@@ -53,27 +45,20 @@ const MOST_OFF: f64 = 0.5;
 /// Measure of the accuracy with which the recent steps resolve the dashpot rates.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
-    /// Errors of axial, shear and bending rates, summed over all steps. Recent steps have larger weights.
     mismatches: [RateMismatch; 3],
-    /// Time from the middle of the last step to its end, as a fraction of the time between the middles of the last two steps [-].
-    /// Zero before the second step.
     extrapolation: f64,
-    /// Duration of the last step [time]; zero before the first step.
     before: f64,
 }
 
 impl RateResolution {
-    /// Start of a step on a scaled time axis. On this axis the middle of the previous step is 0, and the middle of this step is 1.
-    /// The argument `duration` is the length of this step [time]. Returns `None` if there is no previous step.
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time.
-        // The middles of a forward and a backward substep may coincide, and no interpolation between them exists.
+        // If the middles of a forward and a backward substep coincide, no interpolation between them exists.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }
 
-    /// Records a step of the given duration [time], which is infinite for an increment of zero duration.
     pub(super) fn add(&mut self, duration: f64, seen: [RateMismatch; 3]) {
         if !duration.is_finite() {
             *self = Self::default();
@@ -88,7 +73,6 @@ impl RateResolution {
         self.before = duration;
     }
 
-    /// Selects present or extrapolated rates for the dashpots of a span, separately for axial, shear and bending rates.
     pub(super) fn selected<'a>(&self, present: &'a [Movement]) -> DashpotRates<'a> {
         let is_off = |seen: RateMismatch| seen.off > MOST_OFF * MOST_OFF * seen.apart;
         let carried = self.mismatches.map(|seen| self.extrapolation > 0.0 && is_off(seen));
@@ -110,7 +94,6 @@ impl RateResolution {
 mod tests {
     use super::*;
 
-    /// Selections of rates after each of several steps. `rate` returns the rate at the end of a step.
     fn selections(rate: impl Fn(i32) -> f64) -> Vec<bool> {
         let mut watch = RateResolution::default();
         let mean = |step: i32| 0.5 * (rate(step) + rate(step - 1));

@@ -7,7 +7,7 @@ use crate::elementary::{atan, sin_cos, tan};
 /// Relation between a rotation increment `Δω` and the rotation angle `Δθ`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RotationIncrement {
-    /// Tangent-scaled increment: `Δθ = 2 atan(Δω/2)`. It satisfies `Λ1 - Λ0 = Δω J (Λ0 + Λ1)/2`, which makes the methods conserving.
+    /// Tangent-scaled increment `Δω` of the angle `Δθ = 2 atan(Δω/2)`, which conserving methods require.
     TangentScaled,
     /// Increment of the angle: `Δθ = Δω`.
     Angle,
@@ -69,7 +69,6 @@ impl RotationIncrement {
         }
     }
 
-    /// Tangent-scaled increment `2 tan(Δθ/2)` of the same rotation [-]. It satisfies `Λ1 - Λ0 = 2 tan(Δθ/2) J (Λ0 + Λ1)/2`.
     pub(crate) fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,
@@ -163,7 +162,6 @@ mod tests {
 
     #[test]
     fn the_difference_of_rotations_is_the_increment_times_their_mean() {
-        // The midpoint rule conserves momentum because Λ1 - Λ0 = Δω J Λ̄.
         let (start, increment) = (Rotation::by(-0.7), 0.9);
         let end = start.turned(RotationIncrement::TangentScaled, increment);
         let mean = start.mixed(end, 0.5);

@@ -1,30 +1,9 @@
-//! Section forces at any position along a beam.
+//! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The balance of a step determines integrals of the section forces.
-//! The integrals are weighted with derivatives of the basis functions and evaluated by the quadrature of the beam:
-//!
-//! ```text
-//! forces:                              Σ w N_a' n = F_a
-//! moments:                             Σ w N_a' M - Σ w N_a (x' × n) = T_a
-//! loads minus inertia, known exactly:  F_a and T_a
-//! ```
-//!
-//! The forces `n` and moments `M` at the quadrature points satisfy the two equations with quadrature sums.
-//! At the ends of a beam, the error of the forces at quadrature points is of first order in the span length, because the rules have few points.
-//! This module computes section forces that satisfy the equations with exact integrals.
-//! The computed forces are elements of the space `T` of all derivatives of the basis functions in a run (a sequence of smoothly joined spans):
-//!
-//! ```text
-//! forces:                  ∫ t n̂ dξ = Σ w t n for all t in T
-//! moments:                 ∫ t M̂ dξ = Σ w t M + ∫ v (Π m) dξ - Σ w v m for all t in T
-//! symbols in the moments:  v' = t, m = x' × n, ∫ t Π m dξ = Σ w t m
-//! ```
-//!
-//! The computed forces are projections of the exact section forces, also at the ends.
-//! With the span length `h` and the degree `p`, the error of `n` is of order `h^p`.
-//! The error of `M` is of order `h²` or higher. On linear elements, where `M` is constant, it is of order `h`.
-//! With the reproducing kernel of `T`, the forces are weighted sums over the quadrature points, with weights that decay within a few spans.
-//! Different runs are independent. Two runs meet at a joint or at a node of Lagrange elements, where each run has its own value.
+//! The forces at quadrature points satisfy the balance of a step only with quadrature sums. Near the ends their error is of first order.
+//! This module computes section forces that satisfy the balance with exact integrals, as weighted sums over the quadrature points.
+//! These forces are projections of the exact forces onto the derivatives of the basis functions.
+//! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own value.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
@@ -57,7 +36,6 @@ pub struct SectionForces {
 }
 
 impl SectionForces {
-    /// Creates section forces from a force in space [force], a moment [force·length] and a section normal of any length.
     pub(super) fn of(section: &Section, normal: Vec2, force: Vec2, moment: f64) -> Self {
         let normal = normal.normalize();
         let (axial, shear) = (normal.dot(&force), cross(normal, force));
@@ -72,7 +50,6 @@ impl SectionForces {
         }
     }
 
-    /// Adds a viscous force in space [force] and a viscous moment [force·length]. Strains do not change.
     pub(crate) fn with_viscous(self, (force, moment): (Vec2, f64)) -> Self {
         Self {
             axial: self.axial + self.normal.dot(&force),
@@ -127,11 +104,8 @@ impl SectionPlace {
 pub(super) struct ForceShare {
     pub(super) span: usize,
     pub(super) point: usize,
-    /// Weight of the section normal at the point [-].
     pub(super) of_normal: f64,
-    /// Weight of the section force at the point [-].
     pub(super) of_force: f64,
-    /// Weight of the moment contribution `w x' × n` of the point [-].
     pub(super) of_couple: f64,
 }
 
@@ -147,7 +121,6 @@ pub(super) struct MomentShare {
 #[derive(Debug, Clone)]
 pub struct SectionPoints {
     runs: Vec<SmoothRun>,
-    /// Largest number of points from which the normal is interpolated. Half of these points are in front of the position, the others behind it.
     most: usize,
 }
 
@@ -159,7 +132,6 @@ struct SmoothRun {
     of_moment: Vec<PointAt>,
 }
 
-/// Quadrature point with its parameter, its weight, the index of its span in the run and in the beam, and its index in the span.
 #[derive(Debug, Clone, Copy)]
 struct PointAt {
     xi: f64,

@@ -75,7 +75,6 @@ impl SectionVariation {
             }
             Self::Dimensions(all) => {
                 let (fraction, [before, after]) = between(all, part);
-                // An interpolation between two valid solids is valid.
                 let solid = before.mixed(&after, fraction);
                 Section::from_solid(solid).unwrap_or_else(|_| Section::of_solid(solid))
             }
@@ -127,7 +126,6 @@ impl SectionVariation {
     }
 }
 
-/// Values at the positions before and after a fraction of the length, and the interpolation weight of the second value.
 fn between<T: Copy>(all: &[(f64, T)], part: f64) -> (f64, [T; 2]) {
     let beyond = all.partition_point(|(place, _)| *place <= part).clamp(1, all.len() - 1);
     let [(start, before), (end, after)] = [all[beyond - 1], all[beyond]];
@@ -170,7 +168,6 @@ mod tests {
 
     #[test]
     fn means_are_integrals() {
-        // Height h: 0.9 over a quarter of the length, 0.5 over the rest. Integral of h³: from antiderivatives on the linear pieces.
         let mean = wedge().mean();
         assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)

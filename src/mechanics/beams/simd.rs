@@ -1,6 +1,6 @@
 //! Vector lanes: values of consecutive quadrature points that one vector instruction processes together.
 //!
-//! Each lane performs the operations of its point in the same order and without fused multiply–add.
+//! Each vector lane performs the operations of one quadrature point in a fixed order, without fused multiply–add.
 //! Vectors of any width give identical results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -25,7 +25,6 @@ pub(super) struct LaneChunk<V> {
 }
 
 impl<V: Simd> LaneChunk<V> {
-    /// Number of chunks needed for all lanes.
     pub(super) const COUNT: usize = {
         assert!(LANES.is_multiple_of(V::F64_LANES), "vectors are no longer than the lanes");
         LANES / V::F64_LANES

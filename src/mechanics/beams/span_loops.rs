@@ -16,7 +16,6 @@ use super::{RotationIncrement, Section};
 
 /// Operation that is repeated for all spans. Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
-    /// Performs the operation for a group of spans.
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
     fn over(self, groups: &mut [SpanGroup<N, S>])
@@ -113,7 +112,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for ForceAssembly<'_> {
     }
 }
 
-/// Adds the internal forces with strain mismatches condensed out, and calls the sink with the tangent matrix of each span.
 pub(super) struct Linearisation<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -165,7 +163,7 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     }
 }
 
-/// Adds the forces that would remove the strain mismatch.
+/// Adds the forces that would remove the strain residuals.
 pub(super) struct MismatchForces<'a> {
     pub(super) section: &'a Section,
     pub(super) weight: f64,

@@ -1,10 +1,8 @@
 //! Division of the spans of a beam into parts that threads process concurrently. Results are identical to those of one thread.
 //!
-//! The beam is cut at control points. Each part owns the control points up to the next cut, and the spans that have only these control points.
-//! A few spans have control points on both sides of a cut.
-//! The terms of each sum must be added in the order of the spans, because the order affects rounding.
-//! Hence the contributions of spans across a cut are computed twice. The first computation adds them to the control points after the cut.
-//! After all parts are completed, the second computation adds them to the control points before the cut.
+//! The beam is cut at control points. A few spans have control points on both sides of a cut.
+//! The contributions of these spans are computed twice, because rounding depends on the order of additions.
+//! The first computation adds to the control points after the cut, the second to the control points before the cut.
 
 use std::ops::Range;
 
@@ -13,7 +11,6 @@ use super::sections::Sections;
 use super::span_points::{SPANS_AT_ONCE, SpanGroup};
 use crate::threads::run_concurrently;
 
-/// Data of one part: its context, its spans, its first control point and its sums.
 type PartOf<'a, const N: usize, S, C> =
     (&'a mut C, &'a mut [SpanGroup<N, S>], usize, &'a mut [Movement]);
 

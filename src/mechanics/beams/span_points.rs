@@ -17,10 +17,8 @@ use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
 /// Number of spans whose points are arranged in lanes together.
-/// With this number of spans, few vector lanes are unused and the points stay in the cache.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
-/// Span of a group, with the range of its points in the group.
 #[derive(Debug, Clone)]
 pub(super) struct SpanPlace {
     pub(super) first: usize,
@@ -28,7 +26,6 @@ pub(super) struct SpanPlace {
     pub(super) moment_points: Range<usize>,
 }
 
-/// Span with `N` nonzero basis functions, and its quadrature points before they are arranged in lanes.
 pub(super) struct SpanOfPoints<const N: usize> {
     pub(super) first: usize,
     pub(super) force_points: Vec<(ForcePoint<N>, Section)>,
@@ -71,7 +68,6 @@ pub(super) fn group_of<const N: usize, S>(
 }
 
 impl<const N: usize, S: Sections> SpanGroup<N, S> {
-    /// Arranges the quadrature points of consecutive spans in lanes.
     pub(super) fn side_by_side(spans: &[SpanOfPoints<N>]) -> Self {
         let (mut places, mut of_force, mut of_moment) = (Vec::new(), 0, 0);
         for span in spans {
@@ -243,7 +239,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         points.map(|(point, section)| point.strain_energy(section)).sum::<f64>()
     }
 
-    /// Adds the axial, shear and bending strain energies of the spans in the group to `sums` [energy].
     pub(super) fn add_strain_energies(&self, section: &Section, sums: &mut [f64; 3]) {
         for span in &self.spans {
             for (point, section) in self.force_points_of(section, span) {

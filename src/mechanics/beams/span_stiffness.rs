@@ -1,15 +1,7 @@
 //! Static stiffness of a span in factored form: strains with their stiffnesses, and the geometric stiffness due to section forces.
 //!
-//! ```text
-//! strain:                           δΓ = Λᵀ δg - J (Γ + e1) δω
-//! curvature:                        δκ = δω'
-//! rows of B:                        δΓ and δκ
-//! stiffness C of the rows of B:     w diag(EA, GA) and w EI
-//! geometric stiffness:              K_g = p qᵀ + q pᵀ
-//! rows of the geometric stiffness:  p·δ = w (Λ J N·δg - ½ g·ΛN δω) and q·δ = δω
-//! ```
-//!
-//! The stiffness is `K = Bᵀ C B + K_g`. This sum is not formed, because rounding errors of the large first term would exceed its small eigenvalues.
+//! The stiffness matrix is not formed, because rounding errors of its large entries would exceed its small eigenvalues.
+//! Equations: docs/theory.md, section 15.
 
 /// Type of a strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +43,6 @@ impl SpanStiffness {
         self.rounding_fractions.clear();
     }
 
-    /// Adds the row of a strain or curvature, with its derivatives with respect to x, y and rotation of each control point.
     pub(super) fn add_strain<const N: usize>(
         &mut self,
         kind: StrainKind,
@@ -63,7 +54,6 @@ impl SpanStiffness {
         self.kinds.push(kind);
     }
 
-    /// Adds a pair of rows `p` and `q` of the geometric stiffness.
     pub(super) fn add_twist<const N: usize>(
         &mut self,
         doubt: f64,

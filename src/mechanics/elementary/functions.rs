@@ -129,7 +129,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Difference of two numbers as a multiple of the unit in the last place.
     fn apart(a: f64, b: f64) -> u64 {
         let place = |x: f64| match x.to_bits() as i64 {
             bits if bits < 0 => i64::MIN - bits,
@@ -158,13 +157,11 @@ mod tests {
             (atan2(0.0, -1.0), atan2(-0.0, -1.0)),
             (std::f64::consts::PI, -std::f64::consts::PI)
         );
-        // The squares of the arguments below overflow.
         let large = 2_f64.powi(900);
         assert_eq!((hypot(3.0, 4.0), hypot(3.0 * large, 4.0 * large)), (5.0, 5.0 * large));
         assert_eq!((sin(-0.0).to_bits(), cos(0.0)), ((-0.0_f64).to_bits(), 1.0));
     }
 
-    // The functions of the machine are accurate to about one unit in the last place. Both results must therefore agree closely.
     proptest! {
         #[test]
         fn they_are_those_of_the_machine_but_for_the_last_bits(

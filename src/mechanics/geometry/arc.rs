@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Relative amount by which the angle of an arc may exceed a full turn because of rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Arc of a circle of radius `r` about the point `c`, `x(ξ) = c + r (cos φ, sin φ)` with `φ = (1 - ξ) φ_from + ξ φ_to` on `[0, 1]`.
+/// Arc of a circle about a centre between two angles, with a parameter from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Vec2, f64, f64, f64)")]
 pub struct CircularArc {

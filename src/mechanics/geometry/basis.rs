@@ -97,8 +97,6 @@ impl Basis {
         }
     }
 
-    /// Computes functions of degree `WIDTH - 1` like [`evaluate_in`](Self::evaluate_in), up to third derivatives.
-    /// The largest width can be used for any degree.
     #[inline]
     pub(super) fn evaluate_low<const WIDTH: usize>(
         &self,
@@ -196,7 +194,6 @@ impl Basis {
     }
 }
 
-/// Divides the interval of the breaks into `ratio` times as many spans (rounded up). Their lengths have the same relative variation.
 fn respaced(breaks: &[f64], ratio: f64) -> Vec<f64> {
     let old = (breaks.len() - 1) as f64;
     let new = (old * ratio).ceil().max(1.0);

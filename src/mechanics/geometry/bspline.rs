@@ -5,25 +5,13 @@ use super::{KnotVector, Span};
 
 /// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
 ///
-/// The functions and their derivatives are computed from the splines of one degree less.
-/// The spline `N_m` of degree `q - 1` contributes to two splines of degree `q`. Its support is `[ξ_m, ξ_{m+q}]` and has the length `h_m`.
-/// Reference: The NURBS Book, equations 2.5 and 2.7. The results are those of algorithm A2.3.
-///
-/// ```text
-/// contribution to N_{m-1}:  (ξ_{m+q} - ξ)/h_m · N_m
-/// derivatives of N_{m-1}:   -q/h_m times the derivatives of N_m of one order less
-/// contribution to N_m:      (ξ - ξ_m)/h_m · N_m
-/// derivatives of N_m:       q/h_m times the derivatives of N_m of one order less
-/// ```
+/// The functions and their derivatives follow from the splines of one degree less (The NURBS Book, equations 2.5 and 2.7).
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {
     let mut basis = BasisValues::zeros(span.first, knots.degree());
     fill((knots, knots.degree()), span, xi, basis.rows_mut());
     basis
 }
 
-/// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
-///
-/// The degree is a separate argument so that it can be a compile-time constant.
 #[inline(always)]
 pub(super) fn fill<const WIDTH: usize>(
     (knots, degree): (&KnotVector, usize),
@@ -33,7 +21,6 @@ pub(super) fn fill<const WIDTH: usize>(
 ) {
     let most = rows.len() - 1;
     rows[0][0] = 1.0;
-    // The local knots are the `degree` knots before the span and the `degree` knots after it.
     let local = &knots.knots()[span.first + 1..=span.first + 2 * degree];
     for q in 1..=degree {
         let supports = local[degree - q..degree]
@@ -47,8 +34,6 @@ pub(super) fn fill<const WIDTH: usize>(
     }
 }
 
-/// Returns the values of the basis functions at `xi` that have one degree more than the functions `lower`.
-/// The argument `supports` contains the ends of the supports of `lower`.
 #[inline(always)]
 fn raise<const WIDTH: usize>(
     lower: &[f64; WIDTH],
@@ -57,15 +42,13 @@ fn raise<const WIDTH: usize>(
 ) -> [f64; WIDTH] {
     let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
-        // The quotients are computed first, because they are exactly 0 and 1 at the ends of the span.
+        // The quotients of the recurrence are computed first, because they are exactly 0 and 1 at the ends of the span.
         higher[j] += (end - xi) / (end - start) * value;
         higher[j + 1] += (xi - start) / (end - start) * value;
     }
     higher
 }
 
-/// Computes the derivatives of one order for the splines of degree `q`.
-/// The input contains the derivatives of the next lower order of the splines of degree `q - 1`.
 #[inline(always)]
 fn differentiate<const WIDTH: usize>(
     lower: &[f64; WIDTH],

@@ -2,7 +2,6 @@
 
 use std::ops::{AddAssign, Div, Mul, SubAssign};
 
-/// Row of a collocation system, for example the equation `Σ_i N_i(ξ_r) P_i = x(ξ_r)`.
 pub(super) struct CollocationRow<R> {
     pub(super) first: usize,
     pub(super) entries: Vec<f64>,

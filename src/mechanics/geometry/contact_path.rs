@@ -6,25 +6,19 @@ use super::piecewise::FunctionOnPath;
 use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
-/// Basis functions `B_i` along a path from the parameter ξ₀ to ξ₁. The path belongs to a point that slides along `Σ B_i(ξ) x_i` during a time step.
-/// The divided differences `(B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)` are accurate for paths of any length, including zero.
-/// The divided differences are also accurate across breaks of any continuity.
+/// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
+/// The divided differences of the functions are accurate for paths of any length, including zero, and across breaks.
 ///
-/// The functions `first, first + 1, …` are all functions that are nonzero somewhere on the spans of the path.
 /// Every accessor returns one value for each function that is nonzero somewhere on the path. Parameters and results are dimensionless.
-///
-/// If a path starts at a break, its first span is the span in its direction. If a path ends at a break, its last span is the span before the break.
-/// A path of zero length at a break lies in the span on the right. Outside the domain, the polynomials of the end spans are extended.
+/// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
+/// Outside the domain, the polynomials of the end spans are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
-    /// Data shared by all copies of a path on the same beam.
     line: Arc<PathSupport>,
     interval: PathInterval,
-    /// Basis functions at the start of the path, on the first span of the path. The functions are kept for later paths with the same start.
     departing: Option<(f64, usize, FunctionRow)>,
     first: usize,
     length: usize,
-    /// Values of the functions, with one row for each [`PathQuantity`]. Memory is allocated for the longest path.
     numbers: Vec<f64>,
 }
 
@@ -46,7 +40,6 @@ const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
-    /// For each span, the number of breaks at or before its start at which derivatives of the basis jump.
     kinks: Vec<usize>,
     /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
@@ -65,7 +58,6 @@ struct PathPiece {
     enter: f64,
     leave: f64,
     before: f64,
-    /// Length of this piece of the path, as a fraction of the whole path.
     share: f64,
 }
 
@@ -90,8 +82,7 @@ impl ContactPath {
         passage
     }
 
-    /// Replaces the path by the path from ξ₀ = `from` to ξ₁ = `to`. The start must lie in the domain; the end may lie outside.
-    ///
+    /// Replaces the path by the path from `from` to `to`. The start must lie in the domain; the end may lie outside.
     /// If a parameter is not finite, all values are NaN, and the functions are those of the span of `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
@@ -127,37 +118,35 @@ impl ContactPath {
         self.first
     }
 
-    /// Values `B_i(ξ₀)` at the start of the path. They sum to one.
+    /// Values of the functions at the start of the path. The values sum to one.
     pub fn start(&self) -> &[f64] {
         self.row(PathQuantity::Start)
     }
 
-    /// Values `B_i(ξ₁)` at the end of the path. They sum to one.
+    /// Values of the functions at the end of the path. The values sum to one.
     pub fn end(&self) -> &[f64] {
         self.row(PathQuantity::End)
     }
 
-    /// Mean values `½ (B_i(ξ₀) + B_i(ξ₁))` of the functions at the start and the end. They sum to one.
+    /// Means of the values of the functions at the start and the end of the path. The means sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
 
-    /// Derivatives `B_i'(ξ₁)` at the end of the path, as limits from inside the path. They sum to zero.
+    /// Derivatives of the functions at the end of the path, as limits from inside the path. The derivatives sum to zero.
     pub fn slope(&self) -> &[f64] {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences `D_i = (B_i(ξ₁) - B_i(ξ₀)) / (ξ₁ - ξ₀)`, accurate to rounding. They are the means of `B_i'` over the path.
-    /// For a path of zero length the divided differences are `B_i'(ξ₀)`. They sum to zero.
+    /// Divided differences of the functions: their mean derivatives over the path, accurate to rounding. They sum to zero.
+    /// The divided differences of a path of zero length are the derivatives of the functions at its start.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path for fixed ξ₀: `∂D_i/∂ξ₁ = (B_i'(ξ₁) - D_i) / (ξ₁ - ξ₀)`.
-    /// For a path of zero length, the derivatives `∂D_i/∂ξ₁` are `½ B_i''(ξ₀)`. They sum to zero.
-    ///
-    /// The derivatives are accurate to rounding unless `B_i'` jumps on the path.
-    /// If `B_i'` jumps, the derivatives have the rounding error of `D_i` divided by the length of the path.
+    /// Derivatives of the divided differences with respect to the end of the path, for a fixed start. They sum to zero.
+    /// For a path of zero length, these derivatives are half the second derivatives of the functions.
+    /// The derivatives are accurate to rounding unless a first derivative of the basis jumps on the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
@@ -252,13 +241,7 @@ impl ContactPath {
         }
     }
 
-    /// Sets all rows for a path within one span.
-    /// The integrals of [`add_quotients`](Self::add_quotients) follow from the derivatives at the end of the path, with `h = Δξ`:
-    ///
-    /// ```text
-    /// divided difference:  D = B' - h/2 B'' + h²/6 B'''
-    /// derivative of D:     ∂D/∂ξ1 = ½ B'' - h/6 B'''
-    /// ```
+    /// Sets all rows for a path within one span, by Taylor series about the end of the path.
     fn set_in_span<const WIDTH: usize>(
         &mut self,
         interval: PathInterval,
@@ -289,8 +272,6 @@ impl ContactPath {
         add(mean, 0, 0.5, end);
     }
 
-    /// Adds the integral `D = ∫ B'(ξ₀ + s Δξ) ds` over the path, with `0 < s < 1`.
-    /// Unless `B'` jumps on the path, adds also its derivative `∫ s B''(ξ₀ + s Δξ) ds`.
     fn add_quotients<const WIDTH: usize>(&mut self, interval: PathInterval) {
         let PathSupport { basis, spans, kinks, rule } = &*self.line;
         let [.., slope, difference, change] = rows(&mut self.numbers, self.length);
@@ -319,7 +300,6 @@ impl ContactPath {
 }
 
 impl PathInterval {
-    /// Indices of the leftmost and the rightmost span of the path.
     fn lowest_and_highest(self) -> (usize, usize) {
         (self.departure.min(self.arrival), self.departure.max(self.arrival))
     }
@@ -346,8 +326,6 @@ impl PathInterval {
     }
 }
 
-/// For each span, counts the breaks at or before its start at which first derivatives of the basis jump.
-/// At a break with a jump of the derivative, at most one function is nonzero on both sides.
 fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
     let jumps = spans.windows(2).map(|pair| usize::from(pair[1].first - pair[0].first >= degree));
     std::iter::once(0)
@@ -359,7 +337,6 @@ fn kinks(spans: &[Span], degree: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Splits `numbers` into one row for each [`PathQuantity`]. A row has one number for each of `length` basis functions.
 fn rows(numbers: &mut [f64], length: usize) -> [&mut [f64]; QUANTITIES] {
     let mut rows = numbers.chunks_exact_mut(length);
     std::array::from_fn(|_| rows.next().unwrap_or_default())

@@ -2,16 +2,12 @@
 
 use super::Vec2;
 
-/// Error of a curve, basis or quadrature rule. Every message contains the object, the value, the allowed range and, if it is not obvious, the remedy.
+/// Error of a curve, basis or quadrature rule.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     #[error("{object} is {value}, but must be a finite number")]
-    NotFinite {
-        /// Name of the rejected number, such as "knot 3".
-        object: String,
-        value: f64,
-    },
+    NotFinite { object: String, value: f64 },
 
     #[error("degree {degree} is not available; allowed are 1 to {largest}")]
     Degree { degree: usize, largest: usize },
@@ -23,11 +19,7 @@ pub enum GeometryError {
         "continuity {continuity} is not possible with degree {degree}; allowed are 0 to {}",
         .degree - 1
     )]
-    Continuity {
-        /// Requested number of continuous derivatives at interior knots.
-        continuity: usize,
-        degree: usize,
-    },
+    Continuity { continuity: usize, degree: usize },
 
     #[error(
         "knots: {count} are too few for degree {degree}; an open knot vector has at least {} ({} at each end)",
@@ -39,93 +31,39 @@ pub enum GeometryError {
         "knots: entry {index} ({value}) is smaller than entry {} ({previous}); knots must not decrease",
         .index - 1
     )]
-    DecreasingKnots {
-        /// Index of the knot, counted from 0.
-        index: usize,
-        /// Knot [-].
-        value: f64,
-        /// Previous knot [-].
-        previous: f64,
-    },
+    DecreasingKnots { index: usize, value: f64, previous: f64 },
 
-    /// Error for an end knot with a wrong multiplicity. The curve would not end at its last control point.
     #[error(
         "knots: the {end} knot {knot} has multiplicity {multiplicity}; an open knot vector of degree {degree} \
          repeats it {} times: write {}",
         .degree + 1, open_end(end, *knot, *degree)
     )]
-    EndMultiplicity {
-        /// The word "first" or "last".
-        end: &'static str,
-        /// End knot [-].
-        knot: f64,
-        multiplicity: usize,
-        degree: usize,
-    },
+    EndMultiplicity { end: &'static str, knot: f64, multiplicity: usize, degree: usize },
 
-    /// Error for an interior knot with so many repetitions that the curve would be discontinuous.
     #[error(
         "knots: the interior knot {knot} has multiplicity {multiplicity}, but at most {degree} (the degree) is allowed for a continuous curve"
     )]
-    InteriorMultiplicity {
-        /// Interior knot [-].
-        knot: f64,
-        multiplicity: usize,
-        /// Degree of the splines, the largest allowed multiplicity.
-        degree: usize,
-    },
+    InteriorMultiplicity { knot: f64, multiplicity: usize, degree: usize },
 
-    /// Error for a span between almost equal knots or breaks, whose length is due to rounding.
     #[error(
         "{object}: the span from {start} to {end} is shorter than 1e-12 of the domain; make the two values equal or move them apart"
     )]
-    ShortSpan {
-        /// The word "knots" or "breaks".
-        object: &'static str,
-        /// Start of the span [-].
-        start: f64,
-        /// End of the span [-].
-        end: f64,
-    },
+    ShortSpan { object: &'static str, start: f64, end: f64 },
 
     #[error("knots: all are {knot}, but the last knot must be larger than the first")]
-    EmptyDomain {
-        /// Value of the knots [-].
-        knot: f64,
-    },
+    EmptyDomain { knot: f64 },
 
     #[error(
         "breaks: entry {index} ({value}) is not larger than entry {} ({previous}); breaks must increase",
         .index - 1
     )]
-    BreakOrder {
-        /// Index of the break, counted from 0.
-        index: usize,
-        /// Break [-].
-        value: f64,
-        /// Previous break [-].
-        previous: f64,
-    },
+    BreakOrder { index: usize, value: f64, previous: f64 },
 
     #[error("parameter {xi} is outside [{start}, {end}]")]
-    OutsideDomain {
-        /// Parameter [-].
-        xi: f64,
-        /// Start of the domain [-].
-        start: f64,
-        /// End of the domain [-].
-        end: f64,
-    },
+    OutsideDomain { xi: f64, start: f64, end: f64 },
 
     #[error("knot {xi} cannot be inserted; it must lie strictly between {start} and {end}")]
-    InsertOutside {
-        /// Knot to be inserted [-].
-        xi: f64,
-        /// Start of the domain [-].
-        start: f64,
-        /// End of the domain [-].
-        end: f64,
-    },
+    InsertOutside { xi: f64, start: f64, end: f64 },
 
     #[error(
         "control points: {points} given; the knot vector has {functions} basis functions and needs one each"
@@ -139,62 +77,34 @@ pub enum GeometryError {
         "points: entries {} and {index} are both ({}, {}); consecutive points must differ: leave one out",
         .index - 1, .point.x, .point.y
     )]
-    CoincidentPoints {
-        /// Index of the second point, counted from 0.
-        index: usize,
-        /// Position of both points [length].
-        point: Vec2,
-    },
+    CoincidentPoints { index: usize, point: Vec2 },
 
     #[error("line: start and end are both ({}, {}), but must differ", .point.x, .point.y)]
-    ZeroLengthLine {
-        /// Position of the start and the end [length].
-        point: Vec2,
-    },
+    ZeroLengthLine { point: Vec2 },
 
     #[error("spline: all control points are ({}, {}); at least one must differ", .point.x, .point.y)]
-    ZeroLengthSpline {
-        /// Position of the control points [length].
-        point: Vec2,
-    },
+    ZeroLengthSpline { point: Vec2 },
 
     #[error("arc: radius is {radius}, but must be positive")]
-    ArcRadius {
-        /// Radius [length].
-        radius: f64,
-    },
+    ArcRadius { radius: f64 },
 
     #[error(
         "arc: start and end angle are both {angle}, but must differ (add 2π for a full circle)"
     )]
-    ZeroArc {
-        /// Start and end angle [rad].
-        angle: f64,
-    },
+    ZeroArc { angle: f64 },
 
     #[error(
         "arc: the angle between start and end is {sweep} rad, but at most 2π is allowed in either direction"
     )]
-    ArcTurn {
-        /// Angle from start to end [rad].
-        sweep: f64,
-    },
+    ArcTurn { sweep: f64 },
 
     #[error(
         "curve: no tangent at parameter {xi}, where its derivative is zero; move coincident control points apart, or evaluate at another parameter"
     )]
-    NoTangent {
-        /// Parameter [-].
-        xi: f64,
-    },
+    NoTangent { xi: f64 },
 
     #[error("arc length {arc_length} is outside the length of the curve, [0, {length}]")]
-    OutsideLength {
-        /// Requested arc length [length].
-        arc_length: f64,
-        /// Length of the curve [length].
-        length: f64,
-    },
+    OutsideLength { arc_length: f64, length: f64 },
 
     #[error("quadrature: {points} points requested, but 1 to {largest} are allowed")]
     QuadraturePoints { points: usize, largest: usize },

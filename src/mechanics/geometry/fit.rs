@@ -22,7 +22,6 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     let points =
         abscissae.iter().map(|&xi| curve.point(corresponding(xi, basis.domain(), curve.domain())));
     match (curve, basis) {
-        // If the control points lie on a line at the abscissae of the basis, splines and Lagrange elements represent the line exactly.
         (Curve::Line(_), _) | (_, Basis::Lagrange(_)) => points.collect(),
         _ => {
             let rows = abscissae.iter().zip(points).map(|(&xi, point)| {

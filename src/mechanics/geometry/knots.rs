@@ -179,7 +179,6 @@ impl KnotVector {
             .collect()
     }
 
-    /// Returns true if an affine map of the parameter converts this knot vector to `other`, up to rounding.
     pub(super) fn is_affine_to(&self, other: &Self) -> bool {
         self.degree == other.degree
             && self.knots.len() == other.knots.len()
@@ -256,7 +255,6 @@ pub(super) fn check_spans(spans: usize) -> Result<(), GeometryError> {
     }
 }
 
-/// Rejects domains of infinite length, and spans whose length is due to rounding. `breaks` must increase.
 pub(super) fn check_span_lengths(
     object: &'static str,
     breaks: &[f64],

@@ -126,7 +126,6 @@ impl LagrangeBasis {
         basis
     }
 
-    /// Fills rows of zeros with the functions and their derivatives. Each row contains the derivatives of one order.
     pub(super) fn fill<const WIDTH: usize>(&self, span: &Span, xi: f64, rows: &mut [[f64; WIDTH]]) {
         for j in 0..=self.degree {
             let derivatives = self.polynomial(span, j, xi);
@@ -134,8 +133,6 @@ impl LagrangeBasis {
         }
     }
 
-    /// Polynomial `L_j = Π_{m≠j} (ξ - ξ_m) / (ξ_j - ξ_m)` with its derivatives, computed by multiplying the linear factors.
-    /// For a linear factor `f`, Leibniz' rule is `(f g)⁽ᵏ⁾ = f g⁽ᵏ⁾ + k f' g⁽ᵏ⁻¹⁾`.
     fn polynomial(&self, span: &Span, j: usize, xi: f64) -> FunctionRow {
         let mut derivatives = FunctionRow::default();
         derivatives[0] = 1.0;

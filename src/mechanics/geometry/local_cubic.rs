@@ -4,7 +4,7 @@ use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
 /// Largest angle between two chords that count as parallel [rad].
-/// A sum of chords counts as zero if it is shorter than this number times the lengths of the chords.
+/// Largest length of a sum of chords that counts as zero, as a multiple of the lengths of the chords.
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
@@ -43,8 +43,7 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// Common speed `α = |x'|` at the start, the middle and the end of a cubic piece on the unit interval.
-/// The speed is the positive root of equation 9.50, for a `chord` and the sum `T_0 + T_3` of the end tangents.
+/// Common speed at the start, the middle and the end of a cubic piece (The NURBS Book, equation 9.50).
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);
@@ -185,14 +184,12 @@ mod tests {
             for (&xi, &point) in breaks.iter().zip(&points) {
                 prop_assert!(near(curve.derivative(xi, 0).unwrap(), point));
             }
-            // The speed at the ends and in the middle is equal for all pieces.
             let speed = curve.derivative(0.0, 1).unwrap().norm();
             for (span, next) in knots.spans().iter().zip(breaks.iter().skip(1)) {
                 let middle = curve.derivative(0.5 * (span.start + span.end), 1).unwrap().norm();
                 prop_assert!((middle - speed).abs() < 1e-9 * speed);
                 prop_assert!((curve.derivative(*next, 1).unwrap().norm() - speed).abs() < 1e-9 * speed);
             }
-            // The derivatives from both sides are equal at the double knots.
             for &xi in &breaks[1..spans] {
                 prop_assert_eq!(knots.multiplicity(xi), 2);
                 let jump = curve.derivative(xi, 1).unwrap() - curve.derivative(xi - 1e-10, 1).unwrap();

@@ -24,7 +24,7 @@ pub fn nearest(curve: &Curve, point: Vec2) -> Result<f64, GeometryError> {
             best = (distance, index);
         }
     }
-    // Either the derivative of the squared distance changes sign between the neighbours of the sample, or an end of the curve is nearest.
+    // Between the neighbours of the nearest sample, the derivative of the squared distance changes sign, unless an end of the curve is nearest.
     let slope = |xi: f64| Ok((curve.point(xi)? - point).dot(&curve.derivative(xi, 1)?));
     let mut low = sample(best.1.saturating_sub(1));
     let mut high = sample((best.1 + 1).min(SAMPLES));

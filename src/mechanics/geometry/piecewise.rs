@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector};
 #[derive(Debug, Clone)]
 pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
-    /// Coefficients of all spans, one span after the other. On a span the function is `Σ c_k t^k`, where `t` runs from -1 to 1.
     coefficients: Vec<f64>,
     count: usize,
     /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
@@ -17,15 +16,15 @@ pub struct PiecewisePolynomial {
 /// Function along a path between two parameters, with its divided difference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FunctionOnPath {
-    /// Value at the start `ξ0` of the path.
+    /// Value at the start of the path.
     pub start: f64,
-    /// Value at the end `ξ1` of the path.
+    /// Value at the end of the path.
     pub end: f64,
     /// Derivative at the end of the path, as limit from inside the path.
     pub slope: f64,
-    /// Divided difference `D = (f(ξ1) - f(ξ0))/(ξ1 - ξ0)`, accurate to rounding for paths of any length.
+    /// Divided difference: mean derivative of the function over the path, accurate to rounding for paths of any length.
     pub difference: f64,
-    /// Derivative `∂D/∂ξ1` of the divided difference with respect to the end of the path, for a fixed start.
+    /// Derivative of the divided difference with respect to the end of the path, for a fixed start.
     pub change: f64,
 }
 
@@ -67,19 +66,16 @@ impl PiecewisePolynomial {
         Self::new(spans, &rows)
     }
 
-    /// Quadrature points and weights on `[0, 1]` that integrate the derivative of the function exactly over a part of a span.
     pub(super) fn rule(&self) -> &[(f64, f64)] {
         &self.rule
     }
 
-    /// Largest value of the function at the centres of the spans.
     pub(crate) fn largest_in_middle(&self) -> f64 {
         let middles = self.spans.iter().enumerate();
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values along a path within one span.
-    /// Horner's scheme evaluates the polynomial `f` and its quotients `f[·, ξ1]` and `f[·, ξ1, ξ1]` at both ends.
+    /// Values along a path within one span, computed by Horner's scheme.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];
@@ -118,7 +114,6 @@ impl PiecewisePolynomial {
 mod tests {
     use super::*;
 
-    /// For `f = ξ³`, the quotients are `f[a, b] = a² + ab + b²` and `f[a, b, b] = a + 2b`.
     #[test]
     fn quotients_in_a_span_are_exact_for_paths_of_any_length() {
         let span = Span { first: 0, start: 1.0, end: 3.0 };
@@ -138,7 +133,6 @@ mod tests {
         let span = |start, end| Span { first: 0, start, end };
         let rows = [vec![1.0, 2.0, 3.0], vec![0.5, 0.0, -1.0]];
         let function = PiecewisePolynomial::new(&[span(0.0, 2.0), span(2.0, 2.5)], &rows);
-        // First span: 1 + 2t + 3t² at ξ = 1.5, where t = ½ and dt/dξ = 1. Second span: ½ - t² at ξ = 2.5, where t = 1 and dt/dξ = 4.
         assert_eq!(function.in_span(0, 1.5), [2.75, 5.0, 6.0]);
         assert_eq!(function.in_span(1, 2.5), [-0.5, -8.0, -32.0]);
     }

@@ -1,6 +1,6 @@
 //! Symmetric positive definite band matrices, and entries of their inverse near the diagonal.
 
-/// Smallest ratio of a pivot to the diagonal entry. Below it, the matrix counts as singular.
+/// Ratio of a pivot to the diagonal entry, below which a matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
 /// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.
@@ -35,7 +35,6 @@ impl PositiveBand {
         }
     }
 
-    /// Entry of a row and a column.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (low, high) = (row.min(column), row.max(column));
         self.rows[low].get(high - low).copied().unwrap_or(0.0)

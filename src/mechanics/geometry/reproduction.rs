@@ -3,28 +3,23 @@
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// Space `T` of the derivatives of the basis functions in a run of spans, with their scalar products.
+/// Space of the derivatives of the basis functions in a run of spans, with their scalar products.
 ///
-/// The scalar products of a function `f` with all elements of `T` determine its projection `Π f` onto `T`.
-/// For smooth functions, the error of the projection is of order `h^p` up to the ends of the run, with the span length `h` and the degree `p`.
+/// The scalar products of a function with the elements of the space determine the projection of the function onto the space.
+/// For smooth functions, the projection error decreases as the span length to the power of the degree, up to the ends of the run.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
     basis: Basis,
     run: Vec<Span>,
     count: usize,
-    /// Factors `L D Lᵀ` of the matrix of scalar products `∫ T_t T_u dξ`. Row t contains the pivot and the factors of the rows below it.
     factors: Vec<Vec<f64>>,
 }
 
-/// Reproducing kernel of the space `T` at a parameter ξ of a run.
-/// The kernel is the function `ρ` in `T` with `∫ ρ t dξ = t(ξ)` for all t in `T`. It is stored as a spline `v` with `v' = ρ`.
 #[derive(Debug, Clone)]
 pub struct Reproduction<'a> {
     splines: &'a LowerSplines,
     kernel: Vec<f64>,
-    /// Coefficients of `v`, one per basis function of the run.
     integral: Vec<f64>,
-    /// Coefficients of the projection `Π v`.
     projected: Vec<f64>,
 }
 
@@ -49,8 +44,6 @@ impl LowerSplines {
         Ok(splines)
     }
 
-    /// Calls `add` for every point of a quadrature rule that integrates the product of a basis function and a derivative exactly.
-    /// The arguments of `add` are the index of the first derivative, the weight, the derivatives and the functions.
     fn integrate(
         &self,
         mut add: impl FnMut(usize, f64, &[f64], &BasisValues),
@@ -97,7 +90,6 @@ impl LowerSplines {
             *value = lower;
         }
         let kernel = self.solve(here);
-        // Since N_a' = T_(a-1) - T_a, the derivative is v' = Σ (v_(t+1) - v_t) T_t.
         let steps = kernel.iter().scan(0.0, |sum, step| {
             *sum += step;
             Some(*sum)
@@ -115,12 +107,11 @@ impl LowerSplines {
 }
 
 impl Reproduction<'_> {
-    /// Value of the kernel `ρ` at a parameter of a span.
     pub(crate) fn kernel(&self, span: &Span, xi: f64) -> f64 {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Value of `Π v - v` at a parameter of a span: the projection error of `v`, the integral of the kernel `ρ`.
+    /// Projection error of the integral of the kernel, at a parameter of a span.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);
@@ -134,7 +125,6 @@ impl Reproduction<'_> {
     }
 }
 
-/// Factors `L D Lᵀ` of a symmetric positive definite matrix. Each row of the input starts with its diagonal entry.
 fn factorised(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for t in 0..rows.len() {
         let (done, rest) = rows.split_at_mut(t + 1);
@@ -192,12 +182,10 @@ mod tests {
                         integral(&basis, &run, |on, at| place.kernel(on, at) * slope(on, at));
                     let expected = slope(span, xi);
                     assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()));
-                    // The projection error is orthogonal to the derivatives.
                     let missed = integral(&basis, &run, |on, at| {
                         place.projection_error(on, at) * slope(on, at)
                     });
                     assert!(missed.abs() < 1e-10, "{missed:e}");
-                    // The kernel satisfies v(end) - v(start) = ∫ ρ dξ = 1, because v' = ρ.
                     let ends = [place.integral[0], place.integral[basis.functions() - 1]];
                     assert!((ends[1] - ends[0] - 1.0).abs() < 1e-10);
                 }

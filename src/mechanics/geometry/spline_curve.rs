@@ -137,8 +137,7 @@ impl SplineCurve {
     }
 }
 
-/// Returns the control points after `xi` has been inserted once as a knot. Each new control point divides a side of the old control polygon.
-/// The new control point divides the side in the same ratio in which `xi` divides the support of a spline of one degree less.
+/// Returns the control points after `xi` has been inserted once as a knot.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

@@ -9,23 +9,13 @@ pub type RunRule = Vec<Vec<(f64, f64)>>;
 /// Largest relative difference of two span lengths that count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Computes the patch rule of a run of spans.
-/// The rule has as many points as there are linearly independent derivatives of the basis functions.
-/// The weights of the rule integrate all derivatives of the basis functions exactly.
+/// Computes the patch rule of a run of spans, which are consecutive and joined at least C¹ (docs/theory.md, section 4).
+/// The rule has as many points as there are linearly independent derivatives of the basis functions, and integrates all derivatives exactly.
 ///
-/// The spans are consecutive and joined at least C¹.
-/// The derivatives of the `F` basis functions of degree `p` form the space of the `P = F - 1` splines `T` of degree `p - 1`.
-/// The points of the rule are the zeros of the spline of degree `p` that is orthogonal to all splines `T`.
-/// For a single span, the points of the rule are the Gauss points.
-/// On equal spans of full continuity, far from the ends, the orthogonal spline oscillates with a period of two spans.
-/// The zeros of this oscillating spline are the centres of spans for odd degrees, and the knots for even degrees.
-///
-/// For cubic functions of full continuity on three or more equal spans, another rule has half the error (docs/theory.md, section 4).
-/// The better rule uses two Gauss points in the first and the last span, and the centres of the other spans.
-///
-/// The orthogonal spline has `P` zeros because of total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
-/// Tests for every degree and continuity confirm that the weights are positive and that `Σ w T² ≥ 0.79 ∫ T² dξ`. There is no proof.
-/// Returns `None` if fewer zeros are found because of rounding, or if a weight is not positive. No spans are known for which this happens.
+/// The points are the zeros of a spline that is orthogonal to all splines of one degree less. For a single span, they are the Gauss points.
+/// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
+/// Tests for every degree and continuity confirm that the weights are positive. There is no proof.
+/// Returns `None` if rounding hides a zero, or if a weight is not positive. No spans are known for which this happens.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -64,8 +54,7 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// Splines of one degree less, computed as sums of derivatives.
-/// Each spline `T_t = -Σ_(a ≤ t) N'_a` is a positive multiple of a B-spline, and its integral is one.
+/// Splines of one degree less, computed as sums of derivatives. Each spline is a positive multiple of a B-spline, and its integral is one.
 /// The splines that are nonzero on a span have the same indices as the functions of the span, without the last index.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
@@ -84,11 +73,6 @@ fn empty_rows(count: usize, room: usize) -> Vec<CollocationRow<f64>> {
     std::iter::repeat_with(row).take(count).collect()
 }
 
-/// Coefficients `q_s` of a spline on a run of spans. The spline is orthogonal to all splines of one degree less on this run.
-/// The last coefficient of the spline is normalised to one.
-///
-/// The equations are `Σ_s q_s ∫ T_t N_s dξ = 0` for each spline `T_t` of one degree less, with the basis functions `N_s`.
-/// The matrix of the equations for `q_s` is totally positive and has one more column than rows.
 fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let unknowns = lower_count(basis, run)?;
@@ -132,7 +116,6 @@ fn places(degree: usize) -> Vec<f64> {
     (0..count).map(place).collect()
 }
 
-/// Zeros of a spline on each span. `None` unless the total number of zeros equals the number of basis functions of one degree less.
 fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f64>>> {
     let (degree, offset) = (basis.degree(), run.first()?.first);
     let places = places(degree);
@@ -179,7 +162,6 @@ impl Polynomial {
         self.0.iter().rev().fold(0.0, |sum, coefficient| sum * t + coefficient)
     }
 
-    /// Zero of the polynomial between two parameters with values of opposite sign, found by bisection. `low` is the value at the left parameter.
     fn zero_between(&self, mut left: f64, mut right: f64, low: f64) -> f64 {
         if low == 0.0 {
             return left;
@@ -198,13 +180,9 @@ impl Polynomial {
     }
 }
 
-/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run of spans exactly.
-///
-/// The argument `points` lists the quadrature points of each span. Their total number is one less than the number of basis functions.
-/// Returns `None` if no weights integrate all derivatives exactly, or if a weight is not finite.
-///
-/// The weights solve a collocation system with the splines of one degree less. Its matrix is totally positive.
-/// Reference: F. Auricchio, F. Calabrò, T. J. R. Hughes, A. Reali & G. Sangalli, Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
+/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run exactly.
+/// Returns `None` if no finite weights integrate all derivatives exactly.
+/// Reference: F. Auricchio et al., Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);
     let unknowns = lower_count(basis, run)?;
@@ -230,7 +208,7 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
     if number != unknowns || !rows.iter().enumerate().all(has_own) {
         return None;
     }
-    // The integral ∫ N'_a dξ is the value of N_a at the right end minus the value at the left end.
+    // The integral of the derivative of a function is its value at the right end minus its value at the left end.
     let ends = [(first, first.start, 1.0), (last, last.end, -1.0)];
     for (span, xi, sign) in ends {
         let from = span.first - first.first;

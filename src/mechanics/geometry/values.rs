@@ -2,7 +2,7 @@
 
 use super::{MAX_DEGREE, Vec2};
 
-/// Largest number of nonzero functions on a span. It is also the largest number of derivative orders, from 0 to the degree.
+/// Largest number of nonzero functions on a span, and largest number of derivative orders.
 const WIDTH: usize = MAX_DEGREE + 1;
 
 /// One value for each nonzero function of a span. Only the first `degree + 1` values are used.
@@ -38,12 +38,12 @@ impl BasisValues {
         &mut self.rows[..=self.degree]
     }
 
-    /// Values `N_first(ξ) …` of the `degree + 1` functions. They sum to one.
+    /// Values of the `degree + 1` functions. The values sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// First derivatives `N'_first(ξ) …` of the `degree + 1` functions with respect to ξ. They sum to zero.
+    /// First derivatives of the `degree + 1` functions with respect to the parameter. The derivatives sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
@@ -54,7 +54,7 @@ impl BasisValues {
         &row[..=self.degree]
     }
 
-    /// Derivative of order `order` of `Σ_i N_i(ξ) P_i`, with one point `P_i` per basis function, in the unit of the points.
+    /// Derivative of the given order of a curve with one point per basis function, in the unit of the points.
     ///
     /// # Panics
     /// Panics if there are fewer points than basis functions.
@@ -70,7 +70,6 @@ impl BasisValues {
 /// Largest order of the derivatives in [`LowDerivatives`].
 pub(super) const LOW_ORDERS: usize = 3;
 
-/// Nonzero basis functions of a degree below `WIDTH` at one parameter, with derivatives up to [`LOW_ORDERS`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LowDerivatives<const WIDTH: usize> {
     pub first: usize,
@@ -103,7 +102,6 @@ impl<const WIDTH: usize> LowDerivatives<WIDTH> {
         &self.rows[order][..=self.degree]
     }
 
-    /// Value and derivatives of one function.
     pub fn of_function(&self, at: usize) -> [f64; LOW_ORDERS + 1] {
         self.rows.map(|row| row[at])
     }

@@ -14,29 +14,25 @@ const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 /// A rotation of about π folds the path. The contact equations then have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
-/// Coefficients of an integrator in the balance of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// Factor `ι` of the inertia [-]. The acceleration is `ι d/Δt²` plus a part that is known at the start of the step.
+    /// Factor of the inertia in the balance of the step [-].
     pub(super) inertia: f64,
     pub(super) stage: Stage,
-    /// Factor of the forces `F(stage, u)` in the balance of the step [-].
+    /// Factor of the forces in the balance of the step [-].
     pub(super) weight: f64,
     pub(super) prescribed: BalancedAt,
 }
 
 impl BalanceCoefficients {
-    /// Coefficients of methods with `(v0 + v1)/2 = Δq/Δt` and the acceleration `(v1 - v0)/Δt`.
     pub(super) fn mean(stage: Stage, weight: f64) -> Self {
         Self { inertia: 2.0, stage, weight, prescribed: BalancedAt::Mean }
     }
 }
 
-/// Balance of a step: `R(d, z) = ι/Δt² M d + weight · F(stage, u) + constant + G(u, z)` with the increment `u = Δt v0 + d`.
-///
-/// Here `z` are the constraint multipliers and `G` their forces, averaged over the step.
-/// The unknown is not the increment `u` but its deviation `d` from a motion with constant velocity.
-/// Hence the rounding error of `v1 = v0 + 2/Δt d` is proportional to the change of velocity, and momenta do not drift over many steps.
+/// Balance of a step, as equations for the increments and the constraint multipliers.
+/// The unknown is the deviation of the increments from a motion with constant velocity.
+/// The rounding error of the final velocity is therefore proportional to the change of velocity in the step, and momenta do not drift.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -70,7 +66,6 @@ impl StepBalance<'_> {
         self.mechanism.worst(part, residual)
     }
 
-    /// Factor of the inertia in the balance of the step, `ι/Δt²`.
     fn inertia(&self) -> f64 {
         self.rule.inertia / square(self.duration)
     }
@@ -116,7 +111,7 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
-    /// Increments that a motion with constant velocity would have, `Δt v0`.
+    /// Increments of a motion with constant velocity.
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
@@ -170,7 +165,7 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Adds `share` times the forces of a stage, evaluated at zero increments, to the balance of the step.
+    /// Adds `share` times the forces of a stage at zero increments to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);
@@ -202,8 +197,6 @@ impl StepSolver {
         self.unknowns.copy_from_slice(solution);
     }
 
-    /// Solves the balance of the step by the function `way`.
-    /// The function `way` receives the Newton solver, the equations, their unknowns and their residual.
     pub(super) fn solve_by(
         &mut self,
         mechanism: &mut dyn Mechanism,
@@ -263,7 +256,6 @@ impl StepSolver {
         }
     }
 
-    /// Copies the prescribed increments, and adds the inertia forces of prescribed degrees of freedom to the balance of the step.
     fn take_prescribed(&mut self, mechanism: &mut dyn Mechanism, at: BalancedAt) {
         let movements = self.free_increments.len();
         let prescribed = mechanism.prescribed();
@@ -286,8 +278,7 @@ impl StepSolver {
     }
 
     /// Ends the step with the present increments.
-    /// The callback `rate` computes the final rate of an unknown.
-    /// The arguments of `rate` are the index, the initial rate, and the deviation `d` from a motion with constant velocity.
+    /// The callback `rate` computes the final rate of an unknown from its index, its initial rate, and its deviation from constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

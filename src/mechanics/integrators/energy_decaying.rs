@@ -6,15 +6,10 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Energy–momentum method in which the section forces belong to a strain later than the middle of the step.
 /// The method damps high frequencies, and conserves linear and angular momentum to rounding for any step size.
+/// Each step dissipates energy. The method is of first order (docs/theory.md, section 8.2).
+/// A dissipation parameter of zero gives the energy–momentum method, which is of second order.
 ///
-/// Balance: `M (v1 - v0)/Δt + F(damped midpoint) = 0` and `(v0 + v1)/2 = Δq/Δt`.
-/// Section forces: `N̄ = C (½(Γ0 + Γ1) + χ/2 ΔΓ)` and `M̄ = EI (½(κ0 + κ1) + χ/2 Δκ)` with `χ ≥ 0`.
-///
-/// A step dissipates exactly the energy `χ/2 ∫ ΔΓ·C ΔΓ + EI Δκ² dX`. The method is of first order.
-/// For `χ = 0` the method is the energy–momentum method, which is of second order.
-///
-/// The method follows F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649.
-/// The authors add dissipation to the averaged stresses of a conserving method. In this program, the added stress is linear in the strain.
+/// Reference: F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649.
 #[derive(Debug, Clone)]
 pub struct EnergyDecaying {
     solver: StepSolver,

@@ -6,8 +6,7 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Energy–momentum method. It conserves energy, linear and angular momentum to rounding for any step size.
 /// Conservation follows from midpoint kinematics with tangent-scaled rotations and averaged section forces.
-///
-/// Balance of a step: `M (v1 - v0)/Δt + F(midpoint) = 0`, `(v0 + v1)/2 = Δq/Δt`. The method is of second order.
+/// The method is of second order (docs/theory.md, section 6).
 ///
 /// Reference: N. Stander & E. Stein, Eng. Comput. 13 (1996) 60–85 (planar finite beam element for flexible mechanisms).
 /// Reference: J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Methods Eng. 38 (1995) 1431–1473.

@@ -66,67 +66,33 @@ fn at(culprit: Option<&FailureSource>) -> String {
 pub enum StepError {
     #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), interval.start, at(failure_source.as_deref()))]
     Newton {
-        /// Interval of the step [time].
         interval: Interval,
-        /// Reason of the failure, with the residual norms of all iterations.
         source: Box<NewtonError>,
-        /// Number of Newton iterations of earlier substeps.
         before: usize,
-        /// Object at which the step failed, if known.
         failure_source: Option<Box<FailureSource>>,
     },
     #[error(
         "a section would rotate by {} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
         if *rotation < 1e7 { format!("{rotation:.2}") } else { format!("{rotation:.2e}") }, interval.duration(), interval.start
     )]
-    Rotation {
-        /// Interval of the step [time].
-        interval: Interval,
-        /// Rotation increment `Δω` of the section: its mean rate times the step size [rad].
-        rotation: f64,
-        iterations: usize,
-    },
+    Rotation { interval: Interval, rotation: f64, iterations: usize },
     #[error(
         "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
         interval.duration(), interval.start
     )]
-    Chord {
-        /// Interval of the step [time].
-        interval: Interval,
-        /// Chord of the path of the slider in the mean configuration, as a fraction of the length of the path [-].
-        chord: f64,
-        iterations: usize,
-    },
+    Chord { interval: Interval, chord: f64, iterations: usize },
     #[error(
-        "a body would pass through the surface of '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step",
+        "a body would pass through another body or obstacle of '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step, or a larger stiffness or radius if the contact is too soft to stop the body",
         interval.duration(), interval.start
     )]
-    Crossing {
-        /// Interval of the step [time].
-        interval: Interval,
-        /// Name of the obstacle.
-        obstacle: String,
-        iterations: usize,
-    },
-    /// A limit of a constraint was passed within the step. The step must be repeated so that it ends at the limit.
+    Crossing { interval: Interval, obstacle: String, iterations: usize },
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
         overshoot.event, interval.duration(), interval.start
     )]
-    Overshoot {
-        /// Interval of the step [time].
-        interval: Interval,
-        /// Limit that was passed, and the distance beyond it.
-        overshoot: Overshoot,
-        iterations: usize,
-    },
+    Overshoot { interval: Interval, overshoot: Overshoot, iterations: usize },
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]
-    Load {
-        /// Interval of the step [time].
-        interval: Interval,
-        load: String,
-        source: ExternalError,
-    },
+    Load { interval: Interval, load: String, source: ExternalError },
 }
 
 impl StepError {

@@ -5,8 +5,8 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// The lengths satisfy the conditions of order four.
-/// The lengths also satisfy a second condition: slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
+/// The substep lengths satisfy the conditions for a method of fourth order.
+/// With the selected lengths, slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -16,16 +16,11 @@ const ENDS: [f64; 7] = {
     [a, a + b, a + b + c, 1.0 - (a + b + c), 1.0 - (a + b), 1.0 - a, 1.0]
 };
 
-/// Fourth-order method.
-/// A step consists of seven energy–momentum substeps with the lengths `a, b, c, 1 - 2(a + b + c), c, b, a`.
-/// The fourth substep runs backwards in time.
+/// Fourth-order method. A step consists of seven energy–momentum substeps, of which the fourth runs backwards in time.
 /// Each substep conserves energy, linear and angular momentum to rounding. Hence the whole step conserves them too.
+/// The leading errors of the substeps cancel, because the cubes of their lengths sum to zero (docs/theory.md, section 8.3).
 ///
-/// In a step of a symmetric second-order method, the leading error is proportional to the third power of the step size.
-/// The leading errors of the substeps cancel, because the sum of the cubes of the substep lengths is zero. Hence the method has order four.
-/// The remaining error is small because the lengths are small. The lengths are chosen such that slow loads do not excite unresolved vibrations.
-///
-/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168. The coefficients were computed for this program.
+/// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168.
 #[derive(Debug, Clone)]
 pub struct FourthOrder {
     substep: EnergyMomentum,
@@ -40,7 +35,6 @@ impl FourthOrder {
 
     /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
-        // The call of `save_state` allocates the memory for the saved state before the first step.
         mechanism.checkpoint().save_state();
         Self { substep: EnergyMomentum::new(mechanism, tolerance) }
     }
@@ -98,12 +92,10 @@ mod tests {
         starts.zip(ends).map(|(start, end)| end - start).collect()
     }
 
-    /// Phase per step of a vibration with the given frequency times step size, `ω Δt`.
     fn turn(parts: &[f64], frequency: f64) -> f64 {
         parts.iter().map(|part| 2.0 * (0.5 * part * frequency).atan()).sum()
     }
 
-    /// Frequency `ω Δt` above which the phase per step exceeds an angle; `None` if the phase never exceeds it.
     fn passage(parts: &[f64], angle: f64) -> Option<f64> {
         let (mut low, mut high) = (1.0, 1e4);
         if turn(parts, high) < angle {
@@ -116,8 +108,6 @@ mod tests {
         Some(low)
     }
 
-    /// Largest amplitude of a vibration in 3000 steps under a sine load with the phase `load` per step.
-    /// The vibration starts from its static response, which is also the unit of the amplitude.
     fn amplitude(parts: &[f64], frequency: f64, load: f64) -> f64 {
         let (mut place, mut rate, mut largest) = (0.0_f64, load, 0.0_f64);
         for step in 0..3000 {
@@ -125,7 +115,6 @@ mod tests {
             for part in parts {
                 let ended = begun + part;
                 let mean = ((load * begun).cos() - (load * ended).cos()) / (load * part);
-                // Stiffness and static response are 1. Hence rate' = ω² (mean - place), with both values in the middle of the substep.
                 let stiffness = (0.5 * part * frequency).powi(2);
                 let moved = (part * rate + 2.0 * stiffness * (mean - place)) / (1.0 + stiffness);
                 (place, rate, begun) = (place + moved, 2.0 * moved / part - rate, ended);

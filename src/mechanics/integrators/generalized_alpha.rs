@@ -6,36 +6,24 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Generalized-α method: Newmark's formulas, with inertia and forces balanced at different times.
-/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little. The method conserves neither energy nor momenta.
-/// The method is of second order.
+/// Generalized-α method of second order: Newmark's formulas, with inertia and forces balanced at different times (docs/theory.md, section 8.4).
+/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little.
+/// The method conserves neither energy nor momenta.
 ///
-/// ```text
-/// balance of forces:        M ((1-αm) a1 + αm a0) + (1-αf) F(end) + αf F(start) = 0
-/// Newmark's displacements:  Δq = Δt v0 + Δt² ((½-β) a0 + β a1)
-/// Newmark's rates:          v1 = v0 + Δt ((1-γ) a0 + γ a1)
-/// weights αm and αf:        αm = (2ρ∞ - 1)/(ρ∞ + 1) and αf = ρ∞/(ρ∞ + 1)
-/// Newmark's coefficients:   γ = ½ - αm + αf and β = ¼ (1 - αm + αf)²
-/// ```
-///
-/// Rotation increments are increments of the angle. Accelerations `a` are part of the state.
-/// Accelerations are unknown at the start, after an impact, and at a jump of a load.
-/// If accelerations are unknown, a step of the trapezoidal rule determines them as `(v1 - v0)/Δt`. With `ρ∞ = 1`, all steps use the trapezoidal rule.
+/// Accelerations are part of the state. They are unknown at the start, after an impact, and at a jump of a load.
+/// If accelerations are unknown, a step of the trapezoidal rule determines them.
 ///
 /// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
 pub struct GeneralizedAlpha {
     solver: StepSolver,
     weights: Weights,
-    /// Accelerations in the state. Before a step is solved, they belong to its start; afterwards, they belong to its end.
     accelerations: Vec<f64>,
 }
 
 #[derive(Debug, Clone, Copy)]
 struct Weights {
-    /// Coefficient `αm`: weight of the accelerations at the start of the step.
     inertia_before: f64,
-    /// Coefficient `αf`: weight of the forces at the start of the step.
     forces_before: f64,
     gamma: f64,
     beta: f64,
@@ -50,7 +38,6 @@ impl Weights {
         Self { inertia_before, forces_before, gamma, beta }
     }
 
-    /// Coefficient `½/β - 1` of the acceleration at the start of a step in the formula for the acceleration at its end.
     fn carried(&self) -> f64 {
         0.5 / self.beta - 1.0
     }
@@ -94,7 +81,6 @@ impl GeneralizedAlpha {
     ) -> Result<NewtonReport, StepError> {
         let Self { solver, weights, accelerations } = self;
         let Weights { inertia_before, forces_before, gamma, beta } = *weights;
-        // The acceleration at the end is a1 = d/(β Δt²) - (½/β - 1) a0.
         let carried = weights.carried();
         solver.carry_inertia(
             mechanism,
@@ -106,7 +92,6 @@ impl GeneralizedAlpha {
             inertia: (1.0 - inertia_before) / beta,
             stage: Stage::End,
             weight: 1.0 - forces_before,
-            // Prescribed accelerations are evaluated at the same time as the forces.
             prescribed: BalancedAt::Fraction(1.0 - forces_before),
         };
         let report = solver.solve(mechanism, interval, rule)?;

@@ -9,7 +9,7 @@ pub trait Integrator {
     ///
     /// # Errors
     /// Fails if the equations have no solution, a rotation increment is too large, or a load has no value.
-    /// Also fails if a constraint limit lies within the interval.
+    /// Also fails if a slider would pass a limit within the interval.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

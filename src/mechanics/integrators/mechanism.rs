@@ -8,7 +8,7 @@ use crate::newton::ResidualPart;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
     /// Start of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// At this stage, the load has the value of the linear function at the start of the step.
+    /// The start value of the linear function is used, not the value of the load.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -18,11 +18,9 @@ pub enum Stage {
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
-    ///
-    /// The internal forces at this stage do additional work: `χ/2` times the integral of `ΔΓ·C ΔΓ + EI Δκ²`.
     DampedMidpoint(f64),
     /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// At this stage, the load has the value of the linear function at the end of the step.
+    /// The end value of the linear function is used, not the value of the load.
     End,
 }
 
@@ -42,16 +40,16 @@ pub trait Inertia {
 
 /// Forces of a mechanical system that depend on its configuration.
 ///
-/// Section forces may be internal unknowns. They are condensed out of the equations and corrected together with the increments.
+/// Section forces may be internal unknowns. They are eliminated from the equations and corrected together with the increments.
 pub trait Forces {
     /// Adds `weight` times the forces of a stage to `out`: internal forces minus loads, computed from the present section forces.
     ///
-    /// Returns the largest difference between the strains of the configuration and the strains that belong to the section forces.
+    /// Returns the largest strain residual: strain of the configuration minus strain that belongs to the section force.
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
-    /// Adds `weight` times the forces of a stage to `out`, and their derivatives with respect to the increments to the tangent.
-    /// The strain mismatches are condensed out of the forces.
+    /// Adds `weight` times the forces of a stage to `out`, with the section force unknowns eliminated.
+    /// Adds the derivatives of the forces with respect to the increments to the tangent.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,
@@ -61,7 +59,8 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the present strain mismatch. The derivatives of strains are those of the last linearisation.
+    /// Adds `weight` times the forces that would remove the present strain residuals.
+    /// The derivatives of the strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments. The derivatives are those of the last linearisation.
@@ -70,7 +69,7 @@ pub trait Forces {
     /// Largest force residual, as a fraction of the forces in this step [-].
     fn relative_imbalance(&self, residual: &[f64]) -> f64;
 
-    /// Object with the largest value in a part of the residual, for messages.
+    /// Object with the largest force, strain or constraint residual, for messages.
     fn worst(&self, _part: ResidualPart, _residual: &[f64]) -> Option<FailureSource> {
         None
     }
@@ -101,7 +100,7 @@ pub trait Constraints {
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
     /// Adds constraint forces and violations to `out`.
-    /// Adds the derivatives of both with respect to increments and constraint unknowns to the border of the tangent.
+    /// Adds the derivatives of forces and violations with respect to increments and constraint unknowns to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -132,7 +131,7 @@ pub trait Constraints {
         Ok(())
     }
 
-    /// Shortest chord of the path of a slider in the mean configuration of the last evaluation [-]. Its unit is the initial length of the path.
+    /// Shortest chord of the path of a slider in the mean configuration, as a fraction of the initial length of the path [-].
     fn shortest_chord(&self) -> f64;
 }
 
@@ -215,9 +214,8 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the support reaction.
     pub residual: &'a [f64],
-    /// Stages at which forces are evaluated, with their weights [-].
-    /// The weighted sum of the forces at the balanced stages is the rate of change of the momenta.
-    /// The list of balanced stages is empty if the method balances accelerations instead of momenta.
+    /// Stages with weights [-], for which the weighted sum of forces is the rate of change of the momenta.
+    /// The list is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 

@@ -4,7 +4,7 @@
 /// All vectors of this struct are empty without prescribed motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
-    /// Increments in the step [length, rad]. As in the other vectors, the first entries are zeros for the constraint multipliers.
+    /// Increments in the step [length, rad]. The entries for constraint multipliers come first and are zero.
     pub increments: Vec<f64>,
     /// Rates at the end of the step [length/time, 1/time].
     pub rates: Vec<f64>,

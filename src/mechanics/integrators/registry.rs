@@ -210,7 +210,7 @@ const RHO_INFINITY: MethodParameter = MethodParameter {
 };
 
 impl Method {
-    /// Entry of this method in [`INTEGRATORS`].
+    /// Entry of the integration method in [`INTEGRATORS`].
     pub fn entry(&self) -> &'static IntegratorEntry {
         match self {
             Self::EnergyMomentum => &ENERGY_MOMENTUM,

@@ -8,11 +8,9 @@ use crate::linalg::BorderedLu;
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Integrator that advances a mechanism, the leader, together with companions.
-/// Companions have the structure of the leader, with slightly different parameters and states.
+/// A companion is a mechanism with the structure of the leader, and slightly different parameters and states.
 ///
-/// The balance `R(u; p + δ) = 0` of a companion is solved iteratively.
-/// The iteration starts from the solution of the leader and uses the factors of the last Newton iteration of the leader.
-/// Each correction reduces the error by a factor of the order of `δ` plus the size of the last Newton iteration of the leader.
+/// The step of a companion is solved iteratively, with the matrix factors of the last Newton iteration of the leader.
 /// A few corrections without factorisation reduce the error to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {

@@ -4,11 +4,9 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Trapezoidal rule in terms of the increments of a step. It is Newmark's method with β = 1/4 and γ = 1/2.
-/// The rule conserves linear momentum, and for linear problems also energy and angular momentum.
-///
-/// `M (v1 - v0)/Δt + ½ F(start) + ½ F(end) = 0`, `(v0 + v1)/2 = Δq/Δt`. Newmark's accelerations satisfy the balance at both ends.
-/// A load is replaced by a linear function of time with the same mean over the step and the same change in the step. The rule is of second order.
+/// Trapezoidal rule in terms of the increments of a step: Newmark's method with β = 1/4 and γ = 1/2 (docs/theory.md, section 8.1).
+/// The rule is of second order. It conserves linear momentum, and for linear problems also energy and angular momentum.
+/// A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
 ///
 /// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Joints. A joint ties displacement components of two stations, which then share an unknown.
 //!
 //! Both stations of a joint have the same increments in every step, for every integrator.
-//! Hence a joint has no gap, does no work, and transmits force and moment unchanged.
+//! A joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};
 

@@ -60,9 +60,9 @@ impl Slider {
 /// Side of a beam, for an observer who looks along the beam from its start to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
-    /// The side of the left normal.
+    /// Left side of the beam.
     Left,
-    /// The side of the right normal.
+    /// Right side of the beam.
     Right,
 }
 

@@ -4,7 +4,7 @@ use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the elimination work to the work for the same band without blocks. Below this ratio, the order of the band is kept.
+/// Largest ratio of the elimination work to the work for the same band without blocks, for which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
@@ -16,15 +16,11 @@ pub(super) struct Arrangement {
     layout: BlockLayout,
     /// Position of each unknown of the band in the order; `UNTOUCHED` if the unknown is eliminated in a block.
     pub(super) position: Vec<usize>,
-    /// For each unknown of the band, the end of the sequence of consecutive positions that contains its position.
     pub(super) run_ends: Vec<usize>,
-    /// First position of the delayed unknowns of each block; `UNTOUCHED` if the block delays no unknowns.
     pub(super) delayed: Vec<usize>,
     pub(super) ends: Vec<usize>,
     own_ends: Vec<usize>,
-    /// For each unknown in the order of elimination, the number of delayed unknowns after it.
     delayed_after: Vec<usize>,
-    /// Unknowns that the blocks touched when the order was determined.
     ordered_for: Vec<usize>,
     touched: Vec<usize>,
 }
@@ -119,7 +115,6 @@ impl Arrangement {
         for block in blocks.iter().filter(delaying) {
             self.delayed_after[last(block, &self.position)] += MOST_DELAYED;
         }
-        // Replaces the number of delayed unknowns after each position by the position of the first of them.
         let mut shift = 0;
         for (place, behind) in self.delayed_after.iter_mut().enumerate() {
             shift += std::mem::replace(behind, place + 1 + shift);
@@ -134,7 +129,6 @@ impl Arrangement {
                 size += MOST_DELAYED;
             }
         }
-        // The position of each unknown is shifted by the delayed unknowns before it.
         for position in self.position.iter_mut().filter(|position| **position != UNTOUCHED) {
             *position = position.checked_sub(1).map_or(0, |before| self.delayed_after[before]);
         }
@@ -169,7 +163,6 @@ impl Arrangement {
     }
 }
 
-/// Extends the profile at each coupled position to the last of the coupled positions.
 fn couple(ends: &mut [usize], places: impl Iterator<Item = usize> + Clone) {
     let last = places.clone().max().unwrap_or(0);
     places.for_each(|place| ends[place] = ends[place].max(last));

@@ -8,7 +8,6 @@ use pulp::{Arch, Simd, WithSimd};
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
-    /// Stored entries, row by row, starting with the first row of the view.
     pub(super) entries: &'a mut [f64],
     pub(super) stride: usize,
     /// Index of the diagonal entry among the stored entries of a row.
@@ -34,7 +33,6 @@ impl BandRow<'_> {
 }
 
 impl BandRows<'_> {
-    /// Indices of the rows in the whole matrix.
     pub fn rows(&self) -> Range<usize> {
         self.rows.clone()
     }
@@ -68,7 +66,6 @@ impl BandRows<'_> {
         self.entries[at] += value;
     }
 
-    /// View of a single row.
     #[inline]
     pub fn row(&mut self, row: usize) -> BandRow<'_> {
         let first = (row - self.rows.start) * self.stride;
@@ -85,7 +82,6 @@ impl BandRows<'_> {
         }
     }
 
-    /// Adds a block of `width` by `width` values, given row by row. `first` is the first row and column of the block.
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
         // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         match width {
@@ -105,7 +101,6 @@ impl BandRows<'_> {
         Arch::new().dispatch(AddBlock::<WIDTH> { entries: self.entries, at, stride, values });
     }
 
-    /// Adds values to a diagonal, starting at `row`. `offset` is the number of columns from the main diagonal to this diagonal, negative to the left.
     #[inline]
     pub(crate) fn add_to_diagonal(&mut self, row: usize, offset: isize, values: &[f64]) {
         if !values.is_empty() {
@@ -116,8 +111,6 @@ impl BandRows<'_> {
     }
 }
 
-/// Addition of a block to rows with a fixed number of stored entries.
-/// The first row of the block starts at the stored entry `at`. Each further row starts one entry to the left of the previous row.
 struct AddBlock<'a, const WIDTH: usize> {
     entries: &'a mut [f64],
     at: usize,

@@ -60,7 +60,6 @@ impl BandedMatrix {
         &self.distant
     }
 
-    /// View of all rows, for adding entries.
     #[inline]
     pub(crate) fn rows_mut(&mut self) -> BandRows<'_> {
         let (stride, centre) = (self.storage.stride(), self.storage.centre());
@@ -159,7 +158,6 @@ mod tests {
         #[test]
         fn the_banded_solution_is_the_dense_one(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Relative sizes of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
@@ -215,7 +213,6 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::Singular { unknown: 1, size: 3 });
     }
 
-    /// Matrix of small integers with a dominant diagonal. Its products are exact.
     fn whole_numbers(size: usize, half_bandwidth: usize) -> BandedMatrix {
         let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
         for i in 0..size {
@@ -237,8 +234,6 @@ mod tests {
             }
             let singular = |unknown| LinearError::Singular { unknown, size: 12 };
             assert_eq!(column.factorise().unwrap_err(), singular(zero));
-            // Row exchanges move the zero row down until only the last row follows it.
-            // In the column of the last exchange, the last row has only a diagonal entry, so it is not exchanged with the zero row.
             assert_eq!(row.factorise().unwrap_err(), singular(zero.max(10)));
         }
     }
@@ -265,7 +260,6 @@ mod tests {
     #[test]
     fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
         let size = 24;
-        // Powers of two up to 1e12 are used, so that the right-hand side for a solution of ones is exact.
         let gradings: [fn(i32) -> i32; 4] =
             [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
         for (number, grading) in gradings.into_iter().enumerate() {
@@ -288,8 +282,6 @@ mod tests {
         }
     }
 
-    /// Equations of a rigid body in a step of length `h`: a point with the stiffness `k`, its link, and the body.
-    /// The solution is known: all displacements are one, and the link carries the force two. `order` numbers the unknowns.
     fn linked_point(h: f64, k: f64, order: &[usize; 7]) -> (BandedMatrix, [f64; 7], [f64; 7]) {
         let [px, py, fx, fy, x, y, turn] = *order;
         let (arm, inertia) = ([0.25, -0.5], 2.0 / (h * h));
@@ -326,7 +318,6 @@ mod tests {
                     let (mut matrix, mut x, solution) = linked_point(h, stiffness / (h * h), order);
                     matrix.weigh_rows();
                     matrix.factorise().unwrap().solve(&mut x);
-                    // The forces of the links are the small differences of the inertia forces.
                     let forces = [order[2], order[3]];
                     let size =
                         |at: usize| if forces.contains(&at) { (2.0 + stiffness) / h } else { 1.0 };
@@ -346,7 +337,6 @@ mod tests {
         assert_eq!(matrix.factorise().unwrap_err(), LinearError::NotFinite { unknown: 0, size: 2 });
     }
 
-    /// Bit patterns of the factors and of a solution, computed with one instruction set; `None` if the factorisation fails.
     fn worked_on(arch: Arch, matrix: &BandedMatrix, right: &[f64]) -> Option<Vec<u64>> {
         let mut storage = matrix.storage.clone();
         arch.dispatch(Elimination(storage.rows_mut())).ok()?;

@@ -1,11 +1,9 @@
-//! Block of a local border: a few unknowns outside a band, and the unknowns of the band that are coupled to them.
+//! Block of a local border: a few unknowns outside a band, and the band unknowns that are coupled to them.
 //! Each block is eliminated separately from the other blocks.
 //!
 //! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
-//! The own unknowns of a block are eliminated with complete pivoting. The Schur complement for the touched unknowns is added to the band.
-//! Some unknowns of the block may have no pivot yet, for example the contact force of a supported slave.
-//! An unknown without a pivot is coupled to the band only by a constraint.
-//! Unknowns without pivot are *delayed*: they are inserted into the band after the touched unknowns.
+//! The unknowns of the block are eliminated with complete pivoting, and the Schur complement is added to the band.
+//! An unknown without a pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
 
 use pulp::{Simd, WithSimd};
 
@@ -20,10 +18,9 @@ const LANES: usize = 4;
 /// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
-/// Largest contribution of a pivot to a diagonal entry of the band. It is a multiple of the largest diagonal entry at the touched unknowns.
 const LARGEST_FILL: f64 = 100.0;
 
-/// Placeholder index for an unknown of the band that a block does not touch.
+/// Placeholder index for a band unknown that is not coupled to a block.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
 /// Elimination of all blocks in the border of a band. An error contains the index of the failed block.
@@ -48,7 +45,6 @@ impl WithSimd for BlockElimination<'_> {
     }
 }
 
-/// Row of `B` and column of `C` for an unknown of the band.
 #[derive(Debug, Clone)]
 struct Coupling {
     at: usize,
@@ -58,27 +54,22 @@ struct Coupling {
 
 #[derive(Debug, Clone)]
 pub(super) struct Block {
-    /// Unknowns of the band that only this block couples with others. They are eliminated with the block.
     pub(super) own: Vec<usize>,
     /// Couplings with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
-    /// Unknowns of the band that the block touches, except its own unknowns.
+    /// Unknowns of the band that are coupled to the block, except its own unknowns.
     pub(super) touched: Vec<usize>,
-    /// Rows of the dense matrix, in the order: own unknowns, unknowns of the block, touched unknowns.
-    /// After the elimination, the rows contain the factors and the Schur complement.
     front: Vec<f64>,
     /// Buffer for the vectors of a pivot row, with zeros up to the pivot.
     pivot_row: Vec<[f64; LANES]>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,
     pub(super) pivots: usize,
-    /// Units of the rows and unknowns of the block.
     units: [(BorderUnit, BorderUnit); BLOCK],
-    /// Factors of rows and columns that make the entries of the dense matrix comparable, in the order of elimination.
+    /// Scale factors of the rows and columns of the dense matrix, in the order of elimination.
     row_factors: Vec<f64>,
     column_factors: Vec<f64>,
-    /// Largest diagonal entry of the band at the touched unknowns.
     pub(super) stiffness: f64,
 }
 
@@ -151,12 +142,10 @@ impl Block {
         self.corner[row][column]
     }
 
-    /// Number of unknowns that the block can eliminate.
     pub(super) fn candidates(&self) -> usize {
         self.own.len() + BLOCK
     }
 
-    /// Returns true if unknowns of the block may be delayed, that is, if the block has no own unknowns in the band.
     pub(super) fn can_delay_unknowns(&self) -> bool {
         self.own.is_empty()
     }
@@ -169,20 +158,14 @@ impl Block {
         self.candidates() + self.touched.len()
     }
 
-    /// Length of a row of the dense matrix, in whole vectors. The entries after the last column are zero.
     fn stride(&self) -> usize {
         self.size().next_multiple_of(LANES)
     }
 
-    /// Factor of a row of the Schur complement. It gives the equations of delayed unknowns the same magnitude as the equations of the band.
     pub(super) fn scale(&self, left: usize) -> f64 {
         if left < self.delayed() { self.row_factors[self.pivots + left] } else { 1.0 }
     }
 
-    /// Eliminates the own unknowns and the unknowns of the block. `places` is a buffer whose entries are `UNTOUCHED` before and after the call.
-    ///
-    /// # Errors
-    /// Fails if there is no pivot. The error contains the index of the unknown in the block.
     #[inline(always)]
     fn eliminate(&mut self, band: &BandedMatrix, places: &mut [usize]) -> Result<(), LinearError> {
         self.gather(band, places);
@@ -214,7 +197,7 @@ impl Block {
         Ok(())
     }
 
-    /// Finds the touched unknowns and fills the dense matrix.
+    /// Finds the coupled unknowns of the band, and fills the dense matrix.
     #[inline(always)]
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());
@@ -249,7 +232,6 @@ impl Block {
         self.own.iter().chain(&self.touched).for_each(|&at| places[at] = UNTOUCHED);
     }
 
-    /// Sets the factors that convert rows to forces and columns to lengths. They depend on the largest stiffness of the band.
     fn set_scale_factors(&mut self, band: &BandedMatrix) {
         let Self { own, touched, units, row_factors, column_factors, stiffness, .. } = self;
         let of_band = |at: &usize| {
@@ -266,8 +248,6 @@ impl Block {
         unknowns.for_each(|(factor, (_, unknown))| *factor = unknown.column_factor(*stiffness));
     }
 
-    /// Row, column and magnitude of the largest scaled entry that may become a pivot. The search starts at index `first`.
-    /// The magnitude is NaN if an entry is NaN.
     #[inline(always)]
     fn largest_from(&self, first: usize) -> (usize, usize, f64) {
         let (stride, candidates) = (self.stride(), self.candidates());
@@ -282,7 +262,6 @@ impl Block {
                 largest = if magnitude > largest { magnitude } else { largest };
                 of_entries += magnitude;
             }
-            // The sum is not finite if an entry is not finite.
             sum += of_entries;
             if largest * of_row > found.1 {
                 found = (row, largest * of_row);
@@ -349,17 +328,13 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices.
-    /// The rows of delayed unknowns, which are eliminated in the band, come first. The rows of the touched unknowns of the band follow.
+    /// Rows of the Schur complement with their indices: delayed unknowns first, then the coupled unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);
         rows.map(move |row| &row[first..]).enumerate()
     }
 
-    /// Applies the elimination to a right-hand side.
-    /// The argument `own` contains the entries for the own unknowns and the block, in the order of the pivots.
-    /// The callback `subtract` receives the contributions to the entries of touched unknowns.
     pub(super) fn substitute(&self, own: &mut [f64], mut subtract: impl FnMut(usize, f64)) {
         let rows = self.front.chunks_exact(self.stride());
         for (at, row) in rows.enumerate() {
@@ -372,7 +347,6 @@ impl Block {
         }
     }
 
-    /// Solves for the eliminated unknowns, which are the first entries of `all`. The delayed and touched unknowns after them are known.
     pub(super) fn back_substitute(&self, all: &mut [f64]) {
         let (size, stride) = (self.size(), self.stride());
         for at in (0..self.pivots).rev() {
@@ -383,8 +357,6 @@ impl Block {
         }
     }
 
-    /// Entries of a right-hand side in the order of the pivot rows.
-    /// The entries are taken from `own` for own unknowns, and from `block` for unknowns of the block.
     pub(super) fn by_rows<'a>(
         &'a self,
         own: impl Fn(usize) -> f64 + 'a,
@@ -396,7 +368,6 @@ impl Block {
         })
     }
 
-    /// Unknown that belongs to each column in the order of pivots: `Ok` for an unknown of the band, `Err` for an unknown of the block.
     pub(super) fn unknowns(&self) -> impl Iterator<Item = Result<usize, usize>> + '_ {
         self.column_at
             .iter()

@@ -1,8 +1,7 @@
 //! Banded matrix with a border: additional columns and rows that may have entries anywhere.
 //!
 //! A border with few unknowns is stored as dense columns, which do not change the band.
-//! A border of many blocks, each of which touches few unknowns of the band, is eliminated block by block.
-//! The work of the block elimination is proportional to the number of blocks.
+//! A border of many blocks is eliminated block by block, with work in proportion to the number of blocks.
 
 use super::block::BLOCK;
 use super::full_border::FullLu;
@@ -42,7 +41,6 @@ pub enum BorderUnit {
 }
 
 impl BorderUnit {
-    /// Factor that converts a row of this unit to forces. `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn row_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => 1.0,
@@ -50,8 +48,6 @@ impl BorderUnit {
         }
     }
 
-    /// Factor that converts derivatives with respect to an unknown of this unit to derivatives with respect to a length.
-    /// The argument `stiffness` is a typical stiffness in the band [force/length].
     pub(super) fn column_factor(self, stiffness: f64) -> f64 {
         match self {
             Self::Force => stiffness,
@@ -65,7 +61,7 @@ impl BorderUnit {
 pub enum Border {
     /// Dense columns and rows.
     Full(FullBorder),
-    /// Blocks of five unknowns. Each block touches few unknowns of the band, and no other block.
+    /// Blocks of five unknowns. Each block is coupled to few unknowns of the band, and to no other block.
     Local(Box<LocalBorder>),
 }
 
@@ -266,6 +262,10 @@ impl BorderedMatrix {
         let Self { band, border, joint_elimination: together, ends } = self;
         let size = band.size();
         let factors = match (border, together) {
+            (Border::Local(border), _) if border.width() == 0 && band.distant().is_empty() => {
+                band.weigh_rows();
+                BorderFactors::Band(band.factorise()?)
+            }
             (Border::Local(border), _) => BorderFactors::Local(border.factorise(band)?),
             (Border::Full(border), Some(together)) => {
                 BorderFactors::Joint(together.factorise(&border.entries_with(band))?)
@@ -343,7 +343,6 @@ mod tests {
 
     #[test]
     fn what_only_the_border_holds_is_solved_with_it() {
-        // Three masses are connected by springs of stiffness 2 and 3, and the border fixes the last mass. The last border row is dense.
         let border = BorderShape { width: 2, row_entries: 4 };
         let mut matrix = BorderedMatrix::zeros(3, 1, border).with_joint_elimination(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
@@ -370,10 +369,7 @@ mod tests {
         }
     }
 
-    /// Solves a contact problem on a band of positions and angles in the given units of length and force.
-    /// The solution is converted back to the original units.
     fn in_units(length: f64, force: f64, mut matrix: BorderedMatrix, seed: f64) -> Vec<f64> {
-        // Units of the rows and of the unknowns of the band.
         let of_band = [(force, length), (force, length), (force * length, 1.0)];
         let of_contact = [(length, force), (length, force), (force, force), (force, force)];
         let of_way = [(force, 1.0)];

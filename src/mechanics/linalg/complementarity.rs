@@ -77,7 +77,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Positive definite matrix `B Bᵀ + 0.01`. The matrix `B` contains the given entries.
     fn definite(size: usize, entries: &[f64]) -> Vec<Vec<f64>> {
         let rows: Vec<&[f64]> = entries.chunks(size).collect();
         let product =
@@ -90,7 +89,6 @@ mod tests {
     fn what_is_taken_along_by_another_is_not_pushed() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Complementary; 2];
-        // The first unknown alone makes the response of the second pair positive.
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
         let tied = [Pairing::Complementary, Pairing::Equality];
         let both = complementary(&matrix, &[-2.0, -0.1], &tied).unwrap();
@@ -120,7 +118,6 @@ mod tests {
                     }
                 }
             }
-            // The same complementarity problem with its pairs in reverse order.
             let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
             let q: Vec<f64> = q.into_iter().rev().collect();
             let pairings: Vec<Pairing> = pairings.into_iter().rev().collect();

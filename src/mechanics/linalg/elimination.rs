@@ -46,7 +46,6 @@ impl WithSimd for Elimination<'_> {
             8 => eliminate(simd, &mut self.0, 8, eliminate_fixed::<S, 8, 8, 28>),
             11 => eliminate(simd, &mut self.0, 11, eliminate_fixed::<S, 11, 12, 37>),
             reach => {
-                // All columns after the last entry are zero.
                 let width = reach.next_multiple_of(LANES);
                 eliminate(simd, &mut self.0, reach, |simd, storage, first| {
                     eliminate_panel(simd, storage, first, [reach, reach], width)
@@ -56,9 +55,9 @@ impl WithSimd for Elimination<'_> {
     }
 }
 
-/// Elimination of a matrix whose profile is symmetric.
-/// For each index `i`, the profile contains the last row with an entry in column `i`. It is also the last column with an entry in row `i`.
-/// The values of the profile never decrease. The profile is longer than the matrix by one panel of rows.
+/// Elimination of a matrix with a symmetric profile.
+/// For each index, the profile gives the last row with an entry in this column, which is also the last column with an entry in this row.
+/// The values of the profile never decrease.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {
@@ -81,9 +80,7 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`.
-/// Panels that contain additional nonzero entries from earlier row exchanges are eliminated by [`eliminate_panel`].
-/// Panels without such entries are eliminated by `eliminate_plain`.
+/// Eliminates a band matrix of half-bandwidth `reach`, panel by panel.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,
@@ -91,7 +88,6 @@ fn eliminate<S: Simd>(
     reach: usize,
     eliminate_plain: impl Fn(S, &mut ActiveRows<'_>, usize) -> bool,
 ) -> Result<(), LinearError> {
-    // Last column in which the rows above the panel have an entry.
     let mut filled = 0;
     for first in (0..storage.columns).step_by(PANEL) {
         let next = first + PANEL;
@@ -129,8 +125,6 @@ fn eliminate_in_profile<S: Simd>(
         let next = first + PANEL;
         let below = ends[next - 1] + 1 - next;
         let width = filled.max(ends[next - 1]) + 1 - next;
-        // Columns after the last entry and rows below the last row are zero.
-        // The compile-time constants are the sizes for cubic beams, with and without a point that slides from one span to the next.
         let is_eliminated = match below.max(width) {
             ..=9 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 9], 12),
             ..=11 if reach > 10 => eliminate_panel(simd, storage, first, [reach, 11], 12),
@@ -155,7 +149,6 @@ fn eliminate_in_profile<S: Simd>(
 }
 
 pub(super) struct PanelFactors {
-    /// Entries of the factors in the panel: multipliers to the left of the diagonal, and the upper factor on the diagonal and to the right of it.
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
     /// True if no multiplier is large and all entries are finite.
@@ -185,8 +178,6 @@ impl PanelFactors {
     }
 }
 
-/// Eliminates the columns of a panel from the rows below the panel and the columns after it.
-/// Returns false without any change if rows should be exchanged. The first entry of the last argument is the half-bandwidth of the storage.
 #[inline(always)]
 fn eliminate_panel<S: Simd>(
     simd: S,
@@ -278,7 +269,6 @@ pub(super) fn subtract<S: Simd, const COUNT: usize>(
     }
 }
 
-/// Eliminates one column with partial pivoting. Returns the last column with an entry. `end` gives the end of the profile.
 fn eliminate_column(
     storage: &mut ActiveRows<'_>,
     column: usize,
@@ -289,7 +279,6 @@ fn eliminate_column(
     let (stride, rows) = (3 * reach + PANEL, &mut *storage.rows);
     let last_row = end(column).min(size - 1);
     let diagonal = column * stride + reach + PANEL - 1;
-    // The entry one row below in the same column is stored `stride - 1` elements later.
     let entry = |row: usize| rows[diagonal + (row - column) * (stride - 1)].abs();
     let relative = |row: usize| entry(row) / storage.sizes[row].sqrt();
     let (mut pivot_row, mut largest) = (column, relative(column));

@@ -35,7 +35,6 @@ impl LinearError {
         }
     }
 
-    /// Converts the column index of an error in a submatrix to an index in the whole matrix. `rows` is the number of rows before the submatrix.
     pub(super) fn offset_by_rows(self, rows: usize) -> Self {
         match self {
             Self::Singular { unknown, size } => {

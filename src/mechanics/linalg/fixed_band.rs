@@ -9,10 +9,6 @@ use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
 /// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges.
 /// Returns false without any change if rows should be exchanged.
-///
-/// The argument `rows` contains the panel and the `REACH` rows below it, each with `STRIDE` stored entries.
-/// The argument `sizes` contains the squared sizes of the rows.
-/// The constant `WIDTH` is the half-bandwidth, rounded up to whole vectors.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,

@@ -16,10 +16,9 @@ const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
 /// Force rows, such as the equation of a frictionless contact, are preferred as long as the preference loses at most four digits.
-/// With the preference for force rows, a zero force is exactly zero.
+/// If force rows are preferred, a contact force of zero is computed without rounding error.
 const LENGTHS: f64 = 1e-4;
 
-/// Several columns of the border `B`. After the factorisation, they contain columns of the solution `Z = A⁻¹ B`.
 #[derive(Debug, Clone)]
 struct BorderStrip {
     rows: Vec<[f64; STRIP]>,
@@ -31,10 +30,8 @@ struct BorderStrip {
 pub struct FullBorder {
     width: usize,
     strips: Vec<BorderStrip>,
-    /// Entries of `C` (row of the border, column, value). Values for the same row and column must be added up.
     rows: Vec<(usize, usize, f64)>,
     corner: Box<BandedMatrix>,
-    /// Units of the border rows and unknowns.
     units: Vec<(BorderUnit, BorderUnit)>,
 }
 
@@ -102,8 +99,6 @@ impl FullBorder {
         self.units[at] = (row, unknown);
     }
 
-    /// Scales the rows of the matrix `D - C Z`.
-    /// Rows of lengths are scaled by the largest compliance, which makes them comparable with rows of forces.
     fn weigh_rows(&mut self) {
         let compliances = self.units.iter().enumerate().map(|(at, units)| match units {
             (BorderUnit::Length(_), BorderUnit::Force) => self.corner.in_band(at, at).abs(),
@@ -130,8 +125,6 @@ impl FullBorder {
         self.corner.get(border_row, border_column)
     }
 
-    /// All nonzero entries of the matrix that consists of a band and this border, as row, column and value.
-    /// Values for the same row and column must be added up.
     pub(super) fn entries_with(&self, band: &BandedMatrix) -> Vec<(usize, usize, f64)> {
         let (Self { width, strips, rows, corner, .. }, n) = (self, band.size());
         let reach = band.half_bandwidth();
@@ -153,7 +146,6 @@ impl FullBorder {
         all.filter(|(.., value)| *value != 0.0).collect()
     }
 
-    /// Factorises a matrix that consists of this border and an already factorised band.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: BandedLu<'a>,

@@ -15,12 +15,10 @@ type MatrixEntry = (usize, usize, f64);
 pub(super) struct JointElimination {
     size: usize,
     band: BandedMatrix,
-    /// Position of each sparse row in the band.
     position: Vec<usize>,
     scales: Equilibration,
     /// Dense columns. The factorisation multiplies them by the inverse of the band.
     columns: Vec<Vec<f64>>,
-    /// Entries of the dense rows. Row numbers start at the first dense row.
     rows: Vec<MatrixEntry>,
     complement: BandedMatrix,
 }

@@ -1,13 +1,7 @@
-//! Border of many blocks. Each block touches few unknowns of the band and is eliminated separately.
+//! Border of many blocks. Each block is coupled to few unknowns of the band and is eliminated separately.
 //!
-//! ```text
-//! [ A    B1   B2  … ]
-//! [ C1   D1         ]        each block separately:  A + Σ (Schur complement of block k on the unknowns that it touches)
-//! [ C2        D2    ]
-//! [ …             … ]
-//! ```
-//!
-//! The work is proportional to the number of blocks and unknowns. In each factorisation, the blocks may touch different unknowns of the band.
+//! The work is proportional to the number of blocks and unknowns.
+//! In each factorisation, the blocks may be coupled to different unknowns of the band.
 
 use std::sync::Arc;
 
@@ -21,14 +15,10 @@ use super::{BandedMatrix, LinearError};
 /// Half-bandwidth that is allocated in addition to that of the band.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
-/// Structure of the blocks of a border and of its band.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BlockLayout {
-    /// For each block, the unknowns of the band that are coupled with others by this block only. They are eliminated with the block.
     pub own: Vec<Vec<usize>>,
-    /// Groups of unknowns of the band that are coupled with each other.
     pub groups: Arc<[Vec<usize>]>,
-    /// Number of entries for which each block allocates memory in advance.
     pub block_entries: usize,
 }
 
@@ -39,7 +29,6 @@ pub struct LocalBorder {
     arrangement: Arrangement,
     /// Band plus the Schur complements of the blocks, in the order of the arrangement.
     matrix: ProfileMatrix,
-    /// Buffer for the position of each unknown of the band in a block. All entries are `UNTOUCHED` while the buffer is unused.
     places: Vec<usize>,
     right: Vec<f64>,
     own: Vec<f64>,
@@ -171,7 +160,6 @@ fn add_schur_complement(
             }
         }
     }
-    // Positions reserved for delayed unknowns that are not used get a row of the identity matrix.
     if delayed != UNTOUCHED {
         for place in delayed + count..delayed + super::block::MOST_DELAYED {
             matrix.set_row_size(place, 1.0);
@@ -237,7 +225,6 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
     use proptest::prelude::*;
 
-    /// Unknowns that a block touches, given by the first of several consecutive unknowns, their number, and an optional further unknown.
     type Touch = (usize, usize, Option<usize>);
 
     const OWN: usize = 2;
@@ -256,7 +243,6 @@ mod tests {
         (BlockLayout { own, groups: groups.into(), block_entries: 10 }, next)
     }
 
-    /// Fills a matrix as for a band with contacts whose forces are independent of each other.
     fn fill(
         matrix: &mut BorderedMatrix,
         layout: &BlockLayout,
@@ -324,7 +310,6 @@ mod tests {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
-        // The blocks correspond to two beams of 150 unknowns that cross each other at every block.
         let touches: Vec<Touch> =
             (0..30).map(|block| (5 * block, 3, Some(150 + 5 * block))).collect();
         let mut value = 0.3_f64;

@@ -7,7 +7,6 @@ use std::collections::VecDeque;
 pub struct Ordering {
     /// New number of each unknown: `position[old]`.
     pub position: Vec<usize>,
-    /// Half-bandwidth: the largest difference of new numbers within a group.
     pub half_bandwidth: usize,
 }
 
@@ -77,7 +76,6 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     position
 }
 
-/// Unknown at an end of the connected component that contains `seed`, found by two passes over the levels of neighbours.
 fn farthest<I: Iterator<Item = usize>>(
     seed: usize,
     count: usize,

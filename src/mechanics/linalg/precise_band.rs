@@ -14,7 +14,6 @@ use super::{LinearError, SymmetricSparse};
 pub struct PreciseBand {
     pub(super) size: usize,
     pub(super) half_bandwidth: usize,
-    /// High parts of the upper triangle. Row `i` contains the columns `i ..= i + b` for the half-bandwidth `b`, and zeros up to whole vectors.
     pub(super) high: Vec<f64>,
     pub(super) low: Vec<f64>,
 }
@@ -34,7 +33,6 @@ impl PreciseBand {
         self.size
     }
 
-    /// Half-bandwidth.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
@@ -43,7 +41,6 @@ impl PreciseBand {
         self.half_bandwidth + 1 + MARGIN
     }
 
-    /// Diagonal entry of a row, rounded to 16 digits.
     pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.high[row * self.stride()]
     }
@@ -63,7 +60,6 @@ impl PreciseBand {
             if row < self.size && a != 0.0 {
                 let a = DoubleDouble::product(factor, a);
                 for (&column, &b) in unknowns.iter().zip(r) {
-                    // Each pair of different unknowns occurs twice. Only the pair in the upper triangle is used.
                     if row <= column && column < self.size {
                         self.add_double_double(row, column, a.times(b));
                     }

@@ -15,7 +15,6 @@ use super::substitution::ProfileSubstitution;
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
-    /// Values of the profile, which never decrease from one index to the next. The list is longer than the matrix by one panel of rows.
     ends: Vec<usize>,
 }
 
@@ -32,8 +31,6 @@ impl ProfileMatrix {
         Self { storage: Storage::zeros(size, half_bandwidth), ends }
     }
 
-    /// Sets the matrix to zero and changes its profile to the smallest nondecreasing profile that covers `ends`.
-    /// Entries within the half-bandwidth but outside the profile must remain zero.
     pub(super) fn remake(&mut self, ends: &[usize], half_bandwidth: usize) {
         self.ends.clear();
         let (mut furthest, mut reach) = (0, half_bandwidth);
@@ -54,7 +51,6 @@ impl ProfileMatrix {
         self.storage.rows[at] += value;
     }
 
-    /// Copies values to a row, starting at the column `first`. Values outside the profile must be zero.
     #[inline]
     pub(super) fn copy_to_row(&mut self, row: usize, first: usize, values: &[f64]) {
         let at = row * self.storage.stride() + first + self.storage.centre() - row;
@@ -100,7 +96,6 @@ mod tests {
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = ProfileMatrix::with_capacity(1, 0);
-            // The second solution has a different profile.
             for shift in [0, 7] {
                 let size = reaches.len();
                 let ends: Vec<usize> =

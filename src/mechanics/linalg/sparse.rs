@@ -9,7 +9,6 @@ use super::strips::VectorStrip;
 pub struct SymmetricSparse {
     /// Index of the first entry of each row, followed by the total number of entries.
     starts: Vec<usize>,
-    /// Columns of the entries, sorted in each row.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
@@ -28,7 +27,6 @@ impl SymmetricSparse {
         let mut next = starts.clone();
         let (mut columns, mut values) = (vec![0_u32; starts[size]], vec![0.0; starts[size]]);
         give(&mut |row, column, value| {
-            // Entries are inserted in the order of columns. Most entries are already given in this order.
             let (first, mut at) = (starts[row], next[row]);
             while at > first && columns[at - 1] as usize > column {
                 (columns[at], values[at]) = (columns[at - 1], values[at - 1]);
@@ -76,7 +74,6 @@ impl SymmetricSparse {
             .zip(self.values[entries].iter().copied())
     }
 
-    /// Diagonal entry of a row.
     pub(crate) fn diagonal(&self, row: usize) -> f64 {
         self.row(row).find(|(column, _)| *column == row).map_or(0.0, |(_, value)| value)
     }

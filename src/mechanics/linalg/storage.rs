@@ -6,7 +6,7 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
 /// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest [-].
-/// Elimination with the smaller diagonal entry loses half of the digits at this ratio. Corrections with the same factors recover them.
+/// At this limit, elimination with the smaller diagonal entry loses half of the digits. Corrections with the same factors recover the digits.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.
@@ -17,11 +17,9 @@ pub(super) struct Storage {
     pub(super) size: usize,
     /// Half-bandwidth `b`, at least `SMALLEST_HALF_BANDWIDTH`.
     pub(super) reach: usize,
-    /// Entries row by row. Row `i` contains the columns `i - b - (PANEL - 1) ..= i + 2 b`.
-    /// After the factorisation, a row contains the multipliers to the left of the diagonal and the inverse pivot on the diagonal.
+    /// Entries row by row. After the factorisation, a row contains the multipliers, the inverse pivot and the upper factor.
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
-    /// For each row of the upper factor, the last column with an entry.
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
@@ -35,8 +33,6 @@ pub(super) struct Storage {
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
     pub(super) size: usize,
-    /// Number of columns to be eliminated: all columns, or a multiple of the panel width.
-    /// If only some columns are eliminated, the storage also contains all rows below that have entries in these columns.
     pub(super) columns: usize,
     pub(super) reach: usize,
     pub(super) rows: &'a mut [f64],
@@ -121,7 +117,7 @@ impl Storage {
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
     /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
     /// If one scaled entry is far above all others, the diagonal entry of its column is negligible and would be an inaccurate pivot.
-    /// The size is then limited, so that the row of the constraint becomes the pivot row.
+    /// Sizes of rows of constraints are limited, so that the row of the constraint becomes the pivot row.
     /// Rows that are coupled only to constraints are treated like rows of constraints.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
@@ -155,7 +151,6 @@ impl Storage {
             if *size == 0.0 {
                 *size = largest(&mut coupled().map(by_constraint).filter(|size| size.is_finite()));
             }
-            // A row without entries has the size zero.
             if *size == 0.0 {
                 *size = 1.0;
             }
@@ -163,7 +158,6 @@ impl Storage {
     }
 }
 
-/// Largest value, or the second largest positive value times [`LARGEST_RATIO`] if this is smaller.
 fn largest_of_two(values: impl Iterator<Item = f64>) -> f64 {
     let [largest, second] = values.fold([0.0, 0.0], |[largest, second], value: f64| {
         [value.max(largest), value.min(largest).max(second)]

@@ -25,7 +25,6 @@ impl WithSimd for Substitution<'_> {
     }
 }
 
-/// Forward substitution with the eliminated columns, which also updates the right-hand side of the remaining rows.
 pub(super) struct Forward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -85,7 +84,6 @@ impl WithSimd for ProfileSubstitution<'_> {
     }
 }
 
-/// Substitution for `W` right-hand sides with interleaved entries. The right-hand sides must be zero before row `first`.
 pub(super) struct StripSubstitution<'a, const W: usize> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [[f64; W]],
@@ -101,7 +99,6 @@ impl<const W: usize> WithSimd for StripSubstitution<'_, W> {
     }
 }
 
-/// Forward substitution with factors of half-bandwidth `reach`. `end` gives the last row with a multiplier for each column.
 #[inline(always)]
 fn substitute_forward(
     factors: &Factors<'_>,
@@ -231,7 +228,6 @@ fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
 fn substitute_strip<const W: usize>(factors: &Factors<'_>, x: &mut [[f64; W]], first: usize) {
     let (size, reach, rows) = (factors.size, factors.reach, factors.rows);
     let (stride, centre) = (3 * reach + PANEL, reach + PANEL - 1);
-    // A row exchange changes entries in up to `reach` earlier columns.
     for column in first.saturating_sub(reach)..size {
         x.swap(column, factors.pivots[column]);
         let value = x[column];

@@ -1,9 +1,6 @@
 //! `L D Lᵀ` factorisation of a symmetric band matrix. The elimination uses 32 digits; storage and substitution use 16 digits.
 //!
-//! In a positive definite sum of terms of very different magnitudes, the pivots have very different magnitudes. The columns of `L` do not.
-//! The factors `L` and `D` are rounded to 16 digits at the end.
-//! Rounding `L` and `D` has the same effect as rounding the entries of `B`:
-//! each term of the sum changes by a small relative amount (theory, section 15).
+//! Rounding the factors to 16 digits has the effect of small relative changes of the stiffness terms (docs/theory.md, section 15).
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -65,7 +62,6 @@ impl SymmetricFactors {
 
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
 
-/// Eliminates the symmetric matrix `A + σ M` column by column. Columns and pivots are stored in `kept` if it is given.
 pub(super) fn eliminate(
     band: &PreciseBand,
     shift: f64,
@@ -105,10 +101,8 @@ impl SymmetricElimination<'_> {
     fn run<S: Simd>(self, simd: S, reach: usize) -> Result<Pivots, LinearError> {
         let Self { band, shift, other, mut kept } = self;
         let (size, stride) = (band.size, reach + 1 + MARGIN);
-        // Circular buffer of the rows that can change. Row `i` is stored at the index `i` modulo the number of these rows.
         let rows = reach + 1;
         let (mut high, mut low) = (vec![0.0; rows * stride], vec![0.0; rows * stride]);
-        // Initial value of each diagonal entry, and its total reduction.
         let (mut start, mut taken) = (vec![0.0_f64; rows], vec![0.0_f64; rows]);
         let mut pivots = Pivots { negative: 0, growth: 0.0 };
         let mut loaded = 0;
@@ -293,7 +287,6 @@ mod tests {
         #[test]
         fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
             let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
-            // One unknown occurs twice, and one unknown is outside the matrix.
             let unknowns = [3, 1, 3, 7];
             let (p, q) = entries.split_at(4);
             band.add_square(&unknowns, 2.0, p);

@@ -115,8 +115,6 @@ impl TwoEnded {
         let storage = band.storage_mut();
         let (stride, centre) = (storage.stride(), storage.centre());
         let (before, behind) = (cut.upper_rows(), size - cut.lower_rows());
-        // The diagonal of a reversed row is stored at a different index.
-        // The elimination does not use the zeros at the end of the row between both parts.
         let shift = 2 * reach - centre;
         let (rows, lower) = storage.rows[..size * stride].split_at_mut(behind * stride - shift);
         let (pivots, lower_pivots) = storage.pivots.split_at_mut(behind);
@@ -160,7 +158,6 @@ impl TwoEnded {
                 true => (0, row, column),
                 false => (behind, size - 1 - row, size - 1 - column),
             };
-            // Row exchanges cause additional nonzero entries up to twice the half-bandwidth.
             let is_stored = column <= row + 2 * reach;
             if is_stored {
                 storage.rows[(first + row) * stride + column + centre - row]
@@ -252,7 +249,6 @@ mod tests {
         let mut x = right.to_vec();
         let mut factors = ends.factorise(&mut band).unwrap();
         factors.solve(&mut x);
-        // The same factors are used for a second solution.
         x.copy_from_slice(right);
         factors.solve(&mut x);
         x
@@ -263,7 +259,6 @@ mod tests {
         fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
             size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
             entries in prop::collection::vec(-1.0..1.0_f64, 2000),
-            // Relative sizes of the diagonal for which no, some or many rows are exchanged.
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
             let mut matrix = BandedMatrix::zeros(size, half_bandwidth);

@@ -1,11 +1,7 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! A script function can be evaluated only at single times. To detect a jump at the start, it is evaluated at two small times.
-//! The ratio of its changes distinguishes jumps, functions such as `√t` with an infinite rate, and smooth functions.
-//! To detect a jump within a step, the differences of consecutive values are compared.
-//! If one of the differences exceeds the sum of all others, its interval is bisected thirty times.
-//! Each bisection keeps the half with the larger difference.
-//! If the function jumps, the remaining difference is constant; otherwise it tends to zero.
+//! At the start, the ratio of the changes at two small times distinguishes jumps, infinite rates and smooth functions.
+//! Within a step, the interval with the largest difference is bisected. For a jump, the remaining difference is constant.
 
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::whole_power;
@@ -24,11 +20,9 @@ const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 /// Number of bisections before a difference is recorded, and again after the record.
 const HALVINGS: usize = 15;
 
-/// Remaining fraction of the recorded difference, above which the function jumps.
-/// The remaining fraction is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// After repeated bisection, the remaining fraction of a difference is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
-/// Smallest ratio of the largest difference in a step to the sum of all other differences for which a jump is searched.
 const JUMP_RATIO: f64 = 1.05;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,10 +69,6 @@ pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadErr
     Ok(is_steep.then_some(Jump { time: 0.0, before, after, is_jump: is_whole }))
 }
 
-/// Jump of a schedule within a step. `values` are the values of the schedule at the given `times` of the step. `None` if they do not indicate a jump.
-///
-/// # Errors
-/// Fails if the script function fails or a value is not finite.
 pub(super) fn jump_between(
     schedule: &Schedule,
     times: &[f64],

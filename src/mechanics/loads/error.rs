@@ -28,7 +28,6 @@ impl fmt::Display for FunctionError {
     }
 }
 
-/// Forwards the message and the source of the wrapped error.
 impl Error for FunctionError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         Some(&*self.0)
@@ -74,7 +73,6 @@ pub enum LoadError {
         /// Time of the infinite rate [time].
         time: f64,
     },
-    /// Error of a script function.
     #[error(transparent)]
     Function(FunctionError),
     #[error("the schedule is {value} at t = {time}, but it must be finite")]

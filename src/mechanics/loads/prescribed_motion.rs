@@ -22,7 +22,7 @@ pub struct MotionInStep {
     pub increment: f64,
     /// Rate just after the start of the step [length/time, rad/time].
     pub first_rate: f64,
-    /// Rounding error of the first rate [length/time, rad/time].
+    /// Rounding error of the rate just after the start of the step [length/time, rad/time].
     pub rounding: f64,
     /// Rate just before the end of the step [length/time, rad/time].
     pub rate: f64,
@@ -74,7 +74,6 @@ impl PrescribedMotion {
         }
     }
 
-    /// Number of script function calls in [`over`](Self::over), without the additional calls after a jump.
     pub(crate) fn calls_in_step(&self) -> usize {
         let schedule = self.schedule();
         match self {
@@ -87,7 +86,7 @@ impl PrescribedMotion {
     ///
     /// A prescribed rate is integrated by [`Schedule::mean`].
     /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
-    /// If the function has kinks at the ends of the step, its values beyond the kinks do not affect the rate.
+    /// If the function of time has kinks at the ends of a step, values beyond the kinks do not affect the rate.
     ///
     /// # Errors
     /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.
@@ -270,7 +269,6 @@ fn reversed(mut values: [f64; 5]) -> [f64; 5] {
     values
 }
 
-/// Weighted sum of the differences from the last value. Its rounding error is smaller than that of the weighted sum of the values.
 fn sum(weights: &[f64; 5], values: &[f64; 5]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * (value - values[4])).sum()
 }
@@ -321,7 +319,6 @@ mod tests {
             if t < 1e-3 { (t * 4e3).sin() } else { (4.0_f64).sin() }
         }));
         assert!((soon.beginning(0.0).unwrap().rate - 4e3).abs() < 1e-5);
-        // A run that starts later begins with the values at its start time.
         assert_eq!(soon.beginning(2.0).unwrap(), MotionAtStart::default());
         let square = PrescribedMotion::Position(of(|t| t * t));
         assert!((square.beginning(1.5).unwrap().rate - 3.0).abs() < 1e-9);

@@ -51,7 +51,6 @@ impl SampleClock {
         if time < -slack {
             return None;
         }
-        // Because of rounding, this number may belong to the next or the previous sample.
         let number = ((time + slack).max(0.0) / self.period) as u64;
         if number > 0 && self.sample(number) > time + slack {
             return Some(number - 1);

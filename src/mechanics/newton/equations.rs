@@ -7,7 +7,7 @@ use crate::linalg::BorderedMatrix;
 pub struct ResidualNorms {
     /// Largest residual force, as a fraction of the scale of the forces [-].
     pub force: f64,
-    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
+    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
     pub strain: f64,
     /// Largest constraint violation, as a fraction of the scale of the constraint [-].
     pub constraint: f64,
@@ -19,7 +19,7 @@ impl ResidualNorms {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
 
-    /// Part with the largest norm, or with a norm that is NaN.
+    /// Part of the residual with the largest norm, or with a norm that is NaN.
     pub fn worst(&self) -> ResidualPart {
         let others =
             [(ResidualPart::Strain, self.strain), (ResidualPart::Constraint, self.constraint)];
@@ -42,7 +42,7 @@ impl ResidualNorms {
 pub enum ResidualPart {
     /// Force balance.
     Force,
-    /// Strain mismatch.
+    /// Strain residual.
     Strain,
     /// Constraint violation.
     Constraint,
@@ -50,15 +50,15 @@ pub enum ResidualPart {
 
 /// Nonlinear equations `R(u) = 0`, which may have internal unknowns at quadrature points.
 ///
-/// The internal unknowns (section forces) are condensed out of the linear system.
+/// The internal unknowns (section forces) are eliminated from the linear system.
 /// Method: "mixed integration point" Newton (Magisano, Leonetti & Garcea 2017).
-/// [`linearise`](Equations::linearise) condenses the internal unknowns, and [`correct`](Equations::correct) updates them.
+/// [`linearise`](Equations::linearise) eliminates the internal unknowns, and [`correct`](Equations::correct) updates them.
 pub trait Equations {
-    /// Computes residual and tangent at `u`, with internal unknowns condensed out. Both must be zero on entry.
+    /// Computes residual and tangent at `u`, with the internal unknowns eliminated. Both must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Prepares a correction with the factors of the last linearisation.
-    /// Condenses the internal unknowns out of the residual that the last call of [`imbalance`](Equations::imbalance) has computed.
+    /// Eliminates internal unknowns from a residual. A correction with earlier matrix factors needs the result.
+    /// The residual must be the result of the last call of [`imbalance`](Equations::imbalance).
     fn condense(&mut self, residual: &mut [f64]);
 
     /// Updates the internal unknowns after a correction of `u`, using the last linearisation.

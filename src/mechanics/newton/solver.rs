@@ -10,7 +10,7 @@ use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 const NEAR: f64 = 1e-4;
 
 /// Largest number of corrections that take less time than one iteration.
-/// Corrections use earlier factors; an iteration with new factors squares the residual.
+/// An iteration with new factors squares the residual. A correction with earlier factors only reduces it.
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections that reuse the factorised tangent of similar equations. Each correction should gain several digits.
@@ -28,7 +28,7 @@ const STANDSTILL: f64 = 0.1;
 pub struct Tolerance {
     /// Tolerance of the relative residual force [-].
     pub force: f64,
-    /// Tolerance of the strain mismatch [-].
+    /// Tolerance of the strain residual [-].
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
@@ -45,8 +45,6 @@ impl Default for Tolerance {
 }
 
 impl Tolerance {
-    /// Returns true if a further correction with the present factors is useful.
-    /// The argument `factor` is the reduction of the residual by the last correction. The number of corrections still allowed is `corrections`.
     fn is_worth_correcting(
         &self,
         imbalance: &ResidualNorms,
@@ -135,10 +133,6 @@ impl Newton {
         self.solve_and(equations, u, residual, |_, _| ())
     }
 
-    /// Solves the equations like [`solve`](Self::solve), and calls `hand_on` with the solution and the last factors.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`solve`](Self::solve). After an error, `hand_on` is not called.
     pub(crate) fn solve_and(
         &mut self,
         equations: &mut impl Equations,
@@ -202,7 +196,7 @@ impl Newton {
     ) -> Result<NewtonReport, NewtonError> {
         self.tangent.clear();
         residual.fill(0.0);
-        // This call of `linearise` condenses out the internal unknowns. Its tangent is not used.
+        // The method `linearise` is called to eliminate the internal unknowns. The tangent is not used.
         equations.linearise(u, residual, &mut self.tangent);
         let mut before = f64::INFINITY;
         for corrections in 1..=MOST_SHARED_CORRECTIONS {
@@ -242,7 +236,6 @@ fn correct(
 mod tests {
     use super::*;
 
-    /// Equations `x² = 2` and `x y = 1` without internal unknowns.
     struct SquareRoot;
 
     impl Equations for SquareRoot {
@@ -282,7 +275,6 @@ mod tests {
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
     }
 
-    /// Equation `x = 0` whose residual norms are taken from a list.
     struct SpoiltByCorrections {
         imbalances: std::vec::IntoIter<ResidualNorms>,
     }

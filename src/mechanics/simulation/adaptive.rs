@@ -26,7 +26,6 @@ pub(super) struct Adaptive {
     pub(super) tolerance: f64,
     /// Length scale of position errors [length].
     pub(super) length: f64,
-    /// Order of accuracy of the method in this scene.
     pub(super) order: u32,
 }
 
@@ -76,7 +75,6 @@ impl Adaptive {
         let (end, is_cut) = if stop <= now + wish {
             (stop, stop < now + wish)
         } else if left < 2.0 * wish {
-            // Two equal steps are better than a long step followed by a short one.
             (now + 0.5 * left, true)
         } else {
             (now + wish, false)

@@ -16,7 +16,6 @@ pub struct Axes<'a> {
 pub struct AxisStation {
     values: BasisValues,
     degree: usize,
-    /// Derivative `r0'` of the initial position with respect to the parameter of the mesh [length].
     drawn_slope: Vec2,
     /// Initial curvature [1/length].
     drawn_curvature: f64,
@@ -100,7 +99,7 @@ impl AxisStation {
         self.values.combine(1, points).normalize()
     }
 
-    /// Derivative `θ' / |r0'|` of the axis angle θ with respect to the initial arc length [1/length].
+    /// Derivative of the axis angle with respect to the initial arc length [1/length].
     fn turning(&self, points: &[Vec2]) -> f64 {
         let (slope, second) = (self.values.combine(1, points), self.values.combine(2, points));
         cross(slope, second) / slope.norm_squared() / self.drawn_slope.norm()
@@ -113,7 +112,6 @@ mod tests {
     use crate::elementary::{cos, sin};
     use crate::geometry::{Basis, KnotVector, LagrangeBasis};
 
-    /// Control points of a basis. Each control point is placed by its abscissa on an axis of length 2.
     fn along(basis: &Basis, place: impl Fn(f64) -> Vec2) -> Vec<Vec2> {
         basis.abscissae().into_iter().map(|xi| place(2.0 * xi)).collect()
     }
@@ -135,7 +133,6 @@ mod tests {
     fn a_parabola_has_the_curvature_of_its_top() {
         let basis = Basis::BSpline(KnotVector::uniform(1, 2, 1).unwrap());
         let drawn = along(&basis, |s| Vec2::new(s, 0.0));
-        // The curve is y = (x - 1)²/4 from x = 0 to 2. Its second derivative is 1/2.
         let now = [Vec2::new(0.0, 0.25), Vec2::new(1.0, -0.25), Vec2::new(2.0, 0.25)];
         let station = AxisStation::new(basis.evaluate(0.5).unwrap(), 2, &drawn);
         assert!((station.curvature(&now) - 0.5).abs() < 1e-12);

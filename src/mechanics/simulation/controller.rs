@@ -24,7 +24,6 @@ const BEFORE: f64 = 0.4;
 /// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by this value.
 const LEAST_ERROR: f64 = 1e-4;
 
-/// Constant parameters of the step size controller: order of the error, first step size and bounds [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct StepController {
     /// Exponent of the step size in the error of a single step [-].
@@ -39,7 +38,6 @@ pub(super) struct StepController {
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
-    /// Error of the last step that ended without an event, as a fraction of the allowed error [-]; `None` if unknown.
     pub(super) error: Option<f64>,
     /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
@@ -58,7 +56,6 @@ impl StepController {
         StepSizeState { unconstrained_size: self.first, error: None, tries: 0 }
     }
 
-    /// Returns true if a controller state from a file is valid: step size within the bounds, plausible error and number of attempts.
     pub(super) fn allows(&self, state: &StepSizeState) -> bool {
         let is_error = state.error.is_none_or(|error| error >= LEAST_ERROR && error.is_finite());
         (self.smallest..=self.largest).contains(&state.unconstrained_size)
@@ -101,7 +98,6 @@ impl StepController {
     /// Updates the state after a step whose error is too large.
     pub(super) fn reject(&self, state: &mut StepSizeState, trial: TriedStep) {
         let most = if state.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
-        // A NaN error is treated as infinite.
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
@@ -111,14 +107,13 @@ impl StepController {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Factor by which a step with this error could have been longer, reduced by a safety margin.
+    /// Factor by which a step could have been longer with the allowed error, reduced by a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }
 
     fn shorten(&self, state: &mut StepSizeState, duration: f64, part: f64) {
         state.tries += 1;
-        // The end time of a step may exceed the largest number. The duration is then infinite, and the requested step size is used.
         state.unconstrained_size = self.bounded(duration.min(state.unconstrained_size) * part);
     }
 
@@ -134,8 +129,6 @@ mod tests {
     const CONTROLLER: StepController =
         StepController { order: 3.0, first: 0.1, smallest: 1e-3, largest: 10.0 };
 
-    /// Sizes of the accepted steps up to t = 1.
-    /// A step has the allowed error if its size is `right`. The error of a step is proportional to the third power of its size.
     fn sizes(first: f64, right: impl Fn(usize) -> f64) -> (Vec<f64>, usize) {
         let mut state = StepSizeState { unconstrained_size: first, ..CONTROLLER.start() };
         let (mut sizes, mut rejected) = (Vec::new(), 0);

@@ -3,12 +3,10 @@
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// Branches of spring laws with sharp corners during a step: at its start, middle and end. They are stored for the whole step and for its two halves.
+/// Branches of spring laws with sharp corners during a step: at its start, middle and end, for the whole step and for its two halves.
 ///
-/// Suppose that a step ends shortly after contact with a stiff bumper has begun.
-/// The whole step and its halves then give nearly equal positions, even if their impact times differ.
-/// The rates after the impact differ strongly, because only some of the steps contain the reversal.
-/// Hence, if a spring changes its branch within a step, the difference of the rates times the step duration is added to the error.
+/// A whole step and its halves may give nearly equal positions but different impact times with a stiff bumper.
+/// If a spring changes its branch within a step, the difference of the rates of whole step and half steps, times the duration, is added to the error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,
@@ -34,7 +32,6 @@ impl CornerCrossings {
         model.write_branches(&mut self.halves);
     }
 
-    /// Difference between a whole step of a duration [time] and its two halves. Lengths are divided by `length` [-], angles are in rad.
     pub(super) fn difference(&self, duration: f64, length: f64) -> f64 {
         let ends = self.whole.iter().zip(&self.halves);
         let all = self.start.iter().zip(&self.middle).zip(ends);

@@ -28,19 +28,15 @@ pub(super) struct DoubledStep {
     /// Number of iterations and corrections of the half steps and the whole step together.
     pub(super) report: NewtonReport,
     pub(super) tried_step: TriedStep,
-    /// Error of positions and angles, without the error of corner crossings, as a fraction of the allowed error [-].
     position_error: f64,
 }
 
 impl DoubledStep {
-    /// Returns the step with the error of positions only. The smallest step uses it, because an unresolved impact must not cause a rejection.
     pub(super) fn judged_by_places(self) -> Self {
         let trial = TriedStep { error: self.position_error, ..self.tried_step };
         Self { tried_step: trial, ..self }
     }
 
-    /// Returns the step after its second half has been repeated.
-    /// The argument `report` contains the total work. The argument `error` is an additional error as a fraction of the allowed error.
     pub(super) fn resampled(self, report: NewtonReport, error: f64) -> Self {
         let trial = TriedStep { error: larger(self.tried_step.error, error), ..self.tried_step };
         Self { report, tried_step: trial, position_error: larger(self.position_error, error) }
@@ -93,7 +89,7 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes one of the three steps of a call of [`step`](Self::step).
+    /// Takes a whole step or one of the two half steps of [`step`](Self::step).
     /// If the step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,

@@ -8,15 +8,14 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which the scene moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` that serves as a length scale, as a fraction of the largest distance of a body from the origin.
-/// The symbol `v` is the start speed, and `g` is the gravity.
+/// Smallest distance `v²/g` that serves as a length scale, with start speed `v` and gravity `g`. Unit: largest distance of a body from the origin.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: the [size](Scene::size) of the scene.
 /// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
 /// If the distance `v²/g` is very short, the scale is the largest distance of a body from the origin.
 ///
-/// A scene may have no such length, for example a scene of a particle that starts at the origin almost at rest.
+/// A scene may have no length scale, for example a scene of a particle that starts at the origin almost at rest.
 /// The length scale of a scene without a length is 1 [length]. Only for such a scene, the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
@@ -87,7 +86,6 @@ mod tests {
 
     const LENGTHS: [f64; 4] = [1e-9, 1e-3, 1.0, 1e6];
 
-    /// Scene of one particle, with the unit of length `a` and the unit of time `t`.
     fn particle(at: Vec2, velocity: Vec2, gravity: f64, force: f64, (a, t): (f64, f64)) -> Scene {
         let mut scene = Scene::new("isolated");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: at * a };

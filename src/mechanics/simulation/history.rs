@@ -132,7 +132,6 @@ impl History {
         &self.extra
     }
 
-    /// Returns a history with the same columns and the given rows; `None` if the number of additional values does not fit.
     pub(super) fn with_rows(&self, samples: Vec<Sample>, extra: Vec<f64>) -> Option<Self> {
         let fits = samples.len().checked_mul(self.extra_columns.len()) == Some(extra.len());
         let extra_columns = self.extra_columns.clone();
@@ -271,7 +270,6 @@ mod tests {
         history_with(vec![], energies)
     }
 
-    /// Creates a history whose additional columns contain 10, 20, … in the first row and 11, 21, … in the second.
     fn history_with(extra: Vec<ExtraColumn>, energies: &[f64]) -> History {
         let width = extra.len();
         let scales = DriftScales { mass: 1.0, length: 1.0, rounding_energy: 0.0 };

@@ -17,8 +17,6 @@ fn pieces(degree: usize) -> usize {
 pub struct Outline {
     line: Vec<BodyPoint>,
     marks: Vec<BodyPoint>,
-    /// Corners of the polygon of a rigid body, in the frame of a line from the centre to a point of the body.
-    /// The coordinates of the corners are along the line and to its left, in units of its length.
     corners: Vec<Vec2>,
 }
 
@@ -63,8 +61,6 @@ impl Outline {
         scene.beams.iter().zip(meshes).enumerate().map(of_beam).chain(bodies).collect()
     }
 
-    /// For a body with one point, the drawn line starts at the centre and ends at the point.
-    /// With two points, the drawn line passes through the centre. With more points, it is a polygon around the centre.
     fn of_rigid_body(index: usize, body: &RigidBodyDefinition) -> Self {
         if !body.outline.is_empty() {
             return Self::polygon(index, body);
@@ -97,8 +93,8 @@ impl Outline {
         Self { line: line.into(), marks: Vec::new(), corners }
     }
 
-    /// Corners of the closed polygon of a rigid body, in the frame of the line between the two points of [`line`](Self::line).
-    /// The coordinates of the corners are along the line and to its left, in units of its length.
+    /// Corners of the closed polygon of a rigid body, relative to the line between the two points of [`line`](Self::line).
+    /// The first coordinate is along the line, the second coordinate is to its left. The unit is the length of the line.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }

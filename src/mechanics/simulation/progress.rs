@@ -57,7 +57,6 @@ pub(super) struct RunProgress {
     pub(super) counts: WorkCounts,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: Vec<Arrival>,
-    /// Releases in the order of their execution. The list is shared with snapshots.
     pub(super) releases: Rc<[ReleaseEvent]>,
 }
 

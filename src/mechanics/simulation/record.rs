@@ -14,7 +14,6 @@ pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
-    /// Number of permanent rows of the history. An additional temporary row may describe the present state.
     pub(super) permanent_rows: usize,
     /// Sensors of the columns after the standard ones.
     pub(super) sensors: Vec<Sensor>,
@@ -73,7 +72,6 @@ impl RunRecord {
         self.permanent_rows = self.history.samples().len();
     }
 
-    /// Adds a temporary row for the present state, unless the history has a row for this state already.
     pub(super) fn append_present(&mut self, model: &mut System, last_step: StepTaken) {
         let last = self.history.samples().last().map(|row| row.measures.time);
         if last != Some(model.time()) {
@@ -97,7 +95,6 @@ impl RunRecord {
     }
 }
 
-/// Rejects duplicate column names. A recorded quantity may have the same name as a column of the scene.
 fn check_names(columns: &[ExtraColumn]) -> Result<(), SystemError> {
     let mut names: HashSet<&str> = FIXED.iter().map(|column| column.name).collect();
     match columns.iter().find(|column| !names.insert(&column.name)) {

@@ -22,7 +22,7 @@ impl Default for Recording {
 }
 
 impl Recording {
-    /// Returns true if the state after this number of steps is recorded.
+    /// Returns true if the state after the given number of steps is recorded.
     pub fn is_due(self, steps: usize) -> bool {
         match self {
             Self::Every(count) => steps.is_multiple_of(count.get()),

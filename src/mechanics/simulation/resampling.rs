@@ -8,17 +8,14 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
-/// With this value of the constant, the error that accumulates in the time scale of a motion is about half the tolerance (theory.md, section 13.1).
+/// In the time scale of a motion, the accumulated error due to sampling is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
-/// Error estimate for steps in which controllers are sampled at the start of each half.
+/// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
 ///
-/// First, the whole step and its halves use the controller values at the start of the step. Their difference is the error of the method.
-/// After the error of the method is known, the run pauses in the middle of the step, the controllers are sampled, and the second half is repeated.
-/// A sampled force is late by half a step on average.
-/// The delay of the force changes positions by the third power of the step size in one step, and by the first power over a run.
-/// A sampled rate changes positions by the second power of the step size in one step.
-/// The allowed difference between both results of the second half step has the same power of the tolerance as the error due to the delay.
+/// The error of the method is the difference between a whole step and two half steps that both use the controller values at the start.
+/// After sampling of the controllers in the middle of the step, the second half step is repeated.
+/// The difference between both results of the second half is the error due to sampling.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,
@@ -37,7 +34,6 @@ struct HalfStep {
 }
 
 impl Resampling {
-    /// Creates the estimate for a scene with a length scale; `None` if no controller is sampled at every step.
     pub(super) fn of(scene: &Scene, length: f64, tolerance: f64) -> Option<Self> {
         let all =
             scene.schedules().filter(|(_, schedule)| schedule.is_sampled_every_step()).count();
@@ -63,7 +59,6 @@ impl Resampling {
         self.half_step.is_some()
     }
 
-    /// Restores the middle of a completed step and pauses there.
     pub(super) fn pause_at_middle(
         &mut self,
         model: &mut System,

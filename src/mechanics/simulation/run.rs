@@ -291,7 +291,6 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         self.check_end(end)?;
         self.clock.goal = end;
-        // Dry runs of the perturbed simulations follow below, because they add rows to separate histories.
         let mut beside = self.stepper.sensitivities.take();
         let pretended = self.dry_run_alone_to(end, monitor);
         if let Some(sensitivities) = &mut beside {
@@ -350,7 +349,6 @@ impl Simulation {
                 stepped
             }
         };
-        // An interrupted step is continued later with the same size.
         if !matches!(stepped, Err(SimulationError::Interrupted { .. })) {
             self.clock.retry = None;
         }

@@ -44,14 +44,11 @@ pub struct DerivativeCounts {
     pub factorisations: usize,
 }
 
-/// Derivatives of a run with respect to parameters.
-/// The state `s₁` after a step satisfies `R(s₁; s₀, p) = 0`, with the state `s₀` before the step and the parameter `p`.
-/// Hence the derivative `s₁'` solves `∂R/∂s₁ s₁' = -∂R/∂s₀ s₀' - ∂R/∂p` with the factorised matrix of the step.
-/// The right-hand side is computed from the difference of two residuals, at `p ± δ` and from the states `s₀ ± δ s₀'`.
+/// Derivatives of a run with respect to parameters, solved with the factorised matrix of each step.
+/// The right-hand side follows from the difference of two residuals, at a positive and a negative perturbation of the parameter.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
-    /// State of the run at the start of the present step.
     start: SystemState,
     counts: DerivativeCounts,
     end_reason: Option<DerivativeError>,
@@ -139,7 +136,7 @@ impl Sensitivities {
 
     /// Applies a release of the main run to the perturbed runs.
     /// Positions and rates are continuous, and the time of the release does not depend on parameters.
-    /// Hence a release does not change the derivatives of the state, except their numbering.
+    /// A release does not change the derivatives of the state, except their numbering.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built again, although it was built before.

@@ -15,7 +15,6 @@ pub(super) struct Snapshot {
     pub(super) state: SystemState,
     /// Time of the snapshot [time].
     pub(super) time: f64,
-    /// Number of history rows that remain when the snapshot is restored.
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
     pub(super) arrivals: usize,
@@ -28,7 +27,6 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// Number of steps up to the snapshot, which identifies the snapshot.
     pub(super) fn steps(&self) -> usize {
         self.counts.steps
     }
@@ -44,7 +42,6 @@ pub(super) struct Snapshots {
     /// Memory limit [bytes].
     limit: usize,
     first: Option<Snapshot>,
-    /// Recent snapshots in the order of time, one for each step.
     recent: VecDeque<Snapshot>,
     most: usize,
 }
@@ -78,7 +75,6 @@ impl Snapshots {
         self.first.as_ref()
     }
 
-    /// Step numbers and times of the snapshots, in their order.
     pub(super) fn places(&self) -> impl Iterator<Item = (usize, f64)> {
         self.all().map(|snapshot| (snapshot.steps(), snapshot.time))
     }
@@ -107,7 +103,6 @@ impl Snapshots {
         self.recent.get(at)
     }
 
-    /// Last snapshot at or before a time, in a run of `now` steps. `None` if snapshots between this snapshot and the time may have been discarded.
     pub(super) fn last_until(&self, time: f64, now: usize) -> Option<&Snapshot> {
         let unbroken = self.unbroken_from(now)?;
         let last = self.all().take_while(|snapshot| snapshot.time <= time).last()?;
@@ -119,8 +114,6 @@ impl Snapshots {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }
 
-    /// Returns a buffer for the state of the next snapshot. If the memory limit is reached, the buffer of the oldest snapshot is reused.
-    /// Returns `None` if snapshots are disabled.
     pub(super) fn blank(&mut self) -> Option<SystemState> {
         let first = self.first.as_ref().filter(|_| self.most > 0)?;
         let is_full = self.recent.len() >= self.most;
@@ -132,7 +125,6 @@ impl Snapshots {
     pub(super) fn push(&mut self, snapshot: Snapshot) {
         let count = self.recent.len();
         if count == self.recent.capacity() {
-            // The capacity grows geometrically, but never beyond the limit.
             self.recent.reserve_exact(count.max(4).min(self.most.saturating_sub(count)));
         }
         self.recent.push_back(snapshot);

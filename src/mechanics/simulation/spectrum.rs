@@ -76,7 +76,6 @@ impl TimeSeries {
         let dt = self.spacing()?;
         let magnitudes = self.windowed_magnitudes();
         let highest = magnitudes.iter().copied().fold(0.0, f64::max);
-        // Frequencies are counted in units of the frequency with one period over the padded length.
         let size = 2 * (magnitudes.len() - 1);
         let lobe = (LOBE * size as f64 / count as f64) as usize;
         let is_peak = |at: &usize| {
@@ -121,7 +120,6 @@ impl TimeSeries {
             })
             .collect();
         let whole: f64 = weights.iter().sum();
-        // The subtracted mean is weighted with the window function, so the transform at frequency zero is zero.
         let sum: f64 = weights.iter().zip(&self.values).map(|(weight, value)| weight * value).sum();
         let mean = sum / whole;
         let size = (PADDING * count).next_power_of_two();
@@ -215,7 +213,6 @@ mod tests {
         of.values[3] = 0.0;
         of.times[39] += 0.05;
         assert!(matches!(of.spectrum(1), Err(SpectrumError::Uneven { .. })));
-        // A constant column has no vibration.
         assert_eq!(sampled(64, 0.1, |_| 2.0).spectrum(3).unwrap().len(), 0);
     }
 }

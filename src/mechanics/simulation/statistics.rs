@@ -97,7 +97,6 @@ impl TimeSeries {
     /// Times at which the column crosses a level in either direction. A value that touches the level is not a crossing.
     pub fn crossings(&self, level: f64) -> Vec<f64> {
         let mut found = Vec::new();
-        // Sign of the last value that differs from the level, and the time since which the value equals the level.
         let (mut side, mut on_level) = (0.0, None);
         let mut before: Option<(f64, f64)> = None;
         for (&time, &value) in self.times.iter().zip(&self.values) {

@@ -54,7 +54,6 @@ impl StepRetry {
         PARTS >> self.halvings
     }
 
-    /// Number of parts into which the step is presently divided.
     pub(super) fn divisions(&self) -> u64 {
         1 << self.halvings
     }

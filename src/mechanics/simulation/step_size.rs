@@ -20,7 +20,7 @@ pub struct StepControl {
     /// The error of a position is a fraction of the length of the scene. The error of an angle is in rad [-].
     ///
     /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
-    /// Hence the step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.
+    /// The step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.
     pub tolerance: f64,
     /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
     pub first: Option<f64>,
@@ -30,7 +30,6 @@ pub struct StepControl {
     pub largest: Option<f64>,
 }
 
-/// Error for an invalid step size, tolerance or bound.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepSizeError {

@@ -20,7 +20,6 @@ pub struct TimeGrid {
     dt: f64,
     /// Largest difference of two times that count as equal, unless their rounding error is larger.
     slack: f64,
-    /// Cuts in increasing order.
     cuts: Vec<f64>,
     clocks: Vec<SampleClock>,
     passed: u64,
@@ -38,7 +37,6 @@ impl TimeGrid {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
 
-    /// Adds cuts at the times at which digital controllers sample and act.
     pub(crate) fn with_beats(self, beats: impl Iterator<Item = SampleClock>) -> Self {
         Self { clocks: beats.collect(), ..self }
     }
@@ -60,7 +58,7 @@ impl TimeGrid {
         self.dt
     }
 
-    /// Largest difference from a given time for which times count as equal [time].
+    /// Largest difference between two times that count as equal [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
@@ -101,7 +99,7 @@ impl TimeGrid {
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // If times are equal, the last one is used. Cuts are last, because a schedule must be evaluated exactly at the time of its jump.
+        // If a cut and a grid time are equal, the cut is used, because a schedule must be evaluated exactly at the time of its jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })

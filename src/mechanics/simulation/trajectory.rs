@@ -1,6 +1,6 @@
 //! Recorded control points at many times.
 
-/// Largest number of stored values. Beyond this number, every second configuration is discarded.
+/// Largest number of stored values of a trajectory. If it is exceeded, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Trajectory of a run: control points of all bodies [length] at some times of the run.
@@ -19,7 +19,6 @@ impl Trajectory {
         Self { stride, times: Vec::new(), numbers: Vec::new(), every: 1, offered: 0 }
     }
 
-    /// Reserves memory for further configurations.
     pub(crate) fn reserve(&mut self, configurations: usize) {
         let room = configurations.min(MOST_NUMBERS / self.stride + 1);
         self.times.reserve(room);

@@ -121,7 +121,7 @@ pub enum Warning {
     KeptContact {
         /// Name of the slider.
         slider: String,
-        /// Number of attempted steps with such a contact.
+        /// Number of attempted steps in which the slider stayed in contact under a tensile force.
         steps: usize,
     },
     /// Slider on a master with a kink. The slider moves almost as fast as the shear waves of the master.
@@ -191,7 +191,7 @@ pub enum Warning {
         body: String,
         /// Largest penetration of the body [length].
         depth: f64,
-        /// Energy that the contact of this body stores [energy].
+        /// Energy that the contacts of the body store [energy].
         energy: f64,
     },
     /// Elastic contact of a slider that is shorter than a step.
@@ -222,7 +222,6 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            // Warnings of the types `Schedule` and `Range` are given only once.
             Self::Schedule { .. } | Self::Range { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
             Self::StartInside { energy, .. } => *energy,

@@ -33,12 +33,12 @@ impl Balance<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) + σ M u = 0` for a given load factor `λ`. For `σ = 0` they are the equations of equilibrium.
-/// For `σ > 0` the equations describe a pseudo-transient step with a viscous damping proportional to the mass.
+/// Equations of equilibrium for a given load factor.
+/// A positive rate gives a pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Factor `σ` of the viscous damping in the equations; zero for an equilibrium [1/time²].
+    /// Rate of the viscous damping in the equations; zero for an equilibrium [1/time²].
     pub(super) rate: f64,
 }
 
@@ -81,15 +81,13 @@ impl Equations for UnderLoad<'_> {
     }
 }
 
-/// Equations `F(u) - λ P(u) = 0` and `t·u = Δs`. The load factor `λ` is the last unknown.
-/// The equation `t·u = Δs` describes a plane. It determines the load factor.
+/// Equations of equilibrium with the load factor as the last unknown.
+/// The additional equation describes a plane at a given distance from the last equilibrium.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
-    /// Normal `t` of the plane in the metric of the path. Contact unknowns are stored after the degrees of freedom and have zero weight.
     pub(super) normal: &'a [f64],
-    /// Distance `Δs` of the plane from the last equilibrium, in the metric of the path.
+    /// Distance of the plane from the last equilibrium, in the metric of the path.
     pub(super) distance: f64,
-    /// Forces on the unknowns and the supports, in the order of the degrees of freedom [force, force·length].
     pub(super) forces: &'a mut [f64],
 }
 

@@ -32,7 +32,6 @@ const WANTED_ITERATIONS: f64 = 4.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum InitialSupport {
     Itself,
-    /// Only the loads restrain some degrees of freedom. The value is the number of these degrees of freedom.
     Loads(usize),
 }
 
@@ -79,7 +78,6 @@ impl<'s> Continuation<'s> {
         let all = model.unknowns() + model.constraint_shape().width;
         let mut path = EquilibriumPath::default();
         path.push(point(&mut model, 0.0, 0.0, 0));
-        // Isolated particles have no moments, so any length may be used.
         let length = scene.size().unwrap_or(1.0);
         Self {
             scene,
@@ -100,7 +98,6 @@ impl<'s> Continuation<'s> {
         let Loading { factor, steps, .. } = self.loading;
         self.begin(factor * (1.0 / steps as f64), hold)?;
         for step in 2..=steps {
-            // In the last step, the factor is exactly the requested load factor.
             self.solve_for_factor(factor * (step as f64 / steps as f64), MOST_HALVINGS)?;
         }
         Ok(())
@@ -141,7 +138,6 @@ impl<'s> Continuation<'s> {
         Ok(())
     }
 
-    /// Takes a step of the given distance along the path, or of a fraction of this distance. Returns the distance of the next step.
     fn advance(&mut self, trial: &mut PathStep, mut distance: f64) -> Result<f64, StaticsError> {
         let (from, goal) = (self.path.load_factor(), self.loading.factor);
         let mut miss = StepFailure::FarSolution;
@@ -181,7 +177,7 @@ impl<'s> Continuation<'s> {
 
     /// Distance from the last point to the turning point of the load factor.
     /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
-    /// The first crossing of the requested load factor is the solution.
+    /// The solution is the equilibrium at which the path crosses the requested load factor for the first time.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -261,7 +257,7 @@ impl<'s> Continuation<'s> {
     /// Solves for a fraction of the loads, starting from the present configuration.
     /// A positive `rate` adds viscous damping with this rate [1/time²]. Returns the number of iterations.
     ///
-    /// The solution is repeated whenever a stop begins or ceases to hold a slider.
+    /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
         let (reached, mut iterations) = (self.path.load_factor(), 0);
         for _ in 0..=self.scene.most_settlings() {
@@ -325,7 +321,6 @@ impl<'s> Continuation<'s> {
         self.append_point(factor, self.distance_moved(), iterations);
     }
 
-    /// Appends the configuration of the model to the path.
     pub(super) fn append_point(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
     }
@@ -354,7 +349,6 @@ impl<'s> Continuation<'s> {
     }
 }
 
-/// Holds sliders that move beyond stops, and releases sliders whose stop force is tensile. Returns true if the state of a slider has changed.
 pub(super) fn update_stop_contacts(
     model: &mut System,
     scene: &Scene,

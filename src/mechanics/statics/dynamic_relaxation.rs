@@ -32,10 +32,9 @@ const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
     /// Finds an equilibrium under a fraction of the loads. The unloaded scene approaches it under viscous damping.
-    /// The method repeats steps `σ M u + F(u) - λ P = 0` with a decreasing rate `σ` (pseudo-transient continuation; Kelley & Keyes 1998).
+    /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
+    /// Every pass reduces the potential energy.
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
-    ///
-    /// The matrix `K + σ M` is positive definite at the start of every pass, so every pass reduces the potential energy.
     pub(super) fn find_equilibrium(
         &mut self,
         factor: f64,
@@ -129,7 +128,6 @@ mod tests {
         }
     }
 
-    /// Chain of particles and springs between two points on the ground. `units` are the units of length and time.
     fn chain(count: usize, units: (f64, f64)) -> Scene {
         let mut scene = Scene::new("chain");
         let at = |index: usize| Vec2::new(index as f64 * units.0, 0.0);

@@ -189,7 +189,6 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
-/// Model of a scene with zero start velocities, because start velocities may be incompatible with sliders.
 fn at_rest(scene: &Scene, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<System, StaticsError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);

@@ -34,16 +34,9 @@ pub enum StaticsError {
     #[error("load '{load}': {source}")]
     Load { load: String, source: LoadError },
     #[error("no load acts at t = {time}, so that the scene is in equilibrium as drawn")]
-    NoLoad {
-        /// Time of the loading [time].
-        time: f64,
-    },
-    /// A path of given length was requested, but the scene has only initial strains, which do not depend on the load factor.
+    NoLoad { time: f64 },
     #[error("no load acts at t = {time}: only prestress acts, and arc-length control needs a load")]
-    NoScaledLoad {
-        /// Time of the loading [time].
-        time: f64,
-    },
+    NoScaledLoad { time: f64 },
     #[error(
         "'{name}' is given by {by}, which is undefined in an equilibrium, where no time passes"
     )]
@@ -59,27 +52,13 @@ pub enum StaticsError {
     )]
     Unrestrained { scene: String, movements: usize, reason: Box<StepFailure> },
     #[error("no equilibrium of scene '{scene}' was found beyond load factor {}: {reason}", rounded(*reached))]
-    NoEquilibrium {
-        scene: String,
-        /// Last load factor at which an equilibrium was found [-].
-        reached: f64,
-        reason: Box<StepFailure>,
-    },
+    NoEquilibrium { scene: String, reached: f64, reason: Box<StepFailure> },
     #[error(
         "the load path of scene '{scene}' ends at point {points}, at load factor {}: {reason}", rounded(*reached)
     )]
-    PathLost {
-        scene: String,
-        points: usize,
-        /// Load factor of the last point [-].
-        reached: f64,
-        reason: Box<StepFailure>,
-    },
+    PathLost { scene: String, points: usize, reached: f64, reason: Box<StepFailure> },
     #[error("interrupted at load factor {}", rounded(*reached))]
-    Interrupted {
-        /// Last load factor at which an equilibrium was found [-].
-        reached: f64,
-    },
+    Interrupted { reached: f64 },
 }
 
 /// Reason why a load step found no equilibrium.

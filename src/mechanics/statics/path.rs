@@ -12,9 +12,9 @@ pub struct PathPoint {
     /// Distance from the previous equilibrium [-, rad].
     /// The distance is a root mean square over all control points: of displacements divided by the longest beam, and of rotations.
     pub distance: f64,
-    /// Number of Newton iterations between the previous point and this point.
+    /// Number of Newton iterations from the previous point of the path.
     pub iterations: usize,
-    /// State of the model at this point.
+    /// State of the model at the point of the path.
     pub state: SystemState,
 }
 

@@ -28,7 +28,6 @@ impl PathStep {
         }
     }
 
-    /// Sets the direction of the path to the direction of the last displacement.
     pub(super) fn set_direction(&mut self, metric: &[f64], last: &[f64]) {
         let inverse = 1.0 / norm(metric, last);
         for ((normal, weight), u) in self.normal.iter_mut().zip(metric).zip(last) {

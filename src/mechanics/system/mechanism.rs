@@ -89,7 +89,6 @@ impl System {
         let inertia = self.diagonal_of_inertia();
         self.elements.begin(&self.bodies, &inertia);
         self.motion.begin(inertia);
-        // The resolution of a single body is that of the whole mechanism, so it is not measured separately.
         let bodies = &self.bodies;
         let damped = self.elements.resistances().filter_map(InternalForce::damped_beam);
         let apart = damped.filter(|_| bodies.len() > 1);
@@ -149,8 +148,6 @@ impl System {
         self.motion.resolution()
     }
 
-    /// Index and resolution measures of each beam with material damping.
-    /// Empty if the scene has only one body, because [`resolution`](Self::resolution) then contains its measures.
     pub(crate) fn resolution_by_beam(&self) -> impl Iterator<Item = (usize, &Resolution)> {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }

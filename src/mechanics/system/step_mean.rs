@@ -12,12 +12,10 @@ pub struct StepMean<T> {
 }
 
 impl<T: Copy + Add<Output = T> + Mul<f64, Output = T>> StepMean<T> {
-    /// Mean force over a step of zero length.
     pub fn at_start(value: T) -> Self {
         Self { value, covered: 0.0 }
     }
 
-    /// Adds the mean force over a substep.
     pub fn add(&mut self, force: T, duration: f64) {
         if self.covered == 0.0 {
             *self = Self { value: force, covered: duration };
@@ -28,7 +26,6 @@ impl<T: Copy + Add<Output = T> + Mul<f64, Output = T>> StepMean<T> {
         self.value = self.value * (1.0 - share) + force * share;
     }
 
-    /// Ends the step. Later substeps belong to the next step.
     pub fn end_step(&mut self) {
         self.covered = 0.0;
     }

@@ -38,7 +38,6 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
             });
         }
         first.into_iter().for_each(&work);
-        // Runs the tasks that no thread of the pool has started.
         others.iter().for_each(take);
         for _ in 0..MOST_POLLS {
             if left.load(Ordering::Acquire) == 0 {

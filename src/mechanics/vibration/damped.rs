@@ -1,8 +1,5 @@
-//! Damped vibrations `(λ² M + λ D + K) x = 0` of a small model, computed in the basis of all its undamped modes.
-//!
-//! With the undamped mode shapes `Φ`, normalised to `φᵀ M φ = 1`, the problem becomes `λ² + λ B Bᵀ + Ω² = 0`.
-//! The matrix `B = Φᵀ √d g` has a column for each damped rate `g·ẋ` with the damping coefficient `d`.
-//! No mode is omitted, and the squared frequencies `Ω²` are as accurate as the modes.
+//! Damped vibrations of a small model, computed in the basis of all its undamped modes (docs/theory.md, section 15).
+//! No mode is omitted, and the squared frequencies are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -15,8 +12,8 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// Magnitude of `Re λ` or `Im λ` that counts as zero, as a fraction of the largest undamped frequency.
-/// Even slow overdamped vibrations decay at rates far above this limit.
+/// Decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
+/// Even slow overdamped vibrations decay at far larger rates than the limit.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)`. It has a frequency unless it is overdamped.
@@ -38,7 +35,7 @@ impl DampedMode {
     }
 
     /// Damped vibrations about the present configuration, which is treated as an equilibrium.
-    /// The vibrations are in the order of `|λ|`. There is one for each conjugate pair and one for each real `λ`.
+    /// The vibrations are in increasing order of magnitude. Each conjugate pair of eigenvalues gives one vibration.
     ///
     /// # Errors
     /// Fails if the model is too large, a degree of freedom has no inertia, or there are too few vibrations.

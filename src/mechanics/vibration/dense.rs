@@ -1,7 +1,5 @@
-//! Computation of all modes of a small scene in one pass.
+//! Computation of all modes of a small scene in one pass (docs/theory.md, section 15).
 //!
-//! Let `K + σ M = L D Lᵀ` and `M = H Hᵀ`. The squared singular values of `G = D^-½ L⁻¹ H` are `μ = 1/(ω² + σ)`.
-//! The rows of `G` become smaller in the order of the pivots. Rotations of columns preserve the relative accuracy of each row.
 //! One-sided Jacobi rotations compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 
 use nalgebra::DMatrix;
@@ -22,8 +20,8 @@ const MOST_SWEEPS: usize = 60;
 /// Largest remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// Computes all pairs of an eigenvalue `μ` and a shape `φ` of a small scene with inertia, in decreasing order of `μ`.
-/// For degrees of freedom without inertia, `μ = 0`.
+/// Computes all pairs of an eigenvalue and a shape of a small scene with inertia, in decreasing order of the eigenvalues.
+/// Degrees of freedom without inertia have the eigenvalue zero.
 ///
 /// # Errors
 /// Fails if the search is stopped.
@@ -47,7 +45,6 @@ pub(super) fn all_pairs(
     let values = rotate(&mut columns, goes_on)?;
     let mut order: Vec<usize> = (0..values.len()).filter(|at| values[*at] > 0.0).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-    // For a singular vector `u` of length one, `φ = L⁻ᵀ D^-½ u` satisfies `φᵀ M φ = μ`.
     for (&at, value) in order.iter().zip(order.iter().map(|at| values[*at])) {
         let mut column = columns.column_mut(at);
         for row in (0..size).rev() {
@@ -72,7 +69,7 @@ pub(super) fn all_pairs(
     Ok(Pairs { values: order.iter().map(|at| values[*at]).collect(), strips })
 }
 
-/// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes to `φᵀ M φ = 1`.
+/// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes with respect to the inertia.
 /// Rounding errors of a shape may have little strain energy but much kinetic energy.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
@@ -96,7 +93,6 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     }
 }
 
-/// Factor `H` of the inertia `M = H Hᵀ`. The columns of degrees of freedom without inertia are zero.
 fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);

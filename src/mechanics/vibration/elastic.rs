@@ -1,9 +1,7 @@
-//! Stiffness of a configuration in factored form.
-//! The factored form consists of the derivatives of strains with respect to displacements, and of the stiffnesses of the strains.
+//! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of the strains.
 //!
-//! Section forces `n = k s` are unknowns in addition to the displacements `x`.
-//! The stiffness `k` multiplies only the residual `m = B x - n/k` of a strain `s = B x`.
-//! Hence the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
+//! Section forces are unknowns in addition to the displacements. The stiffness multiplies only strain residuals.
+//! With section forces as unknowns, the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -11,14 +9,12 @@ use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
-/// Number for each of the four vectors of a strip.
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
 /// Stiffness of all spans and springs of a scene: rows of strains and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
-    /// Unknown that belongs to each component of each span. For supported components, the entry is the number of unknowns.
     unknowns: Vec<u32>,
     /// Rows of each span: first its strains, then its pairs `p` and `q` of the geometric stiffness.
     rows: Vec<f64>,
@@ -36,11 +32,8 @@ struct StrainRows {
 #[derive(Debug, Clone)]
 pub(super) struct Shapes {
     pub(super) movements: Vec<FourVectors>,
-    /// Section forces `n`, one entry per strain.
     forces: Vec<FourVectors>,
-    /// Strain residuals `m`, one entry per strain.
     mismatches: Vec<FourVectors>,
-    /// Internal forces `Bᵀ (n + k m) + K_g x` of each shape, with the geometric stiffness `K_g` [force, force·length].
     pub(super) internal_forces: Vec<FourVectors>,
 }
 
@@ -55,14 +48,11 @@ impl Shapes {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Energies {
-    /// Twice the energy of each shape: `Σ n²/k + xᵀ K_g x`.
     pub(super) double_energy: FourVectors,
-    /// Twice the energy of the last correction, for each shape.
     pub(super) correction: FourVectors,
 }
 
 impl Elastic {
-    /// Adds the rows of a span. Components that do not belong to the `size` unknowns of the scene are ignored.
     pub(super) fn add(&mut self, size: usize, degrees: &[usize], span: &SpanStiffness) {
         let (strains, twists) = (span.stiffness.len(), span.rounding_fractions.len());
         self.spans.push(StrainRows { width: degrees.len(), strains, twists });
@@ -82,7 +72,6 @@ impl Elastic {
         strains * (width + 1) * size_of::<f64>()
     }
 
-    /// Memory for four shapes of a given number of unknowns.
     pub(super) fn room(&self, length: usize) -> Shapes {
         let rows = vec![[0.0; STRIP_WIDTH]; self.strains()];
         let vector = vec![[0.0; STRIP_WIDTH]; length];
@@ -94,25 +83,18 @@ impl Elastic {
         }
     }
 
-    /// Sets four mode shapes to the given displacements, with the section forces of their strains. Returns their energies.
     pub(super) fn begin(&self, movements: &VectorStrip, shapes: &mut Shapes) -> Energies {
-        // A mode shape that is zero becomes equal to the displacements by this correction.
         shapes.movements.fill([0.0; STRIP_WIDTH]);
         shapes.forces.fill([0.0; STRIP_WIDTH]);
         shapes.mismatches.fill([0.0; STRIP_WIDTH]);
         self.correct(shapes, movements)
     }
 
-    /// Corrects four shapes by the displacements `δ`: `x ← x + δ`.
-    /// The section forces become `n ← n + k (m + B δ)`, with the stiffness `k` and the strain residual `m`.
-    /// Returns the energies of the shapes.
     pub(super) fn correct(&self, shapes: &mut Shapes, by: &VectorStrip) -> Energies {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy for given displacements `x`.
-    /// The error is `Σ k (ε Σ |B| |x|)²` plus the rounding error of section forces in `xᵀ K_g x`.
-    /// The stiffnesses are `k`, and the machine precision is `ε`.
+    /// Rounding error of twice the energy for given displacements.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -38,7 +38,6 @@ pub enum VibrationError {
         "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     BelowRounding {
-        /// Number of modes below the first inaccurate mode.
         modes: usize,
         /// Residual of the first inaccurate mode [-].
         residual: f64,

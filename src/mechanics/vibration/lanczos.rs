@@ -30,7 +30,7 @@ const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs `(μ, φ)` of eigenvalue and shape with `M φ = μ (K + σ M) φ` and `φᵀ M φ = 1`, in decreasing order of `μ`.
+/// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     /// Vectors `φ` of the pairs, four per strip.
@@ -41,9 +41,7 @@ pub(super) struct Lanczos<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     basis: Vec<Vec<FourVectors>>,
-    /// Projection `Vᵀ M A⁻¹ M V` of the problem onto the basis `V`.
     projected: DMatrix<f64>,
-    /// Next block of vectors. The next fields contain the product of this block with the inertia, and its coupling to the previous block.
     next: Vec<FourVectors>,
     next_momenta: Vec<FourVectors>,
     coupling: Square4,
@@ -120,7 +118,6 @@ impl<'a> Lanczos<'a> {
         self.restart_randomly();
     }
 
-    /// Multiplies the next block by the inverted stiffness, and computes the components of the result in the basis.
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
@@ -153,8 +150,6 @@ impl<'a> Lanczos<'a> {
         (self.next, self.next_momenta) = (image, momenta);
     }
 
-    /// Removes the components in the basis from a block. If `columns` is given, adds the components to these columns of the projection.
-    /// Returns the largest removed component.
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
         self.pencil.inertia.times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
@@ -207,7 +202,6 @@ impl<'a> Lanczos<'a> {
         self.coupling = Square4::default();
     }
 
-    /// Random vectors, multiplied by the inverted stiffness and the inertia so that all their components have inertia.
     fn scattered(&mut self) -> Vec<FourVectors> {
         let size = self.pencil.size();
         let mut block = self.pencil.zeros();
@@ -273,15 +267,12 @@ impl<'a> Lanczos<'a> {
     }
 }
 
-/// Makes vectors orthonormal with respect to the inertia. `momenta` are their products with the inertia.
-/// Returns the upper triangular matrix that expresses the old vectors by the new vectors.
-/// Vectors that consist of rounding errors become zero, with a zero diagonal entry.
 fn orthonormalise(block: &mut [FourVectors], momenta: &mut [FourVectors]) -> Square4 {
     let mut triangle = Square4::default();
     (0..STRIP_WIDTH).for_each(|at| triangle[at][at] = 1.0);
     let mut sizes = None;
-    // The second pass removes the errors of the first pass, which increase with the condition number of the block.
-    // Almost parallel vectors need a third pass.
+    // The second pass of the orthogonalisation removes the errors of the first pass, which increase with the condition number of the block.
+    // Almost parallel vectors need a third pass of the orthogonalisation.
     for pass in 0..3 {
         let gram = products(block, momenta);
         let sizes = sizes.get_or_insert_with(|| std::array::from_fn(|at| gram[at][at]));
@@ -308,8 +299,8 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor `R` with `Rᵀ R = G`, and its inverse. Rows and columns that consist of rounding errors are set to zero.
-/// A row consists of rounding errors if its size is very small in comparison with the initial size.
+/// Cholesky factor of a matrix of scalar products, and its inverse.
+/// Rows and columns that consist of rounding errors are set to zero.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());
     for j in 0..STRIP_WIDTH {

@@ -23,10 +23,10 @@ pub struct Mode {
     pub rounding: f64,
     /// Residual [-], a measure of the accuracy of the mode.
     /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
-    /// The residual is an upper bound of the relative error of `ω² + σ`, where `σ` is about the square of the lowest bending frequency.
+    /// The residual is an upper bound of the relative error of the squared frequency plus the square of the lowest bending frequency.
     /// A second bound is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
-    /// Mode shape: values of the unknowns, normalised to `φᵀ M φ = 1` [length, rad over the square root of a mass].
+    /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
@@ -62,10 +62,10 @@ impl Mode {
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// Control points of all bodies. The next field contains the mode shapes as displacements of these points.
+    /// Control points of all bodies [length].
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
-    /// Decay rate `½ φᵀ D φ` of each mode [1/time].
+    /// Decay rate of each mode [1/time].
     decay_rates: Vec<f64>,
 }
 
@@ -116,7 +116,7 @@ impl Modes {
         &self.modes
     }
 
-    /// Decay rates `½ φᵀ D φ` [1/time].
+    /// Decay rates [1/time].
     /// The rates are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
     /// If damping couples modes, the rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {

@@ -23,7 +23,6 @@ pub(super) struct Pencil {
     pub(super) finite: usize,
 }
 
-/// Squared frequencies of a span [1/time²]. Each frequency is computed for a single strain with the diagonal of the inertia.
 fn squared_frequencies(
     inertia: &[f64],
     degrees: &[usize],
@@ -80,7 +79,6 @@ impl Pencil {
     pub(super) fn memory(model: &System) -> usize {
         let order = model.static_order();
         let (size, reach) = (order.count(), order.half_bandwidth() + 1);
-        // The memory is that of the double-double stiffness, its factors, the inertia during sorting, and about two strains per degree of freedom.
         size * reach * 8 * size_of::<f64>() + Elastic::memory(2 * size, reach)
     }
 
@@ -96,14 +94,14 @@ impl Pencil {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
-    /// Factors of `K + σ M`; `None` if the matrix is not positive definite.
+    /// Factors of the stiffness plus `shift` times the inertia; `None` if the sum is not positive definite.
     pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
         let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
         (factors.pivots().negative == 0).then_some(factors)
     }
 
     /// Number of modes whose squared frequency is below `square`; `None` if the elimination is not reliable.
-    /// The count is the number of negative eigenvalues of `K - σ M`, with `σ` equal to `square` (Sylvester's law of inertia).
+    /// The count follows from the signs of pivots (Sylvester's law of inertia).
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

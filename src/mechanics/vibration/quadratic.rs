@@ -1,11 +1,9 @@
-//! Quadratic eigenvalue problem `λ² + λ B Bᵀ + Ω² = 0` of damped vibrations.
+//! Quadratic eigenvalue problem of damped vibrations.
 //! The eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
-//! The damping may have any strength. A dashpot that acts almost as a support relaxes 10¹² times more slowly than the beam vibrates.
-//! With material damping, the fastest vibrations of a fine mesh decay 10¹⁴ times as fast as the slowest.
+//! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
 //! A single matrix would give accurate values only for the largest eigenvalues.
-//! Therefore several problems with increasing positive real shifts are solved ([`Resolvent`]).
-//! Each problem gives the eigenvalues up to about 10⁶ times its shift.
+//! Several problems with increasing positive real shifts are solved ([`Resolvent`]), because each is accurate for the largest eigenvalues only.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -31,9 +29,9 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
 
 /// Damped vibration problem in the basis of the undamped modes.
 pub(super) struct Quadratic {
-    /// Squared frequencies of the undamped modes [1/time²], which are the diagonal of `Ω²`.
+    /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,
-    /// Matrix `B` with a row for each mode and a column for each damped rate [1/time^½]. It may have fewer columns for the same `B Bᵀ`.
+    /// Matrix with a row for each mode and a column for each damped rate [1/time^½]. Its product with its transpose is the damping.
     pub(super) dampers: DMatrix<f64>,
 }
 
@@ -109,7 +107,6 @@ impl Quadratic {
     }
 
     /// First shift of the search [1/time]. It is at most slightly above the magnitude of the smallest eigenvalue.
-    /// If displacements are scaled by `Ω`, restrained modes satisfy `ẏ = A y` with `|A⁻¹| ≤ |Ω⁻¹ B|² + |Ω⁻¹|`.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);
@@ -119,7 +116,6 @@ impl Quadratic {
         let free =
             modes().filter(|(_, square)| **square == 0.0).map(|(mode, _)| self.damping(mode));
         let free = free.filter(|damping| *damping > 0.0).fold(f64::INFINITY, f64::min);
-        // The square of the shift must be larger than `-ω²` of every unstable mode.
         let unstable = self.squares.iter().fold(0.0, |most, square| larger(most, -square));
         larger((1.0 / (compliance + 1.0 / slowest)).min(free), 2.0 * unstable.sqrt())
     }

@@ -7,7 +7,7 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual for which `ω²` is accurate to all digits. The error of `ω²` is of the order of the squared residual.
+/// Residual for which a squared frequency is accurate to all digits. The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
@@ -15,24 +15,21 @@ const MOST_CORRECTIONS: usize = 8;
 /// Ratio of two successive residuals, above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue `μ`, above which each pair is refined separately.
+/// Ratio of the largest to the smallest eigenvalue, above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Upper bound of the relative error of `ω² + σ` [-]. The rounding error of the pair itself is not included.
+    /// Upper bound of the relative error of the shifted squared frequency [-]. The rounding error of the pair itself is not included.
     pub(super) residual: f64,
     /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
-/// Corrects the first `count` pairs of a search.
-///
-/// A pair `(x, n)` consists of displacements and section forces. Its energies determine `ω²`.
-/// For the residual force `r = ω² M x - Bᵀ (n + k m) - K_g x` the correction is `δ = A⁻¹ r`, so that `x` becomes `(ω² + σ) A⁻¹ M x`.
-/// Components of other pairs are removed from the correction `δ` and included in the residual.
-/// If components of other pairs were not removed, the inverted stiffness would amplify small components of low pairs in high pairs.
+/// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
+/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
+/// The removed components are included in the residual.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -50,10 +47,6 @@ pub(super) fn refine(
     })
 }
 
-/// Computes the residuals of the first `count` pairs of a complete set, whose pairs need no corrections.
-///
-/// # Errors
-/// Fails if the assessment is stopped.
 pub(super) fn assess(
     pencil: &Pencil,
     shift: f64,
@@ -100,7 +93,7 @@ struct OtherPairs<'a> {
 }
 
 impl OtherPairs<'_> {
-    /// Squared frequencies `ω²` of a strip, computed from the eigenvalues `μ`; zero for unused lanes.
+    /// Squared frequencies of a strip, computed from the eigenvalues; zero for unused lanes.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();
@@ -188,7 +181,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction removes the rounding errors of the displacements. Its size is therefore not the residual of the pair.
+            // The first correction removes the rounding errors of the displacements, so the residual of the pair follows from a later correction.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL
@@ -201,10 +194,6 @@ impl OtherPairs<'_> {
         self.is_certain(shapes, &squares, &residuals)
     }
 
-    /// Removes the components of all pairs from residual forces.
-    /// Returns the contribution of the removed components to the residuals, as a fraction of `ω² + σ`.
-    ///
-    /// For components of lower pairs, only their magnitude is added, because the inverted stiffness would overestimate their contribution.
     fn remove_other_pairs(
         &self,
         imbalance: &mut [FourVectors],
@@ -223,7 +212,6 @@ impl OtherPairs<'_> {
         left
     }
 
-    /// Returns true if `ω² + σ` differs strongly between the highest and the lowest pair. A common solution would mix their rounding errors.
     fn is_wide(&self) -> bool {
         let count = self.values.len().min(STRIP_WIDTH * self.strips.len());
         self.values[0] > WIDE * self.values[count - 1]
@@ -238,7 +226,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces `r` to residual forces by subtracting the internal forces of the shape: `r ← ω² r - Bᵀ (n + k m) - K_g x`.
+/// Converts inertia forces to residual forces by subtracting the internal forces of the shape.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {
@@ -253,7 +241,7 @@ fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     )
 }
 
-/// Factors that normalise the shapes to `xᵀ M x = 1`.
+/// Factors that normalise the shapes with respect to the inertia.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

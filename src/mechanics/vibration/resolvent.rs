@@ -1,19 +1,9 @@
-//! Damped vibrations with a shift: eigenvalues of `λ² + λ B Bᵀ + Ω²` near the shift.
+//! Damped vibrations with a shift: eigenvalues of the quadratic problem near the shift (docs/theory.md, section 15).
 //!
-//! With `y = (Ω x, ẋ)` the equation of motion is `ẏ = A y`, where `A = [0 Ω; -Ω -B Bᵀ]` is dissipative.
-//! Hence `|(A - σ)⁻¹| ≤ 1/σ` for any `σ > 0` and damping of any strength (Lumer & Phillips, Pacific J. Math. 11 (1961) 679–698).
-//! Let `e = (σ² + Ω²)^-½`, `w = Ω e` and `t = σ e` be diagonal matrices, so that `w² + t² = 1`. The shifted inverse is:
-//!
-//! ```text
-//! σ (A - σ)⁻¹ = [ -(t² + w P w)   -w (1 - P) t ]        P = G (1 + Gᵀ G)⁻¹ Gᵀ,   G = √σ e B
-//!               [  t (1 - P) w    -t (1 - P) t ]
-//! ```
-//!
-//! No entry of the shifted inverse is large, because a dashpot of any strength acts as a projection `P`.
-//! The projection is `P = U s²/(1 + s²) Uᵀ`, with the singular vectors `U` and singular values `s` of `G`.
-//! One-sided rotations compute `U` and `s` accurately over all magnitudes. The eigenvalues `θ` of the matrix give `λ = σ (1 + 1/θ)`.
-//! Each reported `λ` is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
-//! The forces of strong dashpots, divided by their damping, are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
+//! For a positive shift, the shifted inverse is bounded for damping of any strength (Lumer & Phillips 1961).
+//! A dashpot of any strength acts as a projection, whose singular vectors are computed by one-sided rotations.
+//! Each reported eigenvalue is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
+//! The forces of strong dashpots are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
 use nalgebra::{DMatrix, DVector, Schur};
 
@@ -22,39 +12,35 @@ use super::dense::rotate;
 use super::quadratic::{ComplexNumber, Quadratic, size};
 use crate::elementary::square;
 
-/// Largest number of QR iterations per eigenvalue `θ` in the Schur decomposition. A few iterations are usual.
+/// Largest number of QR iterations per eigenvalue in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
 /// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
-/// Number of corrections of each reported `λ`.
 const CORRECTIONS: usize = 4;
 
-/// Relative change of `λ` above which a correction is rejected, because it leads to another eigenvalue.
+/// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of `λ` near the shift above which a correction is rejected if the change is much larger than rounding.
+/// Relative change of an eigenvalue near the shift, above which a correction is rejected if the change is much larger than rounding.
 /// A larger change indicates several close eigenvalues whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
-/// Distance between the shift of the inverse iteration and `λ`, as a fraction of `λ`. At this distance, the matrix is not singular.
+/// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
+/// If the shift has this distance from the eigenvalue, the matrix of the iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping `s²` above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
+/// Damping above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
     /// Shift `σ` [1/time].
     pub(super) shift: f64,
-    /// Scales `w = |ω|/√(σ² + ω²)` and `t = σ/√(σ² + ω²)` of each mode, and the sign of `ω²` [-].
     scales: Vec<(f64, f64, f64)>,
-    /// Modes whose displacements are components of `y`: all modes with `ω² ≠ 0`.
     places: Vec<usize>,
-    /// Modes whose velocities are components of `y`: all modes with `ω² ≠ 0` or with damping.
     velocities: Vec<usize>,
-    /// Singular vectors `U`, one column for each squared singular value `s²`.
     directions: DMatrix<f64>,
     damping: Vec<f64>,
 }
@@ -91,7 +77,7 @@ impl Resolvent {
         Ok(Self { shift, scales, places, velocities, directions, damping })
     }
 
-    /// All eigenvalues in the form `λ/σ`, in increasing order of magnitude. The eigenvalues near the shift are accurate.
+    /// All eigenvalues as multiples of the shift, in increasing order of magnitude. The eigenvalues near the shift are accurate.
     ///
     /// # Errors
     /// Fails if the search does not converge.
@@ -101,9 +87,6 @@ impl Resolvent {
         if count == 0 {
             return Ok(Vec::new());
         }
-        // The Schur decomposition compares subdiagonal entries with the diagonal.
-        // The decomposition may not converge near eigenvalues close to zero, although these eigenvalues are not needed.
-        // If the decomposition fails, all eigenvalues are shifted away from zero by the largest magnitude.
         let search = |part: f64, moved: f64| {
             let mut matrix = matrix.clone();
             (0..count).for_each(|at| matrix[(at, at)] -= moved);
@@ -126,7 +109,6 @@ impl Resolvent {
         Ok(found)
     }
 
-    /// Matrix `σ (A - σ)⁻¹`.
     fn matrix(&self) -> DMatrix<f64> {
         let Self { scales, places, velocities, .. } = self;
         let held = self.weighted(|square| square / (1.0 + square));
@@ -146,7 +128,6 @@ impl Resolvent {
         })
     }
 
-    /// Returns the matrix `U f(s²) Uᵀ`. The function `of` returns `f` for a squared singular value.
     fn weighted(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
         let mut weighted = self.directions.clone();
         for (mut column, square) in weighted.column_iter_mut().zip(&self.damping) {
@@ -155,7 +136,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Corrected eigenvalue in the form `λ/σ`.
+    /// Corrected eigenvalue, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();
@@ -163,7 +144,6 @@ impl Resolvent {
         let strong: Vec<usize> =
             (0..self.damping.len()).filter(|at| self.damping[*at] > STRONG).collect();
         let mut at = start;
-        // The computed eigenvalue is proportional to `1/(λ - σ)`. This determines the rounding error of `λ`.
         let rounding = ROUNDING_CHANGE * square(size(start - complex(1.0))) / size(start);
         let trusted = (NEAR + rounding).min(FAR) * size(start);
         let unknowns = modes + strong.len();
@@ -201,12 +181,11 @@ impl Resolvent {
             let mut damped =
                 moving.iter().zip(resisted.iter()).map(|(a, b)| a * b).sum::<ComplexNumber>();
             for (force, damper) in (modes..).zip(&strong) {
-                // The rate is computed from the force to avoid cancellation.
+                // The rate of a strong dashpot is computed from its force to avoid cancellation.
                 let rate = next[force] / (beside * self.damping[*damper]);
                 damped += rate * rate * self.damping[*damper];
             }
             let root = root(damped * damped - inertia * stiffness * 4.0);
-            // The larger of both values has no cancellation. The smaller value follows from it.
             let [sum, difference] = [damped + root, damped - root];
             let sum = if size(sum) > size(difference) { sum } else { difference };
             let nearest = [-sum / (inertia * 2.0), -stiffness * 2.0 / sum];
@@ -214,7 +193,6 @@ impl Resolvent {
                 true => nearest[0],
                 false => nearest[1],
             };
-            // At a double eigenvalue the Rayleigh quotient is not defined.
             let moved = size(nearest - start);
             if moved.is_nan() || moved > trusted {
                 return start;

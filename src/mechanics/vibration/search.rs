@@ -20,23 +20,23 @@ const DENSE_COPIES: usize = 5;
 /// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair is rejected.
+/// Residual above which a pair of eigenvalue and shape is rejected.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Relative difference of `ω² + σ` for two modes that count as equal in the check for missing modes.
+/// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of `ω²`, below which `ω²` counts as zero.
+/// Multiple of the rounding error of a squared frequency, below which the squared frequency counts as zero.
 const ROUNDING: f64 = 64.0;
 
-/// Magnitude of `ω²` that counts as zero, as a fraction of the shift.
-/// The limit is above the values of `ω²` that computed shapes of rigid motions have because of rounding.
+/// Squared frequency that counts as zero, as a fraction of the shift.
+/// Rigid motions have squared frequencies below this limit because of rounding.
 const HIDDEN: f64 = 1e-14;
 
-/// Largest ratio of the shift to the lowest nonzero `ω²`.
+/// Largest ratio of the shift to the lowest nonzero squared frequency.
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// Smallest ratio of the shift to the lowest nonzero `ω²` if some `ω²` are zero.
+/// Smallest ratio of the shift to the lowest nonzero squared frequency if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,6 @@ pub(super) fn is_small(unknowns: usize) -> bool {
 pub(super) fn numbers(unknowns: usize, count: usize) -> usize {
     match ModeSearch::of(unknowns, count) {
         ModeSearch::All => DENSE_COPIES * unknowns * unknowns,
-        // The terms are: the basis, its copy during a restart, and the eigenpairs with momenta, shapes and section forces.
         ModeSearch::Lowest => unknowns * (2 * Lanczos::width(count) + 3 * count + 16 * STRIP_WIDTH),
     }
 }

@@ -59,7 +59,6 @@ impl PlacedSymbol {
             return vec![end(-diagonal), end(diagonal)];
         }
         let radius = hypot(tip.0 - at.0, tip.1 - at.1);
-        // A chord in the window is at most as long as its diagonal. Angle / 2 ≤ (π / 2) · sine.
         let (facing, half) = (atan2(y, x), PI * (0.5 * diagonal / radius).min(1.0));
         let point = |index: u32| {
             let angle = facing + half * (1.0 - f64::from(2 * index) / f64::from(SEGMENTS));
@@ -118,7 +117,6 @@ mod tests {
         PlacedSymbol { symbol: Symbol::Disc, at, direction: (radius, 0.0) }
     }
 
-    /// Lines of obstacles in a plot from 0 to 1: the hatching, and the outlines.
     fn drawn(obstacle: PlacedSymbol) -> (Vec<Vec<Point>>, Vec<Vec<Point>>) {
         let axis = Axis::between(0.0, 1.0);
         let frame = Frame { x: axis, y: axis, ..Frame::default() };

@@ -11,20 +11,18 @@ use crate::output::marker::Marker;
 
 const LINE: f64 = 1.5;
 const THIN: f64 = 1.0;
-/// Half width of a support [pixels]. The next constants are the height of its triangle and the length of its hatching.
+/// Half width of a support [pixels].
 const SUPPORT: f64 = 11.0;
 const TRIANGLE: f64 = 12.0;
 const HATCH: f64 = 5.0;
 const JOINT: f64 = 4.0;
 const SLIDER: f64 = 6.5;
 /// Length of an arrow [pixels].
-/// The next constants are the lengths of an arrow of a distributed load and of an arrow head, and the distance of the tip from the loaded point.
 const ARROW: f64 = 34.0;
 const SHORT: f64 = 18.0;
 const HEAD: f64 = 8.0;
 const APART: f64 = 4.0;
 /// Radius of a roller [pixels].
-/// The next constants are the radius of a motor, the half width of a carriage, and the length of the heads of their arrows.
 const ROLLER: f64 = 2.0;
 const MOTOR: f64 = 11.0;
 const CARRIAGE: f64 = 6.5;
@@ -39,7 +37,6 @@ pub(super) struct SymbolFrame<'a> {
 }
 
 impl SymbolFrame<'_> {
-    /// Draws a symbol. Springs, dampers, tendons and obstacles are drawn elsewhere.
     pub(super) fn draw(mut self, symbol: Symbol) {
         match symbol {
             Symbol::Hinge => self.hinge(),
@@ -189,7 +186,6 @@ impl SymbolFrame<'_> {
 
     fn turn(&mut self) {
         let side = if self.ahead.0 < 0.0 { -1.0 } else { 1.0 };
-        // Angles from below the point, around the point to its upper side. They are mirrored for a clockwise moment.
         let angle = |index: f64| -2.0 + 4.4 * index / 24.0;
         let around =
             |angle: f64| (self.at.0 + side * TURN * cos(angle), self.at.1 - TURN * sin(angle));

@@ -328,7 +328,6 @@ mod tests {
         assert!(LineChart::new("").text(&PLAIN).contains("no data"));
     }
 
-    /// Number of visible characters in a line, without colour sequences.
     pub fn seen(line: &str) -> usize {
         let mut inside = false;
         let visible = line.chars().filter(|&letter| {

@@ -74,7 +74,6 @@ impl Dots {
         }
     }
 
-    /// Characters with dots, as column, row, dots and colour.
     pub fn drawn(&self) -> impl Iterator<Item = (usize, usize, u8, TerminalColour)> {
         let of_cell = |(at, (mask, ink)): (usize, &(u8, TerminalColour))| {
             (*mask != 0).then(|| (at % self.columns, at / self.columns, *mask, *ink))
@@ -87,7 +86,6 @@ impl Dots {
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());
-    // Integer division with rounding. Halves are rounded away from the start of the line.
     let part = move |whole: i64, step: i64| {
         (2 * whole.abs() * step + steps) / (2 * steps).max(1) * whole.signum()
     };
@@ -103,7 +101,6 @@ impl Glyphs {
     }
 }
 
-/// ASCII character that looks most similar to the dots.
 fn ascii_of_dots(mask: u8) -> char {
     let rows = |column: usize| (0..DOWN).filter(move |&row| mask & BITS[column][row] != 0);
     let (left, right) = (rows(0).count(), rows(1).count());
@@ -123,7 +120,6 @@ fn ascii_of_dots(mask: u8) -> char {
             _ => '_',
         },
         _ if left == 0 || right == 0 => '|',
-        // Compares the mean rows of both columns without division. Rows are counted downwards.
         _ => match (sum(0) * right).cmp(&(sum(1) * left)) {
             std::cmp::Ordering::Less => '\\',
             std::cmp::Ordering::Greater => '/',

@@ -1,9 +1,4 @@
 //! Charts and pictures as text for a terminal, drawn with Braille dots or ASCII characters, with or without colours.
-//!
-//! ```text
-//! chart, picture → dots → character_grid → style
-//! heat_map → character_grid
-//! ```
 
 mod character_grid;
 mod chart;

@@ -56,7 +56,6 @@ pub struct ConfigurationPicture {
 
 struct PlaneWindow {
     middle: Point,
-    /// Distance between two dots in data units.
     dot: f64,
     last: Point,
 }
@@ -256,7 +255,6 @@ impl PlaneWindow {
         let ends = |middle: f64, dots: f64| {
             [-1.0, 1.0].map(|side| {
                 let end = middle + side * 0.5 * dots * self.dot;
-                // A value close to zero is attributed to rounding.
                 if end.abs() < 1e-9 * dots * self.dot { 0.0 } else { end }
             })
         };

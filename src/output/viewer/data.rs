@@ -12,7 +12,6 @@ pub struct PointCombination {
 }
 
 impl PointCombination {
-    /// Evaluates the combination for the points of a frame.
     pub fn among(&self, points: &[Point]) -> Point {
         let sum = |pick: fn(&Point) -> f64| {
             self.weights.iter().zip(&points[self.first..]).map(|(w, point)| w * pick(point)).sum()
@@ -24,7 +23,6 @@ impl PointCombination {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamShape {
     pub name: String,
-    /// Centre line of the beam, from start to end.
     pub line: Vec<PointCombination>,
     /// Knots or nodes of the beam, as indices in `line`.
     pub marks: Vec<usize>,
@@ -91,7 +89,6 @@ pub struct Arrow {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
     pub name: String,
-    /// Point that moves along the path.
     pub at: PointCombination,
 }
 
@@ -131,7 +128,6 @@ pub struct ViewerData {
     pub obstacles: Vec<(String, PlacedSymbol)>,
     pub arrows: Vec<Arrow>,
     pub trails: Vec<Trail>,
-    /// Quantities that can colour the beams.
     pub fields: Vec<ColourField>,
     /// Times of the rows of `columns`.
     pub rows: Vec<f64>,

@@ -1,9 +1,5 @@
 //! Viewer for motions in a browser: a single HTML file that needs no network access.
 //!
-//! ```text
-//! data → thinning, packing → document → HTML with page/template.html, page/style.css and the programs of page/
-//! ```
-//!
 //! Bodies are stored as their control points or nodes, with 16 bits for each coordinate. The browser computes the curves from these points.
 //! The curves are exact at every drawn point, and need less space than polylines.
 

@@ -19,7 +19,7 @@ pub const FINEST: u16 = MISSING - 1;
 pub struct Quantisation {
     /// Number for code 0.
     pub origin: f64,
-    /// Difference between the numbers of consecutive codes; zero if all numbers are equal.
+    /// Rounding step: difference between the numbers of consecutive codes. Zero if all numbers are equal.
     pub step: f64,
 }
 

@@ -8,7 +8,6 @@ use crate::script::messages::suggest::nearest;
 use crate::script::presentation::quantities::NAMES;
 
 pub struct Command {
-    /// Name of the command, including the colon.
     pub name: &'static str,
     pub operand: CommandOperand,
     /// Operand as shown in the help; empty without an operand.

@@ -131,7 +131,7 @@ impl Hinter for Assistant {
     }
 }
 
-/// Hint with the rest of a history entry. Only the first line is shown, so that the height of the input does not change.
+/// Hint with the remaining text of a history entry. Only the first line is shown, so that the height of the input does not change.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

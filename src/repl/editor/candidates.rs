@@ -6,9 +6,7 @@ use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
-    /// Text shown in the list of candidates.
     pub display: String,
-    /// Text that replaces the typed text.
     pub replacement: String,
     /// One-line summary; may be empty.
     pub summary: String,
@@ -71,7 +69,6 @@ impl Candidate {
     }
 }
 
-/// Parameters of a function in parentheses. Optional parameters are in brackets.
 pub fn arguments(parameters: &[Parameter]) -> String {
     let names = parameters.iter().map(|parameter| match parameter.is_required() {
         true => parameter.name.to_owned(),

@@ -80,7 +80,6 @@ fn in_call(
     (start + map + offset.saturating_sub(call.len()), found)
 }
 
-/// Command with this name or with this unambiguous beginning of a name.
 pub fn command_named<'s>(
     name: &str,
     surroundings: &'s CompletionContext,

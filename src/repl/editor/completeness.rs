@@ -75,11 +75,8 @@ enum ParseOutcome {
 struct BracketLevel<'t> {
     bracket: Option<Bracket>,
     line: usize,
-    /// Keyword to which the block at this bracket level belongs.
     owner: Option<&'t str>,
-    /// Keyword whose block has not started yet.
     keyword: Option<&'t str>,
-    /// Keyword whose block was closed last.
     closed: Option<&'t str>,
     /// True between the bars of a closure such as `|x, y| x + y`.
     is_between_bars: bool,
@@ -127,7 +124,6 @@ impl<'t> InputReader<'t> {
                 if written == "|" {
                     self.level.is_between_bars = !self.level.is_between_bars && !self.is_value;
                 }
-                // In other languages a colon starts a block. In this language it occurs only in maps.
                 if written == ":" && self.level.bracket != Some(Bracket::Map) {
                     return ParseOutcome::Final(Complete);
                 }

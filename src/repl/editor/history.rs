@@ -12,7 +12,7 @@ pub const MOST_ENTRIES: usize = 5000;
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
 /// Path of the history file. `setting` is the value of the environment variable. Without this variable, the file is in the user's state folder.
-/// If the variable is empty, the result is `None`.
+/// If the environment variable is empty, the result is `None`.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

@@ -17,13 +17,11 @@ pub struct Input<'t> {
     open: Vec<usize>,
 }
 
-/// Bracket that is open at the cursor.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenBracket<'t> {
     pub bracket: Bracket,
     pub opener: usize,
     pub commas: usize,
-    /// In a map, the key whose value is at the cursor.
     pub key: Option<&'t str>,
 }
 
@@ -54,7 +52,6 @@ impl<'t> Input<'t> {
         self.tokens.get(index).map(|token| token.kind)
     }
 
-    /// Token index of the bracket that matches a bracket.
     pub fn partner(&self, index: usize) -> Option<usize> {
         self.partners.get(index).copied().flatten()
     }

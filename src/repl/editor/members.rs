@@ -100,7 +100,6 @@ mod tests {
         for of in ["array", "text", "map"] {
             for (known, _) in surroundings().catalog.built_in_members(of) {
                 let name = known.name();
-                // Properties are listed as `get name`. The engine defines members of values of any type.
                 let is_known = has(&format!("{name}(")) || has(&format!("get {name}("));
                 assert!(is_known || known.is_of("beam"), "{of}.{name}");
             }

@@ -1,7 +1,7 @@
 //! Type-ahead: keys typed during an evaluation are kept for the next prompt.
 //!
 //! Between two prompts, a terminal in line mode would process keys such as Ctrl-D or Ctrl-R itself.
-//! Therefore the terminal is in raw input mode during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! The terminal is in raw input mode during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
 
 /// Guard that keeps the terminal in raw input mode. Dropping the guard restores the original mode.
 pub struct TypedAhead(());
@@ -13,7 +13,6 @@ impl TypedAhead {
         Self(())
     }
 
-    /// Restores the original mode for another program, until the returned guard is dropped.
     pub fn restore_for_program() -> TerminalLease {
         TerminalLease(terminal::restore())
     }

@@ -202,7 +202,6 @@ mod tests {
 
     use super::*;
 
-    /// Predefined keys for tests. The character `^` stands for Ctrl-C.
     struct Decided(VecDeque<u8>);
 
     impl Keyboard for Decided {

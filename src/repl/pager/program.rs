@@ -10,7 +10,7 @@ use crate::repl::editor::typed_ahead::TypedAhead;
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
 /// Environment variable with default options for less.
-/// With these options, less quits if the text fits on one screen, shows colours, and leaves the text on the screen.
+/// Options with which the pager less quits if the text fits on one screen, shows colours, and leaves the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
 /// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.

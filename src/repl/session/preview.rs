@@ -67,7 +67,6 @@ impl Session {
         ast: &AST,
         rounds: &mut dyn Rounds,
     ) -> Result<(), Reply> {
-        // The checkpoint includes the functions of the input, for example its closures.
         let start = self.checkpoint();
         while rounds.begin() {
             let value = self.run(guard, ast.statements())?;

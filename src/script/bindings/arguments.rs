@@ -108,7 +108,6 @@ impl Arguments {
         }
     }
 
-    /// Value of the argument as a native type. Handles are cheap to clone.
     pub fn get<T: Clone + 'static>(&self, name: &str) -> Result<T, ScriptError> {
         self.find(name)?.clone().try_cast().ok_or_else(|| wrong_type_read(name, "another type"))
     }

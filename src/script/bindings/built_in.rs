@@ -76,7 +76,6 @@ impl BuiltIn {
         self.forms.first().map_or("", |form| written(form).name)
     }
 
-    /// All notations of the function, split into their parts.
     pub fn written(&self) -> impl Iterator<Item = FunctionForm> {
         self.forms.iter().map(|form| written(form))
     }

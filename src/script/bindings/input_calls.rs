@@ -11,7 +11,6 @@ pub struct InputCall {
     pub name: Option<String>,
     /// Arguments; `None` if one of them is computed.
     pub arguments: Option<Vec<Dynamic>>,
-    /// Position of the call.
     pub position: Position,
 }
 
@@ -25,7 +24,6 @@ pub fn input_calls(ast: &AST) -> Vec<InputCall> {
             ) => Some((called, *at)),
             _ => None,
         };
-        // A script may define a function of this name with another number of parameters.
         let is_input = |called: &FnCallExpr| {
             called.name == INPUT && !called.is_qualified() && matches!(called.args.len(), 2 | 3)
         };
@@ -48,7 +46,6 @@ pub fn names_in_statements(ast: &AST) -> Vec<String> {
     names_in(&statements)
 }
 
-/// Names of the inputs that the functions of a syntax tree declare.
 pub fn names_in_functions(ast: &AST) -> Vec<String> {
     names_in(&ast.clone_functions_only())
 }

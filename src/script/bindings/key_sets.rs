@@ -8,7 +8,6 @@ use crate::script::messages::nouns::with_article;
 /// Alternative sets of keys of an option map. The code that reads the map assigns a meaning to each set.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
-    /// Keys that are allowed with every set.
     pub always_allowed: &'static [&'static str],
     /// Sets of keys. If several sets have the same number of given keys, the first set applies.
     pub sets: &'static [KeySet<T>],
@@ -16,11 +15,9 @@ pub struct KeySets<T: 'static> {
 
 /// Set of keys that must be given together.
 pub struct KeySet<T> {
-    /// Meaning for the code that reads the map.
     pub meaning: T,
     /// Description of the set, which follows the words `given by` in messages.
     pub description: &'static str,
-    /// Keys of the set, in the order in which missing keys are reported.
     pub keys: &'static [&'static str],
     /// Key and text value that select this set; `None` if only its keys select it.
     pub chosen_by: Option<(&'static str, &'static str)>,
@@ -48,8 +45,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the set that is selected by a text.
-    /// If no text selects a set, returns the set with the largest number of given keys. The first of several such sets is returned.
+    /// Returns the key set that is selected by a text.
+    /// If no text selects a key set, returns the first key set with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -40,7 +40,6 @@ impl Use {
 
 /// Registers the methods and properties of all types for values that have variants.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
-    // The map contains, for each name and form of call, the methods of all types. It also contains the function of this name, which accepts any type.
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {
         for row in table.rows {

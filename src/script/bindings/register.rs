@@ -179,14 +179,12 @@ fn called(
         (Some(_), [receiver, given @ ..]) => (Some(&mut **receiver), given),
         (_, given) => (None, given),
     };
-    // The values are cloned, because the first value may be a variable of the script.
     let given = given.iter().map(|value| (**value).clone().flatten());
     if !ParameterSet::is_any() {
         return make(binding, native, receiver, given);
     }
     let again = &mut |receiver: Option<&mut Dynamic>, given: &[Dynamic]| {
         let made = || make(binding, native, receiver, given.iter().cloned());
-        // Messages are printed only in variant 0.
         match present() {
             Some(beside) if beside.variant > 0 => context.silently(made),
             _ => made(),

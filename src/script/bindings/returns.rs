@@ -65,7 +65,7 @@ impl ValueKind {
         })
     }
 
-    /// Most likely type, if several are possible.
+    /// Most likely type of a value that may have several types.
     pub fn likely(self) -> Self {
         match self {
             Self::OneOf([first, ..]) => first.likely(),
@@ -108,7 +108,7 @@ pub struct Returns {
     unit: &'static str,
     /// Description that replaces the description of the type; may be empty.
     description: &'static str,
-    /// Text after the description. It includes a leading blank or comma.
+    /// Text after the description, which begins with a blank or comma.
     remark: &'static str,
 }
 
@@ -156,7 +156,7 @@ impl Returns {
         self
     }
 
-    /// Adds text after type and dimension. It must include a leading blank or comma.
+    /// Adds text after type and dimension. The text must begin with a blank or comma.
     pub const fn with_remark(mut self, note: &'static str) -> Self {
         self.remark = note;
         self

@@ -35,7 +35,6 @@ struct InputNames {
     in_imports: BTreeSet<String>,
 }
 
-/// Guard that marks a call into the library during its lifetime.
 pub struct LibraryCallGuard {
     line: Rc<Cell<Option<usize>>>,
     before: Option<usize>,
@@ -84,7 +83,6 @@ impl Sources {
         self.imported.borrow_mut().insert(file.to_owned(), crc32fast::hash(content));
     }
 
-    /// Checksum of the texts of all imported files.
     pub fn checksum(&self) -> u64 {
         let imported = self.imported.borrow();
         imported.values().fold(imported.len() as u64, |sum, one| {

@@ -66,7 +66,6 @@ impl StoredFunction {
         })
     }
 
-    /// Values of the variables that the function has captured from its script.
     pub fn captured(&self) -> impl Iterator<Item = &Dynamic> {
         self.function.curry().iter().filter(|value| value.is_shared())
     }

@@ -1,9 +1,7 @@
 //! Help topics on the language itself. Each topic has a runnable example.
 
 pub struct Topic {
-    /// Name of the topic, which is its heading in the reference.
     pub name: &'static str,
-    /// Keywords of the topic, and alternative names of the topic.
     pub words: &'static [&'static str],
     pub summary: &'static str,
     pub doc: &'static str,

@@ -52,7 +52,6 @@ pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
             })
         }
         Kind::Object(of) => of_object(of.name(), value, given).map(str::to_owned),
-        // A number outside its range does not have a wrong type.
         Kind::Either(kinds) if as_number(value).is_some() && kinds.iter().any(is_number) => {
             kinds.iter().filter(|kind| is_number(kind)).find_map(|kind| hint(kind, value, given))
         }

@@ -37,7 +37,6 @@ struct Unwrapped<'e> {
     inner: &'e EvalAltResult,
     program: Program,
     trace: Vec<CallFrame>,
-    /// Position of the innermost call, with its file.
     called_at: Option<(Program, Position)>,
     /// Position from which the standard library was called; `None` if the error did not occur in the library.
     library_called_at: Option<(Program, Position)>,
@@ -104,7 +103,6 @@ impl Explainer<'_> {
                 EvalAltResult::ErrorRuntime(payload, _) => payload.read_lock::<Failure>(),
                 _ => None,
             };
-            // If the library passes an option on, the user's call also contains the key of the option. Positions of arguments may differ.
             let place = match place.map(|failure| failure.place.clone()) {
                 Some(CallPart::Key(key)) => CallPart::Key(key),
                 _ => CallPart::Call,

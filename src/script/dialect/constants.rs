@@ -16,7 +16,6 @@ pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let values: HashMap<&str, Dynamic> =
         all.map(|constant| (constant.name, constant.value.into())).collect();
     engine.on_var(move |name, place, context| {
-        // Index of a variable found by the parser, counted backwards from the last variable.
         let own = match place.checked_sub(1) {
             Some(place) => context.scope().iter_raw().nth(place).map(|(_, _, value)| value),
             None => context.scope().get(name),

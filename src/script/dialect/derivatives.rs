@@ -18,7 +18,6 @@ use crate::script::source::syntax::{LONGEST_CHAIN, OWN, power_name};
 #[derive(Clone, Copy)]
 struct OnNumbers {
     of: fn(f64, f64) -> f64,
-    /// Check for arguments at which the function has no derivative.
     corner: Option<NonsmoothCheck>,
 }
 
@@ -61,7 +60,6 @@ pub fn install(engine: &mut Engine) {
     engine.register_raw_fn("+", varied, |_, operands| -> EngineResult<Dynamic> {
         Ok(operands[0].clone())
     });
-    // The values of all variants are already floats.
     engine.register_fn("to_float", |number: VariantValue| number);
     for name in ["to_int", "sign", "is_zero", "is_even", "is_odd"] {
         engine.register_raw_fn(name, varied, move |context: NativeCallContext, operands| {

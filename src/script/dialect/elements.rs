@@ -102,7 +102,6 @@ fn install_sieves(engine: &mut Engine) {
     }
 }
 
-/// Assigns `kept` to the value before the dot, and returns `given`.
 fn replace(values: &mut [&mut Dynamic], kept: Dynamic, given: Dynamic) -> Dynamic {
     if let Some(own) = values.first_mut() {
         **own = kept;
@@ -157,7 +156,6 @@ fn array_and_test(values: &[&mut Dynamic]) -> EngineResult<(Array, FnPtr)> {
 }
 
 fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
-    // The engine calls the registered functions only with an array or map followed by a function.
     let function = values.get(1).and_then(|function| (**function).clone().try_cast::<FnPtr>());
     function.ok_or_else(|| {
         ScriptError::internal_error("a test is no function").into_engine(Position::NONE)
@@ -168,7 +166,7 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// The function has no parameter. It reads the element from `this`.
+    /// A function without parameters reads the element from `this`.
     ElementAsThis,
 }
 
@@ -213,7 +211,6 @@ impl<'a> ElementCallback<'a> {
     ) -> EngineResult<Dynamic> {
         let copy = element.clone();
         let index = Dynamic::from(INT::try_from(index).unwrap_or(INT::MAX));
-        // A native function would use `this` as its first argument.
         let this = self.function.is_anonymous().then_some(&mut *element);
         match given {
             CallbackArguments::Element => self.function.call_raw(self.native, this, [copy]),

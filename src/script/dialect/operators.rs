@@ -73,7 +73,6 @@ fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Order
     }
 }
 
-/// Exact order of an integer and a float.
 fn order(whole: INT, x: f64) -> Option<Ordering> {
     /// Smallest float above all integers: 2^63.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;

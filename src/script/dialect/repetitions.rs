@@ -21,7 +21,6 @@ pub fn install(engine: &mut Engine, context: &Context) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
                     truth(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
-                // Elements without an operator "==" count as different.
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {
                         let both = &mut [&mut earlier, &mut later];

@@ -53,7 +53,6 @@ fn expect(is_allowed: bool, what: &str) -> EngineResult<()> {
     }
 }
 
-/// Number of elements of a value, including nested elements.
 fn elements(value: &Dynamic) -> usize {
     if let Some(array) = value.read_lock::<Array>() {
         array.iter().map(elements).fold(1, usize::saturating_add)

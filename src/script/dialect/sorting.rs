@@ -68,7 +68,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
-    // Above 2^53, integers are more exact than floats. Hence one array must not be sorted by both comparisons.
+    // Above 2^53, integers are more exact than floats, so the order of an array must not depend on both comparisons.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -107,7 +107,6 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
 
 /// Returns true if the result of the comparison function puts the first element after the second element.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
-    // The result `true` puts the first element before the second element.
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
     }

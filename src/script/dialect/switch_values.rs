@@ -1,5 +1,5 @@
 //! Check of the values of `switch`. Numbers, texts, booleans, and arrays and maps of these are allowed.
-//! For all other values, Rhai would silently execute the default case.
+//! For values of other types, such as functions, Rhai would silently execute the default case of `switch`.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 
@@ -10,7 +10,6 @@ use crate::script::source::switch_rewrite;
 
 pub fn install(engine: &mut Engine) {
     switch_rewrite::install(engine, |engine, value, at| {
-        // During the evaluation in a variant, a value that depends on parameters is replaced by its value in the variant.
         let value = match present() {
             Some(present) => VariantValue::project(&value, present.variant),
             None => value,

@@ -19,7 +19,6 @@ use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
 /// Maximum nesting depth of an expression outside functions.
-/// The next constant is the maximum nesting depth in functions, where each level of nesting also adds to the call depth.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 /// Number of operations between checks for interruption.

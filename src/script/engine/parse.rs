@@ -38,7 +38,7 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
 /// The callback `variables` returns the top-level variables of the whole program with the lines of their declarations.
 ///
 /// # Errors
-/// Fails if the piece has an error.
+/// Fails if the text has a syntax error, or an error that the checks of scripts find.
 pub fn parse_piece(
     engine: &Engine,
     piece: &SourcePiece,

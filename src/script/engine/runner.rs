@@ -144,7 +144,6 @@ const BRIEF: Duration = Duration::from_secs(1);
 /// Maximum number of simulations whose errors are estimated at the end of a run.
 const MOST_ESTIMATES: usize = 5;
 
-/// Estimated errors of all simulations that have taken steps, one line each.
 fn estimated_errors(
     engine: &Engine,
     context: &Context,

@@ -213,7 +213,6 @@ pub fn with_crew<J: Send, R: Send, T>(
     let next = || given.lock().ok()?.recv().ok();
     let labour = |post: &WorkerState, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
         let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
-            // All jobs were completed before this worker started.
             Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),
             opened => opened?,
         };
@@ -224,7 +223,6 @@ pub fn with_crew<J: Send, R: Send, T>(
             post.begin(Some(Instant::now()));
             let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
             post.begin(None);
-            // Resets the flag that may have stopped the previous job.
             post.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;
@@ -238,7 +236,6 @@ pub fn with_crew<J: Send, R: Send, T>(
             let is_over = &is_over;
             scope.spawn(move || {
                 let ended = on_stack(stack, &limits, || labour(post, done)).flatten();
-                // Errors of workers after the end of the pool are ignored.
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })
         };

@@ -38,7 +38,6 @@ impl EquilibriumHandle {
         self.0.rest.borrow_mut()
     }
 
-    /// Point on the model of this equilibrium for a station.
     pub fn place(&self, station: &StationHandle) -> Result<BodyPoint, ScriptError> {
         let rest = self.equilibrium();
         station.within(&self.0.scene, rest.scene(), rest.model().meshes())

@@ -24,7 +24,6 @@ impl<F: Clone> Events<F> {
         self.functions.get(self.called).map(|(time, _)| *time)
     }
 
-    /// Removes and returns the next function that is due.
     pub fn take_due(&mut self, now: f64) -> Option<F> {
         let (_, due) = self.functions.get(self.called).filter(|(time, _)| *time <= now)?;
         self.called += 1;
@@ -42,7 +41,7 @@ impl<F: Clone> Events<F> {
         self.called = self.called.min(passed);
     }
 
-    /// Number of functions that have not been called yet.
+    /// Number of scheduled functions that have not been called yet.
     pub fn waiting(&self) -> usize {
         self.functions.len() - self.called
     }

@@ -14,7 +14,6 @@ pub struct JointHandle {
 }
 
 impl JointHandle {
-    /// Name in columns and messages, consisting of type and number.
     pub fn name(&self) -> String {
         let names = self.scene.scene().borrow().joint_names();
         names.into_iter().nth(self.index).unwrap_or_default()

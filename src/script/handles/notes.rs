@@ -5,7 +5,6 @@ use std::cell::RefCell;
 use crate::script::state::context::Context;
 use crate::simulation::{Simulation, Warning};
 
-/// Printing of warnings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
     /// Warnings are printed at the end of a run.
@@ -40,7 +39,6 @@ impl Notes {
         }
     }
 
-    /// Reports that the scene has changed since the start of the simulation.
     pub fn report_changed_scene(&self, name: &str, scene: &str, context: &Context) {
         if self.printing != Printing::Never {
             context.print_message(&format!(

@@ -86,7 +86,6 @@ impl Reporter for SimulationHandle {
         let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
         let name: String = self.name().chars().map(plain).collect();
         let part = if self.was_stopped() { "stopped" } else { "history" };
-        // All columns of a history have the same length, so the conversion succeeds.
         Some((format!("{name}-{part}.csv"), table.to_text().ok()?))
     }
 }

@@ -28,7 +28,6 @@ pub struct SceneHandle {
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
     /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
-    /// Release conditions, with the index of the release of each condition.
     conditions: Rc<RefCell<Vec<Condition>>>,
     /// True if a note about modes has been printed: modes do not include the effects of controllers and spins.
     has_modes_note: Rc<Cell<bool>>,
@@ -46,21 +45,18 @@ struct Variants {
 /// Perturbed variants of a scene. In each variant, one parameter is increased or decreased by a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
-    /// Scenes of the variants 1, 2, …, in this order.
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
 /// Release condition that is evaluated by a script function.
 #[derive(Clone)]
 pub struct Condition {
-    /// Script function, called with the simulation.
     pub function: Rc<StoredFunction>,
     pub release: usize,
 }
 
 /// Script function of time and simulation. Its value is constant during a step or a sampling interval.
 pub struct Controller {
-    /// Script function, called with the time and the simulation.
     pub function: StoredFunction,
     pub value: Rc<Cell<f64>>,
     /// Sampling clock of the controller; `None` if the function is called at every step.
@@ -94,7 +90,6 @@ impl SceneHandle {
         self.of_present()
     }
 
-    /// Gives write access to the scene. Running simulations keep the earlier scene.
     pub fn change(&self) -> RefMut<'_, Scene> {
         self.variants.is_changed.set(true);
         self.of_present().borrow_mut()
@@ -116,7 +111,6 @@ impl SceneHandle {
         let Some(CurrentVariant { family, variant }) = present().filter(|of| of.variant > 0) else {
             return scene;
         };
-        // The present call has not yet changed the scene, because variant 0 is evaluated last.
         let beside = beside.get_or_init(|| {
             let copy = |_| Rc::new(RefCell::new(scene.borrow().clone()));
             PerturbedBuilds { scenes: (1..family.variants()).map(copy).collect(), family }
@@ -188,12 +182,10 @@ impl SceneHandle {
             return Ok(());
         };
         let own = self.variants.scene.borrow();
-        // The beam does not yet exist in variant 0, because the perturbed variants are evaluated first.
         let Some(own) = own.beams.get(beam) else { return Ok(()) };
         let length = own.axis.length();
         let is_other = |scene: &Rc<RefCell<Scene>>| {
             let scene = scene.borrow();
-            // The length of a rotated beam may differ by a rounding error.
             let apart = scene.beams.get(beam).map_or(0.0, |of| (length - of.axis.length()).abs());
             apart > ROUNDING_OF_PLACES * length
         };
@@ -204,7 +196,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in variant 0. Functions are stored only in variant 0, so that each function is stored once.
+    /// Returns true in the unperturbed variant. Functions are stored only in the unperturbed variant, so that each function is stored once.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
@@ -220,7 +212,6 @@ impl SceneHandle {
         Err(ScriptError::new(message).hint(hint))
     }
 
-    /// Stores the function of the last defined user column.
     pub fn store_function(&self, function: StoredFunction) {
         if self.keeps() {
             self.functions.borrow_mut().push(Rc::new(function));
@@ -241,7 +232,6 @@ impl SceneHandle {
         value
     }
 
-    /// Stores the condition of the last defined release.
     pub fn store_condition(&self, function: StoredFunction) {
         let release = self.scene().borrow().releases.len() - 1;
         let condition = Condition { function: Rc::new(function), release };

@@ -237,7 +237,6 @@ impl SimulationHandle {
         self.simulation().slack()
     }
 
-    /// Advances the simulation, and calls the functions scheduled up to the goal.
     pub fn advance(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let context = call.context();
@@ -272,7 +271,6 @@ impl SimulationHandle {
 
     fn take_steps(&self, context: &Context, steps: usize) -> Result<(), ScriptError> {
         for taken in 0..steps {
-            // If the run had ended before the first step, this step fails. A later end is only reported.
             if taken > 0 && self.has_ended() {
                 self.report_end(context, &format!("before it had taken {steps} steps"));
                 break;
@@ -326,7 +324,6 @@ impl SimulationHandle {
         }
     }
 
-    /// Advances the time in a dry run, and calls scheduled functions.
     pub fn dry_run(&self, context: &Context, end: f64) -> Result<(), ScriptError> {
         context.meter().count_dry_run();
         context.proceed()?;

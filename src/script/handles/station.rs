@@ -23,7 +23,6 @@ pub struct StationHandle {
 }
 
 impl StationHandle {
-    /// Point on the model of a simulation for this station.
     pub fn place_in(&self, handle: &SimulationHandle) -> Result<beams::BodyPoint, ScriptError> {
         let simulation = handle.simulation();
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
@@ -59,7 +58,6 @@ impl Scripted for StationHandle {
         self.scene.scene().borrow().describe(&self.station)
     }
 
-    /// A rigid body is converted to the station at its centre.
     fn meant_by(value: &Dynamic) -> Option<Self> {
         Some(value.read_lock::<RigidBodyHandle>()?.centre())
     }

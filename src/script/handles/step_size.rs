@@ -5,7 +5,6 @@ use rhai::Dynamic;
 use crate::script::messages::numbers::as_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// Reads a step size from a script value: a positive number, or adaptive(…).
 pub fn step_size(value: &Dynamic) -> Option<StepSize> {
     let fixed = as_number(value).filter(|dt| dt.is_finite() && *dt > 0.0);
     let control = || value.clone().try_cast::<StepControl>().map(StepSize::from);

@@ -70,7 +70,6 @@ fn index(catalog: &Catalog) -> String {
     text
 }
 
-/// Link to a section of a page of the reference.
 fn section_link(page: &str, name: &str) -> String {
     format!("[{}](language/{page}.md#{})", title(name), name.replace(' ', "-"))
 }

@@ -71,7 +71,6 @@ impl ModuleScope {
         let at = native.call_position();
         let _inside = sources.enter_library(native.global_runtime_state().source(), at.line());
         let mut inside = native.global_runtime_state().clone();
-        // The called function is searched first in this library. Functions called by it are searched starting with the last library.
         inside.lib.insert(0, self.functions.clone());
         inside.lib.push(self.functions.clone());
         inside.source = Some(self.file.as_str().into());

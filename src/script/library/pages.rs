@@ -118,7 +118,6 @@ impl ModuleFunction {
         });
         for clause in items.flat_map(|item| item.split(';')) {
             let about = clause.replace('`', "").trim().to_owned();
-            // In the clause, every second piece is between backquotes.
             for name in clause.split('`').skip(1).step_by(2) {
                 let is_key = name.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
                 if is_key && keys.iter().all(|(known, _)| known != name) {

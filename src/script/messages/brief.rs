@@ -4,7 +4,6 @@ const MOST: usize = 1600;
 /// Number of characters kept at the end, where messages state the allowed values.
 const END: usize = 600;
 
-/// Text of limited length. The middle of a longer text is omitted.
 pub fn brief(text: String) -> String {
     // The number of bytes is an upper bound of the number of characters.
     if text.len() <= MOST {

@@ -27,7 +27,6 @@ impl Checks {
         self.made
     }
 
-    /// Failed checks, in the order of the run.
     pub fn failed(&self) -> &[FailedCheck] {
         &self.failed
     }

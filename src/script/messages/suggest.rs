@@ -5,7 +5,6 @@ const LONGEST: usize = 200;
 
 /// Candidate that is most similar to `wrong`; `None` if no candidate is similar enough.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // The time of a comparison increases with the length of both names. No name of the language is this long.
     if wrong.len() > LONGEST {
         return None;
     }

@@ -62,7 +62,7 @@ fn input(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let varied = call.context().varied(&declaration.name);
     let value = call.context().inputs().declare(declaration.clone())?;
     let Some(varied) = varied else { return Ok(value.to_dynamic()) };
-    // A parameter of a fit may carry derivatives, which the result keeps.
+    // A value that depends on a parameter of a fit has derivatives, which the result keeps.
     let plain = VariantValue::project(&varied, 0);
     match declaration.default.convert(&plain).filter(|value| declaration.allows(value)) {
         Some(_) if varied.is::<VariantValue>() => Ok(varied),
@@ -120,7 +120,7 @@ fn declaration(call: &Call) -> Result<InputDeclaration, ScriptError> {
     Ok(declaration)
 }
 
-/// Rejects a range of values without order, and a default that is not allowed.
+/// Rejects a range for a boolean or text input, and a default that the input does not allow.
 fn expect_consistent(call: &Call, declaration: &InputDeclaration) -> Result<(), ScriptError> {
     let InputDeclaration { name, default, min, max, .. } = declaration;
     let limit = match (min, max) {

@@ -98,7 +98,6 @@ impl Scripted for Method {
     const DOC: &'static str = "A time integration method.";
 
     fn show(&self) -> String {
-        // The name is used because it fits into a sentence, unlike the summary.
         let entry = self.entry();
         let parameter = entry.parameter.zip(self.parameter());
         let tuned = parameter.map(|(of, value)| format!(" ({} = {value})", of.name));

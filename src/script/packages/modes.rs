@@ -182,7 +182,6 @@ enum ModesReference {
 }
 
 impl ModesHandle {
-    /// Creates the handle of modes about an equilibrium or the present configuration.
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
     }

@@ -78,9 +78,12 @@ pub const TABLE: BindingTable = BindingTable {
                 points (four per span) touch the nearest points of the other axes. The contact is \
                 compliant: its potential is infinite where two axes meet, so beams that touch do not pass \
                 through each other, and a step in which a point would jump through an axis is halved. \
+                A body that fits between two contact points is not seen by them: use spans that are \
+                shorter than the bodies. \
                 Between two beams, stiffness is the force per length and penetration, otherwise the \
                 force per penetration. Bodies that share a joint or a slider do not touch each other. \
-                NAME.force_x and NAME.force_y are the force on the first body of the list. Default \
+                NAME.force_x and NAME.force_y are the force on the first body of the list; it is zero \
+                if a beam touches itself. Default \
                 names: contact1, contact2, …")
             .example("let rod = scene.beam(line([0, 0], [2, 0]), bspline(8), isotropic(#{ E: 1e6, A: 0.01, I: 1e-5, rho: 100 }), #{ name: \"rod\" });\n\
                       scene.clamp(rod.start);\nscene.clamp(rod.end);\n\

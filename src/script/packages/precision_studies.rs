@@ -182,7 +182,6 @@ fn cheapest(call: &mut Call) -> Result<Dynamic, ScriptError> {
             None => Ok(comparison(&study, &errors).into()),
         };
     };
-    // A dry run has no results, so the first row is returned instead.
     let pretended = study.rows.first().filter(|_| call.context().mode() == RunMode::DryRun);
     let row = pretended.or_else(|| study.cheapest(error));
     Ok(row.map_or(Dynamic::UNIT, |row| map_of(&study, row).into()))

@@ -181,7 +181,6 @@ fn accept(
         if words == type_name {
             return Ok(value);
         }
-        // If a type rejects the value, the next type is tried. If all types reject it, the error is reported below.
         let accept = |kind| call.accept(owner, name, (kind, wanted), value.clone()).ok();
         if let Some(accepted) = kind_named(words).and_then(accept) {
             return Ok(written(accepted));

@@ -247,7 +247,6 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     warn_about_taper(call, &scene, index)?;
     warn_about_length(call, &scene, index)?;
-    // Variant 0 is evaluated last, so the beams of the perturbed variants already exist.
     scene.expect_constant_length(index).map_err(|error| error.at(CallPart::Key("axis".into())))?;
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }

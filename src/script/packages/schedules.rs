@@ -231,7 +231,6 @@ fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, Sc
 fn words(context: &Context, error: &EvalAltResult) -> String {
     let Some(engine) = context.engine() else { return error.to_string() };
     let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
-    // The error contains the name of its file. The source text of the script is not available.
     let program = Program::named("", "");
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }

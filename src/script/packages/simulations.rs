@@ -294,7 +294,6 @@ pub(super) fn begin(
         tolerance: Tolerance::default(),
     };
     let started = start(settings);
-    // The context contains the reason if the assembly was stopped.
     call.context().proceed()?;
     let mut simulation = started?;
     let name = options.optional_text("name")?;

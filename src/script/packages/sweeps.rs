@@ -269,7 +269,6 @@ fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptErro
     let given = order.invoked(call, 0)?;
     let (names, values) = match found(&given) {
         RowOutcome::Computed(names, values) => (names.to_vec(), values),
-        // If a simulation in the function was skipped, the function may return values that are not numbers.
         RowOutcome::Failed(_) => (
             given
                 .read_lock::<Map>()

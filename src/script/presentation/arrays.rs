@@ -32,7 +32,6 @@ pub fn archive(simulation: &Simulation) -> NpzArchive {
     NpzArchive { arrays }
 }
 
-/// Columns of a history with their dimensions.
 pub fn table(history: &History) -> DataTable {
     let column = |(name, dimension): (&str, &str)| {
         let values = history.column(name).unwrap_or_default();

@@ -44,7 +44,6 @@ impl Grids {
         VtkGrid { cells: self.cells(lines.chain(dots)), fields: vec![self.arc_lengths()] }
     }
 
-    /// Grid of the present state, with positions, velocities, angles and section forces.
     pub fn of_state(&self, simulation: &Simulation) -> VtkGrid {
         let model = simulation.model();
         let samples: Vec<Vec<BeamSample>> =

@@ -135,7 +135,6 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
                     "::" if index > 1 => vocabulary.style_in_module(value, written),
                     _ => vocabulary.style_of_word(written),
                 };
-                // The last name may be incomplete.
                 let is_last = index + 1 == tokens.len();
                 style.filter(|style| !is_last || *style != UNKNOWN_MEMBER)
             }

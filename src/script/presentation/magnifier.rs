@@ -15,7 +15,6 @@ pub struct Magnifier<'a> {
     factor: f64,
     travel: Travel,
     start: Configuration,
-    /// Stations of joints of each body.
     joints: Vec<Vec<Station>>,
 }
 
@@ -132,7 +131,7 @@ impl<'a> Magnifier<'a> {
         Ok(bodies)
     }
 
-    /// Rigid motion of a body: that of its joints if there are several, otherwise the motion closest to that of its points.
+    /// Rigid motion of a body, computed from its joints if there are several, otherwise from all its points.
     fn motion(
         &self,
         body: usize,
@@ -149,7 +148,6 @@ impl<'a> Magnifier<'a> {
         let arms = || start.iter().zip(&now).map(|(start, now)| (start - from, now - to));
         let turn: Vec2 =
             arms().map(|(start, now)| Vec2::new(start.dot(&now), cross(start, now))).sum();
-        // Joints keep their positions, also where a bent beam brings them closer together.
         let size = match has_several {
             true => arms().map(|(start, _)| start.norm_squared()).sum(),
             false => turn.norm(),
@@ -166,7 +164,7 @@ impl<'a> Magnifier<'a> {
         [of.particles[particle]].iter().chain(outline).copied().collect()
     }
 
-    /// Displacements of travelling bodies that keep them at magnified held bodies.
+    /// Displacements that keep travelling bodies attached to magnified bodies.
     fn shifts(
         &self,
         bodies: &MagnifiedBodies,
@@ -201,7 +199,6 @@ impl<'a> Magnifier<'a> {
         Ok(shifts)
     }
 
-    /// Rigid bodies with an outline.
     fn outlined(&self) -> impl Iterator<Item = usize> + '_ {
         let scene = self.simulation.scene();
         let bodies = (scene.first_rigid_body()..).zip(&scene.rigid_bodies);

@@ -178,7 +178,6 @@ fn mark(placed: &PlacedSymbol) -> Option<PictureMark> {
         Symbol::Clamp | Symbol::Guided | Symbol::Carriage => Some(PictureMark::Clamp),
         Symbol::Slider => Some(PictureMark::Slider),
         Symbol::Joint | Symbol::RigidJoint => Some(PictureMark::Joint),
-        // Springs and obstacles are drawn elsewhere as lines. Loads are not drawn.
         _ => None,
     }
 }

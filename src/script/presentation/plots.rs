@@ -219,7 +219,6 @@ pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
         .y_scale(AxisScale::Logarithmic);
     let invariants = Invariant::ALL.iter().filter(|(_, of)| *of != Invariant::Gap);
     invariants.fold(chart, |chart, (name, of)| {
-        // The drift in the first row is zero by definition.
         let points =
             over_time(history, history.drifts(*of)).split_off(1.min(history.samples().len()));
         chart.series(Series::new(name.replace('_', " "), points))
@@ -274,7 +273,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Columns that exist only in some scenes, with the reason.
+/// Names of columns that exist only in some scenes, and the scenes that have them.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",

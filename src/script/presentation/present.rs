@@ -40,7 +40,6 @@ impl OutputLine {
     }
 
     fn write(&mut self, text: &str) {
-        // Two more characters than fit are sufficient to detect that the line is full, even for wide characters.
         self.text.push_str(beginning(text, self.room + 2));
         self.room = self.room.saturating_sub(columns(text));
     }
@@ -142,7 +141,6 @@ impl Presenter<'_> {
         } else if let Some(map) = value.read_lock::<Map>() {
             self.write_map(line, &map, depth);
         } else if let Some((of, shown)) = self.native(value) {
-            // Tables do not fit on one line.
             line.write(if shown.contains('\n') { of.name() } else { &shown });
         } else {
             let longest = if depth == 0 { self.width } else { LONGEST_TEXT };
@@ -240,7 +238,6 @@ fn pieces(word: &str, room: usize) -> Vec<String> {
     let mut rest = word;
     let mut pieces = Vec::new();
     while !rest.is_empty() {
-        // Each piece has at least one character, even if the width is very small.
         let least = rest.chars().next().map_or(0, char::len_utf8);
         let (piece, behind) = rest.split_at(beginning(rest, room).len().max(least));
         pieces.push(piece.to_owned());

@@ -10,7 +10,6 @@ pub struct BeamQuantity {
     /// Symbol on axes.
     pub sign: &'static str,
     pub dimension: &'static str,
-    /// Function that evaluates the quantity at a sample of a beam.
     pub of: fn(&BeamSample) -> f64,
     pub side: BeamSide,
 }

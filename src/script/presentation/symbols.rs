@@ -19,7 +19,6 @@ pub struct StationSymbol<'a> {
     pub name: &'a str,
     pub at: Station,
     pub pointing: Pointing,
-    /// Releasable object that the symbol represents.
     pub hold: Option<Releasable>,
 }
 
@@ -65,7 +64,6 @@ impl<'a> SceneAt<'a> {
         Self { scene, time, released: holds.filter(is_gone).collect() }
     }
 
-    /// Scene of an equilibrium under its full load.
     pub fn at_rest(rest: &'a Equilibrium) -> Self {
         Self { scene: rest.scene(), time: 0.0, released: Vec::new() }
     }
@@ -92,7 +90,6 @@ pub fn symbols(
     let is_there = |sign: &StationSymbol| sign.hold.is_none_or(|hold| !at.released.contains(&hold));
     let held = of_supports(scene).chain(of_sliders(scene)).filter(is_there);
     let unplaced: Vec<StationSymbol> = held.chain(of_loads(scene, time)).collect();
-    // Each symbol uses three positions: its own, and the positions shortly before and after it on the beam. The positions of the springs are last.
     let around = unplaced.iter().flat_map(|symbol| around(scene, &symbol.at));
     let springs = scene.springs().enumerate();
     let springs = springs.filter(|(index, _)| !at.released.contains(&Releasable::Spring(*index)));
@@ -110,7 +107,6 @@ pub fn symbols(
     Ok(placed.chain(springs).chain(of_obstacles(scene).map(|(_, placed)| placed)).collect())
 }
 
-/// Symbols of obstacles, with their names.
 pub fn of_obstacles(scene: &Scene) -> impl Iterator<Item = (&str, PlacedSymbol)> {
     scene.obstacles().map(|obstacle| {
         let (symbol, at, direction) = match obstacle.shape {
@@ -176,7 +172,6 @@ pub fn of_spring_kind(spring: &Spring) -> Symbol {
     }
 }
 
-/// Symbols of joints, supports and prescribed motions.
 pub fn of_supports(scene: &Scene) -> impl Iterator<Item = StationSymbol<'_>> {
     let joints = scene.joints.iter().enumerate();
     let joints = joints.map(|(index, joint)| of_joint(scene, joint, Releasable::Joint(index)));

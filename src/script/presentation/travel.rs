@@ -7,7 +7,6 @@ use crate::system::Scene;
 /// Bodies that joints hold in place, and groups of joined bodies that can move without deformation. Bodies have their indices in the model.
 pub struct Travel {
     is_held: Vec<bool>,
-    /// Smallest index in the group of joined travelling bodies, for each body.
     group: Vec<usize>,
 }
 
@@ -27,12 +26,11 @@ impl Travel {
         self.is_held[body]
     }
 
-    /// Smallest index in the group of joined bodies that travel together.
     pub fn group(&self, body: usize) -> usize {
         self.group[body]
     }
 
-    /// Returns true for the ground and for bodies that are held.
+    /// Returns true for the ground, and for bodies that joints hold in place.
     fn is_fixed(&self, scene: &Scene, partner: &Partner) -> bool {
         match partner {
             Partner::Ground => true,
@@ -40,7 +38,7 @@ impl Travel {
         }
     }
 
-    /// Marks bodies that the ground and held bodies hold. Returns true if there is a new one.
+    /// Marks bodies that joints to the ground or to marked bodies hold in place. Returns true if a body was marked.
     fn hold_bodies(&mut self, scene: &Scene) -> bool {
         let mut free: Vec<usize> = self.rigid_freedoms(scene);
         for (station, partner, joint) in joint_ends(scene) {

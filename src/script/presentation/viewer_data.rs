@@ -32,7 +32,7 @@ pub struct ViewerOptions<'a> {
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations with drawn paths; `None` for the free ends.
+    /// Stations whose paths are drawn; `None` for the free ends of beams.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
@@ -83,7 +83,6 @@ struct FrameSelection {
     indices: Vec<usize>,
     /// Control points. The first index is the frame, the second the body.
     frames: Vec<Vec<Vec<Vec2>>>,
-    /// For each body, the index of its first point.
     first: Vec<usize>,
 }
 

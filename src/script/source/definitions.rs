@@ -29,10 +29,8 @@ impl<'t> Definition<'t> {
             let found = tokens[from..].iter().position(|(token, _)| wanted(token));
             found.map_or(tokens.len(), |ahead| from + ahead)
         };
-        let opens = |token: &Token| {
-            // A pair of empty parentheses is a single token.
-            matches!(token, Token::LeftParen | Token::Unit | Token::LeftBrace)
-        };
+        let opens =
+            |token: &Token| matches!(token, Token::LeftParen | Token::Unit | Token::LeftBrace);
         let opening = find(start + 1, opens);
         let body = find(opening, |token| matches!(token, Token::LeftBrace));
         let is_private =
@@ -69,7 +67,6 @@ impl<'t> Definition<'t> {
     }
 }
 
-/// Change of the bracket depth by a token.
 pub fn nesting(token: &Token) -> isize {
     match token {
         Token::LeftBrace

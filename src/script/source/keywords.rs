@@ -20,7 +20,6 @@ mod tests {
     fn the_engine_takes_them_for_no_names() {
         let is_name = |word: &str| Source::from(word).names().next().is_some();
         for word in KEYWORDS {
-            // The lexer treats any word before `::` as a name.
             assert!(!is_name(word) || *word == "global", "{word}");
         }
         assert!(is_name("beam"));

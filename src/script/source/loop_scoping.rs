@@ -3,7 +3,7 @@
 //! In Rhai, all iterations of a loop share one variable. Closures of the first iteration would see the value of the last iteration.
 //! If a closure in the body uses the loop variable, an additional first statement declares the variable again in the scope of the iteration.
 //! The statement is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
-//! If there are fewer than two blanks, the rest of the line is shifted by one or two columns.
+//! If there are fewer than two blanks around the brace, the remaining line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
@@ -38,7 +38,6 @@ pub fn install(engine: &mut Engine) {
 /// Declares the last variables of the scope again, with their values. The loop assigns to the original variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
-    // The newest variables come first.
     let names: Vec<String> =
         scope.iter_raw().take(variables).map(|(name, _, _)| name.to_owned()).collect();
     for name in names {

@@ -10,10 +10,8 @@ pub struct ScriptOutline {
     /// Variables and constants outside functions and blocks, with the lines of their declarations.
     pub top_level: Vec<(String, usize)>,
     pub variables: Vec<String>,
-    /// Functions with their numbers of parameters.
     pub functions: Vec<(String, usize)>,
     pub keys: Vec<String>,
-    /// Imported paths, with the names of the imports.
     pub imports: Vec<(String, String)>,
 }
 

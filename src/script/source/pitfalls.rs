@@ -41,7 +41,6 @@ fn note_on_comment(text: &str, comment: &Token) -> Option<(usize, String)> {
     })
 }
 
-/// Note on a name in braces in a text in quotes.
 fn note_on_braces(literal: &str) -> Option<String> {
     let inside = literal.strip_prefix('"')?;
     let name = inside.split('{').skip(1).find_map(|part| {

@@ -1,7 +1,7 @@
 //! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
 //! Rhai's built-in comparisons and integer division ignore registered functions.
-//! Therefore the parser uses other operator names, which [`operators`](crate::script::dialect::operators) implements:
+//! The text of a script is therefore changed before parsing. The new operators are implemented in [`operators`](crate::script::dialect::operators):
 //!
 //! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
 //! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.
@@ -138,7 +138,7 @@ pub fn install(
 }
 
 /// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand. Also marks loop bodies and `switch` expressions.
-/// Columns are unchanged if there are blanks to be replaced.
+/// The insertion of marks leaves columns unchanged if marks replace blanks.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {

@@ -69,7 +69,6 @@ impl Source {
         self.len()
     }
 
-    /// Byte offset of a token.
     pub fn offset_of(&self, (_, at): &Lexeme) -> usize {
         self.offset(at.line().unwrap_or(1), at.position().unwrap_or(1))
     }

@@ -42,7 +42,6 @@ struct ContextData {
     pipe_closed: Cell<bool>,
     progress: Box<dyn Progress + Send>,
     inputs: RefCell<Inputs>,
-    /// Values of the parameters in a run of a study.
     parameters: RefCell<Map>,
     files_read: FilesRead,
     studies: StudyPreferences,
@@ -66,7 +65,6 @@ struct ContextData {
 impl Context {
     /// Creates the state at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
-        // A run that computes a part of its studies writes only the files of this part.
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {
             mode: settings.mode,
@@ -395,7 +393,7 @@ impl Context {
     }
 
     /// Removes the objects that contribute to the report, and the reserved names of studies.
-    /// A session writes no report, and its next input may repeat a study.
+    /// An interactive session writes no report, and its next input may use the name of the same study again.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();

@@ -52,7 +52,6 @@ impl OutputFolder {
         }
     }
 
-    /// Sets the record of the files that are read.
     pub(super) fn recording(self, read: FilesRead) -> Self {
         Self { read, ..self }
     }
@@ -112,7 +111,6 @@ impl OutputFolder {
             written = Some(file.checksum());
             Ok(())
         })?;
-        // If a later call fails, the existing file has already been recorded or kept under another name.
         let is_ours = record.may_replace(&folder, name);
         written.map_or(Ok(()), |written| record.record(&folder, name, written))?;
         let kept = if is_ours {
@@ -219,7 +217,6 @@ pub struct InputFolder {
 }
 
 impl InputFolder {
-    /// Folder of a script at a path given by the user.
     pub fn in_folder_of(path: &Path) -> Self {
         Self { word: "script's own folder", path: path.to_owned(), open: Folder::open }
     }
@@ -231,12 +228,10 @@ pub struct InputFolders {
 }
 
 impl InputFolders {
-    /// Folders in search order.
     pub fn new(folders: impl IntoIterator<Item = InputFolder>) -> Self {
         Self { folders: folders.into_iter().collect(), read: FilesRead::default() }
     }
 
-    /// Sets the record of the files that are read.
     pub fn recording(self, read: FilesRead) -> Self {
         Self { read, ..self }
     }

@@ -18,7 +18,7 @@ fn state_of(path: &Path) -> FileState {
 }
 
 impl FilesRead {
-    /// Records a file before it is read. The state before the first reading is kept.
+    /// Records date and length of a file before it is read. Later readings do not change the record.
     pub fn record(&self, path: PathBuf) {
         let state = state_of(&path);
         self.lock().entry(path).or_insert(state);

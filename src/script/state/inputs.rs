@@ -84,7 +84,7 @@ impl InputValue {
         }
     }
 
-    /// Value of the type of `self` that is written in a text; `None` if the text is not such a value.
+    /// Value parsed from a text, with the type of `self`; `None` if the text has another form.
     fn parse(&self, text: &str) -> Option<Self> {
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
         match self {

@@ -14,7 +14,6 @@ use crate::script::messages::error::ScriptError;
 #[derive(Default)]
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
-    /// Paths of the journals of sweeps. The open files belong to the sweeps.
     of_rows: RefCell<Vec<PathBuf>>,
     /// True if the run computes parts of studies. Their journals are kept.
     has_parts: Cell<bool>,

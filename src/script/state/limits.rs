@@ -103,7 +103,6 @@ const MOST_DRY_ADVANCES: u64 = 100_000;
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
 /// Watchdog state without an exceeded limit.
-/// The next two constants are the states for an exceeded time limit and an exceeded memory limit.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;

@@ -22,7 +22,6 @@ const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.
 pub struct Watchdog {
-    /// Sender whose drop ends the thread.
     leash: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }

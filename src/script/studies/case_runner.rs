@@ -192,7 +192,6 @@ impl<'c> CaseRunner<'c> {
         results
     }
 
-    /// Rejects merged parts in which a case is missing.
     fn expect_parts<R>(
         &self,
         task: CaseTask,

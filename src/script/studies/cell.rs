@@ -30,7 +30,7 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
 }
 
 /// Creates a case from a scene, or from a map with a scene and settings.
-/// Missing settings are taken from the values of the cell, then from the options of the study.
+/// Settings that the map lacks are taken from the values of the cell, or else from the options of the study.
 pub fn case(
     call: &Call,
     options: &StabilityOptions,
@@ -57,7 +57,6 @@ pub fn case(
             function: #{{ scene: scene, {name}: 0.1 }}"
         ))
     };
-    // An invalid setting is an error. If an option replaced the setting, the cell would differ from its label.
     let wrong = |name: &str, value: &Dynamic, hint: &str| {
         call.error(format!("the '{name}' of a cell is {}", call.describe(value))).hint(hint)
     };

@@ -128,7 +128,6 @@ fn records(study: &Convergence) -> CsvRecords {
     }
 }
 
-/// Errors of one quantity as a script map.
 pub fn map_of(study: &Convergence, ladder: &Refinement) -> Map {
     let array = |values: Vec<f64>| -> Dynamic {
         values.into_iter().map(Dynamic::from).collect::<rhai::Array>().into()
@@ -148,7 +147,6 @@ pub fn map_of(study: &Convergence, ladder: &Refinement) -> Map {
     facts.into_iter().map(|(name, value)| (name.into(), value)).collect()
 }
 
-/// Rejects an unknown quantity. The error lists the known quantities.
 pub fn expect_quantity(
     call: &Call,
     study: &Convergence,

@@ -68,7 +68,6 @@ fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
 }
 
-/// Line of an order through the last usable point, over all sizes.
 fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
     let last = usable_rungs(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));

@@ -20,7 +20,7 @@ const SNAPSHOTS: usize = 256_000_000;
 /// Names of the first two rows: the plain scene and its repetition. Their difference shows the reliability of the times.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Ratio of the times of both plain rows, above which all ratios are unreliable.
+/// Ratio of the times of the plain scene and its repetition, above which all ratios of the table are unreliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.
@@ -134,7 +134,6 @@ impl CostTable {
         cost.shortest.as_secs_f64() / alone
     }
 
-    /// Rows as script maps.
     pub fn rows(&self) -> Vec<Map> {
         let row = |cost: &StepCost| {
             let whole = |count: usize| Dynamic::from(count as rhai::INT);
@@ -242,7 +241,6 @@ impl CostTable {
         }
     }
 
-    /// Bar chart of the times, with the plain scene marked.
     pub fn chart(&self) -> BarChart {
         let micro = |cost: &StepCost| cost.shortest.as_secs_f64() * 1e6;
         let empty =

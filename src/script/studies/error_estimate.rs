@@ -30,10 +30,8 @@ const MOST_ROWS: usize = 24;
 /// Smallest number of spans of a beam for coarsening by a factor of four. Shorter beams are also refined.
 const SPANS_TO_COARSEN: usize = 4;
 
-/// Estimated errors of a run.
 #[derive(Debug, Clone)]
 pub struct ErrorEstimate {
-    /// Name of the simulation.
     pub name: String,
     /// Present time of the simulation [time].
     pub time: f64,
@@ -41,22 +39,16 @@ pub struct ErrorEstimate {
     pub length: f64,
     /// Largest errors of all stations, followed by the errors of each station and recorded column.
     pub quantities: Vec<QuantityError>,
-    /// Reasons for missing estimates.
     pub missing: Vec<String>,
 }
 
-/// Estimated errors of one quantity.
 #[derive(Debug, Clone)]
 pub struct QuantityError {
-    /// Name of the station or column.
     pub name: String,
-    /// Dimension of the errors.
     pub dimension: &'static str,
     /// Largest value of the run, or the size of the scene for positions.
     pub scale: f64,
-    /// Error due to the steps.
     pub in_time: Option<DiscretisationError>,
-    /// Error due to the mesh.
     pub in_space: Option<DiscretisationError>,
 }
 
@@ -83,7 +75,6 @@ impl QuantityError {
         [&self.in_time, &self.in_space].into_iter().flatten().map(read).sum()
     }
 
-    /// Verdict on both errors in words.
     pub fn verdict(&self) -> String {
         let both = [("in time", &self.in_time), ("in space", &self.in_space)];
         let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?.verdict)));
@@ -132,7 +123,6 @@ impl Plan {
         let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
             return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
         };
-        // Companions 2 and 3 have twice the step size of the simulation, like companion 0.
         let (ratios, meshes, level) = match shortest {
             SPANS_TO_COARSEN.. => ([0.75, 0.5], [0, 2, 3], 0),
             1 => ([4.0, 2.0], [2, 3, 0], 2),
@@ -148,7 +138,6 @@ impl Plan {
     }
 }
 
-/// Traces of all quantities of a finished run.
 struct FinishedRun(Vec<Trace>);
 
 /// Result of a companion run: its traces, or its description and the reason for its failure.
@@ -258,7 +247,6 @@ impl ErrorEstimate {
         Ok(estimate)
     }
 
-    /// Errors of a station or column, or of all positions together.
     pub fn of(&self, name: &str) -> Option<&QuantityError> {
         self.quantities.iter().find(|quantity| quantity.name == name)
     }
@@ -301,7 +289,6 @@ impl ErrorEstimate {
         }));
     }
 
-    /// One-line summary for all positions together.
     pub fn summary(&self) -> String {
         let Some(positions) = self.of(POSITIONS) else {
             return format!("not estimated: {}", self.missing.join("; "));

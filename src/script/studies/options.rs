@@ -22,10 +22,8 @@ option_set! {
         scene: FnPtr = callback("scene").doc("|cell| …, a function that returns the scene of a cell"),
         rows: Dynamic = of_any_type("rows").doc("a name and its values: #{ stiffness: [1e4, 1e8] }"),
         columns: Dynamic = of_any_type("columns").doc("a name and its values: #{ dt: [0.1, 0.2] }"),
-        /// Map with a name and its values.
         maps: Option<Dynamic> =
             of_any_type("maps").doc("a name and its values, with one map for each").optional(),
-        /// Default integrator of the cells.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         /// Default step size of the cells [time].
@@ -81,7 +79,6 @@ option_set! {
         reference: Option<ReferenceOption> = either("reference", &[Kind::Text, Kind::Object(FINEST_RUN)])
             .doc("name of a table, or finest_run(…); default: finest_run()")
             .optional(),
-        /// Map of reference columns to history columns.
         columns: Option<Dynamic> = of_any_type("columns")
             .doc("columns of the reference with the columns of the history: #{ S: \
                 \"slider1.position\" }, or with a factor: [\"…\", 3.2]")

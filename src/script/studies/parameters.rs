@@ -51,7 +51,6 @@ impl StudyParameter {
         as_number(&self.values[index]).map_or_else(|| self.labels[index].clone(), format_number)
     }
 
-    /// Inserts the value with this index into a map.
     pub fn put(&self, index: usize, into: &mut Map) {
         if !self.name.is_empty() {
             into.insert(self.name.as_str().into(), self.values[index].clone());

@@ -69,7 +69,6 @@ impl ErrorStudyPlan {
         SimulationSettings { method, dt, tolerance: Tolerance::default() }
     }
 
-    /// Settings of all combinations of integrators and step sizes.
     pub fn all_settings(&self) -> Vec<SimulationSettings> {
         let with = |method: &Method| {
             let method = *method;
@@ -93,7 +92,7 @@ impl ErrorStudyPlan {
 
     /// Adds columns of the history to the observables. With a reference table, only the columns in the table are added.
     /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
-    /// Without a table, all columns of the history are added.
+    /// Without a reference table, all columns of the history are added to the observables.
     ///
     /// The option `columns` (argument `given`) assigns history columns to further names, and replaces columns with the same names.
     pub fn add_columns(
@@ -247,7 +246,6 @@ fn label_of(call: &Call, mesh: &Dynamic) -> String {
     mesh.read_lock::<Mesh>().map_or_else(|| call.show(mesh), |mesh| mesh.describe())
 }
 
-/// Scene on a mesh, made by the function of the study.
 pub fn scene_on_mesh(
     call: &Call,
     scene_of: &FnPtr,

@@ -19,7 +19,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::format_number;
 use crate::simulation::{StepControl, StepSize};
 
-/// Reference run as specified by the script.
 #[derive(Clone, Default)]
 pub struct FinestRun {
     /// Mesh argument for the scene function of the reference run. By default, it is the finest mesh of the study.
@@ -78,11 +77,10 @@ pub enum Reference {
     /// Independent solution from a table file.
     Table(String, ParsedCsv),
     /// Reference run: its description, its case, and the case with twice the step size, for an error estimate.
-    /// The second case is omitted if all runs of the study have the same time settings. The errors in time then cancel.
+    /// The run with twice the step size is omitted if all runs of the study have the same time settings, because errors in time then cancel.
     ReferenceRun(String, Vec<Case>),
 }
 
-/// Reads a table from the script's folder or the output folder.
 pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, ScriptError> {
     let bytes = call.context().read_file(file)?;
     let text = String::from_utf8_lossy(&bytes);

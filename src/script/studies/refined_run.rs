@@ -25,9 +25,7 @@ const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 /// Fraction of the tolerance for the error in time, and also for the error in space.
 const PART: f64 = 0.5;
 
-/// Request of a refined run.
 pub struct RefinedRunRequest {
-    /// Name of the simulation.
     pub name: String,
     /// End of the run [time].
     pub end: f64,
@@ -39,22 +37,17 @@ pub struct RefinedRunRequest {
     pub max_time: f64,
 }
 
-/// Refined run with all preceding runs.
 #[derive(Clone)]
 pub struct RefinedRun {
-    /// Last run.
     pub simulation: SimulationHandle,
-    /// All runs in their order.
     pub rows: Vec<RefinedRunRow>,
     /// Reason why the tolerance was not reached; `None` if it was reached.
     pub failure: Option<String>,
     tolerance: f64,
 }
 
-/// Run of a refinement.
 #[derive(Debug, Clone)]
 pub struct RefinedRunRow {
-    /// Number of spans of all beams.
     pub spans: usize,
     /// Step size [time].
     pub dt: f64,
@@ -64,7 +57,6 @@ pub struct RefinedRunRow {
     pub in_time: f64,
     /// Largest error due to the mesh, relative to the size of the scene [-]; NaN if unknown.
     pub in_space: f64,
-    /// Verdict on both errors, or the reason of a failure.
     pub verdict: String,
     /// Run time without the estimate [s].
     pub seconds: f64,
@@ -204,7 +196,6 @@ impl RefinedRun {
         Ok(Self { simulation, rows: vec![row], failure: None, tolerance: request.tolerance })
     }
 
-    /// Table of all runs, with the result below it.
     pub fn table(&self) -> String {
         let heads = ["spans", "dt", "steps", "in time", "in space", "run time [s]", "verdict"];
         let title = format!(

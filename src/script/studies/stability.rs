@@ -23,7 +23,6 @@ const COLUMNS: usize = 2;
 /// Quantity that determines the colours of the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
-    /// Largest relative growth of the energy.
     EnergyGrowth,
     /// Average number of Newton iterations per step.
     Iterations,
@@ -58,7 +57,6 @@ impl MapColouring {
 
 #[derive(Clone, Debug)]
 pub struct StabilityPlan {
-    /// Name of the study and its files.
     pub name: String,
     pub maps: StudyParameter,
     pub rows: StudyParameter,
@@ -69,7 +67,6 @@ pub struct StabilityPlan {
 pub struct StabilityMap {
     plan: StabilityPlan,
     shown: MapColouring,
-    /// Verdicts by map, then by row.
     verdicts: Vec<StabilityVerdict>,
 }
 
@@ -156,7 +153,6 @@ impl StabilityPlan {
         }
     }
 
-    /// Adds the verdicts of the cells.
     pub fn judged(self, shown: MapColouring, verdicts: Vec<StabilityVerdict>) -> StabilityMap {
         StabilityMap { plan: self, shown, verdicts }
     }
@@ -177,7 +173,6 @@ impl StabilityMap {
         &self.plan.name
     }
 
-    /// Cells as script maps: values and results.
     pub fn cells(&self) -> Vec<Map> {
         let cell = |(at, verdict): ([usize; 3], &StabilityVerdict)| {
             let mut cell = self.plan.values(at);
@@ -271,7 +266,6 @@ impl StabilityMap {
         maps.into_iter().fold(page, Page::panel)
     }
 
-    /// Maps as text, followed by the reasons of failures.
     pub fn text(&self) -> String {
         let style = TerminalStyle {
             glyphs: Glyphs::Braille,

@@ -56,7 +56,6 @@ fn without_blanks(text: &str) -> String {
 fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to_do() {
     for size in [(80, 24), (120, 40), (60, 40), (40, 60)] {
         let shown = lines(&at(1), size);
-        // The screen breaks long paths at its edge. Therefore the text is compared without blanks.
         let all = without_blanks(&shown.join("\n"));
         for part in [
             "Exercise 1 of 23: Change one number and see what it does",
@@ -139,7 +138,6 @@ fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
         "{all}"
     );
     assert!(all.contains("↑↓ scroll"), "{all}");
-    // Every line must be visible at some scroll position.
     let window = screen(&state, (80, 24), &[]).window;
     let mut seen = String::new();
     for top in 0..=window.last {

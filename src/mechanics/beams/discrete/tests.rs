@@ -9,7 +9,6 @@ use proptest::prelude::*;
 const TANGENT: Collocation =
     Collocation { configuration: 0.4, stress: 0.6, rotations: RotationIncrement::TangentScaled };
 
-/// Returns the bits of the tangents and forces of all spans, and the spans after the computation. `arch` is the instruction set.
 fn linearised<const N: usize>(
     arch: Arch,
     beam: &DiscreteBeam<N>,
@@ -26,7 +25,6 @@ fn linearised<const N: usize>(
     (found, groups)
 }
 
-/// Moves a curved beam twice, and compares the results after each movement.
 fn assert_same<const N: usize>(mesh: &Mesh, movements: &[f64]) {
     let section = Section {
         axial_stiffness: 1e4,

@@ -8,21 +8,8 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor `μ` of the inertia of a moving kink.
-    /// The kinetic energy that the mesh misses is `½ μ ρA g |a|² v²` for a kink `a` that moves with the speed `v`.
-    /// The factor is averaged over positions `ξ` of the kink in evenly spread spans.
-    ///
-    /// ```text
-    /// correction factor:  μ = ∫ (L - s(ξ) - ∫ u² dX) ds/∫ g ds
-    /// velocity ratio:     u = l(X)ᵀ M⁻¹ t(ξ)/|x_ξ|
-    /// ```
-    ///
-    /// The length of the string is `L`, the arc length at the kink `s(ξ)`, and the derivative `ds/dξ` is `|x_ξ|`.
-    /// The kink length `g`, the splines `t`, their integrals `l` and the matrix `M` are defined at [`unresolved_kink`](super::unresolved_kink).
-    ///
-    /// Consider a string whose start is held. The points in front of a moving unit kink have the velocity `v`, and the points behind it are at rest.
-    /// On the mesh, the point at the arc length `X` has the velocity `u v` instead, where `u` is a function of `X` and `ξ`.
-    /// Away from the kink `u` is exact, so only the spans around the kink contribute to the difference of the energies.
+    /// Correction factor of the kinetic energy of a moving kink that the mesh does not represent [-].
+    /// The factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -70,9 +57,6 @@ impl SplineString {
         missed / lengths
     }
 
-    /// Motion of the control points for a kink at a given position in a span, relative to the motion of the end of the string.
-    /// The argument `lower` contains the values of the splines of lower degree at this position.
-    /// The second value of each pair is the difference between the motion of the control point and the motion of the end.
     fn motion(&self, span: &Span, lower: &[f64]) -> Vec<[f64; 2]> {
         let mut strains = vec![0.0; self.stretched.len()];
         strains[span.first..][..lower.len()].copy_from_slice(lower);

@@ -5,7 +5,6 @@ use crate::beams::Quadrature;
 use crate::elementary;
 use crate::geometry::{Basis, Curve, KnotVector, interpolate};
 
-/// Meshes of every supported type with the patch rule: degrees 1 to 7 with all continuities, Lagrange elements, uneven knots, breaks.
 fn meshes() -> Vec<Mesh> {
     let mut meshes = Vec::new();
     for degree in 1..=7 {
@@ -33,8 +32,6 @@ fn arc() -> Curve {
     Curve::arc(Vec2::new(0.0, 0.0), 1.0, 0.3, 2.2).unwrap()
 }
 
-/// Kink length `g` computed by dense matrices, with the start of the string held.
-/// The kink length is the exact displacement of the string at ξ under a unit load at ξ, minus the displacement in the mesh.
 fn dense(mesh: &Mesh, points: &[Vec2], places: &[f64]) -> Vec<f64> {
     let (basis, count) = (mesh.basis(), points.len());
     let mut stiffness = DMatrix::zeros(count, count);
@@ -95,7 +92,6 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
 
 #[test]
 fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
-    // Formula of docs/theory.md: G - bᵀ K⁻¹ b with G = X (L - X)/L.
     for mesh in meshes().into_iter().filter(|mesh| mesh.basis().functions() > 2) {
         let (basis, length) = (mesh.basis(), line().length());
         let points = interpolate(&line(), basis).unwrap();
@@ -172,9 +168,6 @@ fn a_mesh_with_too_few_points_has_no_missed_kink() {
     assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
 }
 
-/// Missing energy of a kink at rest and of a moving kink on equal spans without ends, averaged over the positions of the kink.
-/// The energy is computed by Fourier sums: the waves of the exact string minus the waves of splines of the given degree.
-/// The mesh has one strain point per span. For odd degrees, this point is half a span from a knot.
 fn fourier(degree: usize, is_exact: bool) -> f64 {
     let (tau, order) = (2.0 * std::f64::consts::PI, degree as i32 + 1);
     let hat = |k: f64| (elementary::sin(0.5 * k) / (0.5 * k)).powi(order);
@@ -186,8 +179,6 @@ fn fourier(degree: usize, is_exact: bool) -> f64 {
         let stiffness = if is_exact {
             aliases().map(|(_, q)| (q * hat(q)) * (q * hat(q))).sum()
         } else {
-            // The centre of a spline is a knot for odd degrees, and half a span from a knot for even degrees.
-            // For both odd and even degrees, the centre of a spline is half a span from the strain points.
             let sum: f64 =
                 aliases().map(|(m, q)| if m % 2 == 0 { q * hat(q) } else { -q * hat(q) }).sum();
             sum * sum
@@ -206,7 +197,6 @@ fn a_kink_on_its_way_is_as_heavy_as_what_the_mesh_misses_of_its_motion() {
         let mesh = Mesh::bspline(400, degree, degree - 1).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();
         let found = unresolved_kink(&mesh, &points).unwrap().unwrap().inertia;
-        // The sums converge slowly for quadratic splines.
         let rounding = if degree == 2 { 4e-3 } else { 2e-4 };
         assert!((found - fourier(degree, false)).abs() < rounding, "{degree}: {found}");
         let exact = mesh.with_quadrature(Quadrature::Points(degree + 1)).unwrap();

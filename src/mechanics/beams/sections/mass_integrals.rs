@@ -9,7 +9,6 @@ use crate::beams::dynamics::Movement;
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
-    /// Adds the product of two basis functions at a point with the given section, multiplied by the quadrature weight [length].
     fn add(&mut self, product: f64, section: &Section);
 
     /// Integral of the product of the functions, without the inertia per length [length].
@@ -19,10 +18,8 @@ pub(in crate::beams) trait MassIntegral:
     /// The integrals are unweighted for every component, or weighted with mass and inertia.
     fn weights(self) -> Movement;
 
-    /// Factors that convert the [`weights`](Self::weights) to inertia: the mass and rotary inertia per length, or one.
     fn shares(uniform: &Section) -> Movement;
 
-    /// Inertia of each component x, y and rotation, multiplied by a factor.
     #[inline]
     fn inertia(self, factor: f64, uniform: &Section) -> Movement {
         let (weights, shares) = (self.weights(), Self::shares(uniform));
@@ -51,7 +48,6 @@ impl MassIntegral for f64 {
     }
 }
 
-/// Integrals of a product of two basis functions: unweighted (length), and weighted with mass and rotary inertia.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::beams) struct SectionIntegral {
     length: f64,

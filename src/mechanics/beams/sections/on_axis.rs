@@ -6,7 +6,6 @@ use crate::geometry::{GaussRule, Span, Vec2};
 /// Number of Gauss points for the arc length within one span.
 const POINTS: usize = 8;
 
-/// Sections of a beam along an axis given by control points.
 pub(in crate::beams) struct SectionsOnAxis<'a> {
     variation: &'a SectionVariation,
     mesh: &'a Mesh,

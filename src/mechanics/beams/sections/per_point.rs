@@ -10,12 +10,9 @@ use crate::beams::force_points::Stiffness;
 use crate::beams::pair::Pair;
 use crate::beams::simd::{LANES, LaneChunk, Lanes, Vector};
 
-/// Sections at the quadrature points of consecutive spans. A uniform beam stores a single section elsewhere and none here.
+/// Sections at the quadrature points of consecutive spans; empty for a uniform beam.
 pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
-    /// Type of the integral of a product of two basis functions.
-    /// If the inertia varies along the beam, the type also contains the integrals weighted with the inertia.
     type MassIntegral: MassIntegral;
-    /// Type of a section interpolated between the quadrature points.
     type Interpolation: Interpolation;
 
     fn new(at_force: Vec<Section>, at_moment: Vec<Section>) -> Self;
@@ -41,7 +38,6 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Vector<V>;
 
-    /// Masses of control points. For a uniform section they are computed from the lengths, otherwise from the weighted integrals.
     fn masses(uniform: &Section, lengths: Vec<f64>, weighed: Vec<f64>) -> Vec<f64>;
 }
 
@@ -95,13 +91,10 @@ impl Sections for Uniform {
 pub(in crate::beams) struct PerPoint {
     at_force: Vec<Section>,
     at_moment: Vec<Section>,
-    /// Stiffness `diag(EA, GA)` at the quadrature points for the strain `Γ`, in vector lanes.
-    /// The next field contains `EI` at the quadrature points for the curvature `κ`.
     force_stiffness: Vec<Pair<Lanes>>,
     bending_stiffness: Vec<Lanes>,
 }
 
-/// Property of the sections at several points, one point in each vector lane. Unused lanes repeat the last point.
 fn side_by_side(sections: &[Section], of: impl Fn(&Section) -> f64) -> Lanes {
     let mut lanes = Lanes::default();
     for lane in 0..LANES {

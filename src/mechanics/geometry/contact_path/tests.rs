@@ -59,7 +59,6 @@ fn inside(basis: &Basis, t: f64) -> (Span, f64) {
     (span, span.start + (0.1 + 0.8 * place.fract()) * (span.end - span.start))
 }
 
-/// Coefficients of the function ξ³ in a cubic basis: its polar form at the knots, or its values at the nodes.
 fn cube(basis: &Basis) -> Vec<f64> {
     match basis {
         Basis::BSpline(knots) => {
@@ -86,7 +85,6 @@ fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
                 assert!((value - exact).abs() < 1e-13 * largest(on.slope()).max(10.0), "{context}");
                 let slope = combine(&on, on.slope(), &coefficients);
                 assert!((slope - 3.0 * to * to).abs() < 1e-13 * largest(on.slope()), "{context}");
-                // Across a jump of the derivatives, the error is the rounding error of the divided difference, divided by the length of the path.
                 let kinks = basis.continuity() == 0;
                 if !kinks || increment == 0.0 || increment.abs() >= 0.01 {
                     let change = combine(&on, on.change(), &coefficients);
@@ -265,7 +263,6 @@ proptest! {
         basis in bases(), t in 0.0..=1.0f64, u in 0.0..=1.0f64, nearness in 0..15i32,
     ) {
         let xi = place(&basis, t);
-        // The paths start at a given parameter, at all breaks, and slightly before the breaks.
         for from in basis.breaks().into_iter().chain([xi]) {
             let increment = (place(&basis, u) - from) * 10f64.powi(-nearness);
             for (a, b) in [(from, from + increment), (from - 0.3 * increment, from + increment)] {

@@ -2,7 +2,6 @@ use super::*;
 use crate::geometry::KnotVector;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// Basis with spans of the given lengths and continuity C^`continuity` at interior knots.
 fn basis(sizes: &[f64], degree: usize, continuity: usize) -> Basis {
     let mut breaks = vec![0.0];
     for size in sizes {
@@ -15,14 +14,12 @@ fn basis(sizes: &[f64], degree: usize, continuity: usize) -> Basis {
     Basis::BSpline(KnotVector::new(degree, knots).unwrap())
 }
 
-/// Three lists of lengths for `spans` spans: equal, growing and irregular. The ratio of two lengths in a list is at most ten.
 fn sizes(spans: usize) -> [Vec<f64>; 3] {
     let graded = |at: usize| 10_f64.powf(at as f64 / (spans - 1).max(1) as f64);
     let scattered = |at: usize| 10_f64.powf((at as f64 * 0.618_033_988_75).fract());
     [vec![1.0; spans], (0..spans).map(graded).collect(), (0..spans).map(scattered).collect()]
 }
 
-/// Smallest value of `Σ w T² / ∫ T²` over all splines `T` of one degree less.
 fn least_share(basis: &Basis, run: &[Span], rule: &RunRule) -> f64 {
     let count = lower_count(basis, run).unwrap();
     let exact = GaussRule::new(basis.degree()).unwrap();
@@ -59,7 +56,6 @@ fn every_spline_has_a_rule_that_sees_all_its_derivatives() {
             let continuity = continuity.min(degree - 1);
             for spans in [2, 3, 4, 7, 16, 33] {
                 for sizes in sizes(spans) {
-                    // Linear splines are only C⁰, so each span is a separate run.
                     let basis = basis(&sizes, degree, continuity);
                     let run = if degree == 1 { basis.spans()[..1].to_vec() } else { basis.spans() };
                     let what = format!("degree {degree}, C{continuity}, {sizes:?}");
@@ -130,7 +126,6 @@ fn long_and_uneven_meshes_have_rules_too() {
         let [_, _, scattered] = sizes(1500);
         let uneven = basis(&scattered, degree, degree - 1);
         assert!(patch_rule(&uneven, &uneven.spans()).is_some(), "{degree}");
-        // Every second span is a thousand times as long as its neighbours.
         let sizes: Vec<f64> = (0..12).map(|at| [1.0, 1e3][at % 2]).collect();
         let uneven = basis(&sizes, degree, degree - 1);
         assert!(patch_rule(&uneven, &uneven.spans()).is_some(), "{degree}");

@@ -9,15 +9,7 @@ use crate::geometry::{cross, perpendicular};
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 /// The mesh represents the kink of the axis under the contact force only approximately.
 ///
-/// ```text
-/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1
-/// balance of moments:     |τ|² η + (d × λ) Jτ = 0
-/// no work:                λ·τ + 4 η·d = 0
-/// ```
-///
-/// The mean position of the slave, `Σ B̄_i x̄_i + Δξ d`, is not the point at which `λ` acts on the master.
-/// Hence the contact forces on slave and master, which are opposite, have a moment.
-/// The law uses the smallest couple `η` that balances the moment of the contact forces. The sliding equation follows from the conservation of energy.
+/// The smallest couple balances the moment of the contact forces. The sliding equation follows from the conservation of energy.
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;
@@ -31,7 +23,6 @@ impl SlidingLaw for Conserving {
     }
 }
 
-/// Moment balance `d × λ + τ × η = 0` with the smallest `η`, in the form `(|τ|² η + (d × λ) Jτ)/ℓ² = 0`.
 fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> [Equation; 2] {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / square(contact.length);
@@ -52,7 +43,7 @@ fn balanced_moment(contact: &Contact<'_>, tangent: PathVector, swing: PathVector
     })
 }
 
-/// Sliding equation `(λ·τ + 4 η·d)/ℓ = 0`. It states that the contact force `λ` and the couple `η` together do no work.
+/// Sliding equation: the contact force and the couple together do no work.
 fn work_free(contact: &Contact<'_>, tangent: PathVector, swing: PathVector) -> Equation {
     let ContactUnknowns { force, couple, .. } = contact.unknowns;
     let scale = 1.0 / contact.length;

@@ -3,7 +3,7 @@
 use super::{Equation, Friction, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
-/// Number of unknowns of a contact: `λ` and `η` with two components each, and `Δξ`.
+/// Number of unknowns of a contact: two components of the force, two components of the couple, and the sliding increment.
 pub const CONTACT_UNKNOWNS: usize = 5;
 
 /// Unknowns of a sliding contact in a step. The type is also used for derivatives with respect to these unknowns.
@@ -11,13 +11,12 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple of the contact: `η`, or with a kink `χ`. The forces `Δξ D_i η` or `D_i χ` on the master balance the angular momentum [force].
+    /// Couple of the contact [force]. The forces of the couple on the master balance the angular momentum.
     pub couple: Vec2,
-    /// Sliding increment `Δξ` in the step: the change of the position of the slave, measured by the parameter of the master [-].
+    /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
 }
 
-/// Unit vectors of the axes [-]. The scalar product of a vector with a unit vector is a component.
 pub(super) const AXES: [Vec2; 2] = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
 
 const NONE: ContactUnknowns =
@@ -29,7 +28,7 @@ impl ContactUnknowns {
         NONE
     }
 
-    /// Creates the unknowns from a vector: `λ` and `η` with two components each, then `Δξ`.
+    /// Creates the unknowns from a vector: force, couple and sliding increment.
     pub fn of([force_x, force_y, couple_x, couple_y, increment]: [f64; CONTACT_UNKNOWNS]) -> Self {
         Self {
             force: Vec2::new(force_x, force_y),
@@ -38,31 +37,29 @@ impl ContactUnknowns {
         }
     }
 
-    /// Returns the unknowns as a vector: `λ` and `η` with two components each, then `Δξ`.
+    /// Returns the unknowns as a vector: force, couple and sliding increment.
     pub fn to_array(&self) -> [f64; CONTACT_UNKNOWNS] {
         [self.force.x, self.force.y, self.couple.x, self.couple.y, self.increment]
     }
 }
 
-/// Position or direction on the path of a slave along its master [length].
-/// The derivative is taken with respect to the parameter `ξ1` at the end of the path.
+/// Position or direction on the path of a slave along its master [length], with a derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Position or direction [length].
     pub value: Vec2,
-    /// Derivative of `value` with respect to the parameter `ξ1` at the end of the path [length].
+    /// Derivative of `value` with respect to the parameter at the end of the path [length].
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master under the contact force, which the mesh does not represent.
-/// The kink displaces the axis by `g a`, where `a = p/GA` is the jump of the tangent of the axis.
+/// Kink of the axis of a master under the contact force, which the mesh does not represent (docs/theory.md, section 10.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
-    /// Kink length `g` of the master, as a function along the path of the slave [length].
+    /// Kink length of the master, as a function along the path of the slave [length].
     pub along: FunctionOnPath,
-    /// Compliance `1/GA` of the master [1/force].
+    /// Compliance of the master in shear: inverse of its shear stiffness [1/force].
     pub compliance: f64,
-    /// Jump of the tangent at the start of the step, given as the force `p0 = GA a0` that would cause it statically [force].
+    /// Jump of the tangent at the start of the step, given as the force that would cause this jump statically [force].
     pub before: Vec2,
     /// Motion of the kink along the master.
     pub motion: KinkMotion,
@@ -71,49 +68,46 @@ pub struct Kink {
 /// Kink of a master at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KinkState {
-    /// Jump of the tangent, given as the force `p = GA a` that would cause it statically [force].
+    /// Jump of the tangent, given as the force that would cause this jump statically [force].
     pub jump: Vec2,
-    /// Speed `v` of the kink along the undeformed axis of the master [length/time].
+    /// Speed of the kink along the undeformed axis of the master [length/time].
     pub speed: f64,
 }
 
-/// Motion of a kink along its master in a step. A kink with the speed `v` along the undeformed axis has the kinetic energy `½ ρA g |a|² v²`.
+/// Motion of a kink along its master in a step. A moving kink has a kinetic energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KinkMotion {
-    /// Arc length `s` of the undeformed master, as a function along the path of the slave [length].
+    /// Arc length of the undeformed master, as a function along the path of the slave [length].
     pub arc: FunctionOnPath,
-    /// Speed `v0` at the start of the step [length/time].
+    /// Speed of the kink at the start of the step [length/time].
     pub speed: f64,
-    /// Factor `μ ρA/GA`: the inverse square of the shear wave speed, times the correction factor `μ` of the mesh [time²/length²].
+    /// Inverse square of the shear wave speed, times the correction factor of the kinetic energy of the kink [time²/length²].
     pub inverse_square_speed: f64,
-    /// Duration `Δt` of the step [time].
+    /// Duration of the step [time].
     pub duration: f64,
 }
 
 /// Kinematics of a sliding contact in a step. All positions are relative to the position of the slave at the start of the step.
-///
-/// All sliding laws have the force `-λ` on the slave.
-/// The force on control point `i` of the master is `B̄_i λ - Δξ D_i η`, or with a kink `B̄_i λ - D_i χ`.
+/// The contact force acts on the master, and the opposite force acts on the slave.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
     /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
-    /// Increment `Δx_s` of the slave in the step [length].
+    /// Displacement of the slave in the step [length].
     pub slave_movement: Vec2,
-    /// Unknowns of the contact: `λ` [force], `η` or `χ` [force], and `Δξ` [-].
+    /// Unknowns of the contact: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
     /// Kink of the axis of the master under the contact force; `None` for sliding laws without a kink.
     pub kink: Option<Kink>,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
-    /// Length of the master divided by its parameter range [length]. The equations are divided by it.
+    /// Length of the master divided by its parameter range [length]. The contact equations are divided by this length.
     pub length: f64,
 }
 
 impl Contact<'_> {
-    /// Sum `Σ w_i (x_i0 + share Δx_i)` over the control points of the master.
     #[inline]
     fn sum(&self, weights: &[f64], share: f64) -> Vec2 {
         let (before, moved) = self.master;
@@ -121,7 +115,6 @@ impl Contact<'_> {
         weights.iter().zip(points).map(|(w, (x, moved))| (x + moved * share) * *w).sum()
     }
 
-    /// Sum `Σ w_i Δx_i` over the control points of the master.
     #[inline]
     fn movement(&self, weights: &[f64]) -> Vec2 {
         let (_, moved) = self.master;
@@ -133,45 +126,43 @@ impl Contact<'_> {
         self.sum(self.path.start(), 0.0)
     }
 
-    /// Mean tangent `Σ D_i x_i0` of the path, in the configuration of the master at the start of the step [length].
+    /// Mean tangent of the path, in the configuration of the master at the start of the step [length].
     pub fn start_tangent(&self) -> PathVector {
         let value = self.sum(self.path.difference(), 0.0);
         PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
-    /// Position `Σ B_i(ξ1) x_i1` on the master for the end of the path, at the end of the step [length].
+    /// Position on the master at the end of the path and at the end of the step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.path.end(), 1.0);
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Product `λ·dx/dξ` of the contact force and the tangent of the master at `ξ1`, at the end of the step [force·length].
-    /// The product is positive if the slave pushes outwards at an end of the master. `outward` is the sign of `dξ` towards this end.
+    /// Product of the contact force and the tangent of the master at the end of the step [force·length].
+    /// The product is positive if the slave pushes outwards at an end of the master. `outward` is the sign of the parameter change towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
 
-    /// Sum `Σ ∂D_i/∂ξ1 x_i1` at the end of the step, with the divided differences `D_i` of the basis functions [length].
-    /// For a path of zero length, the sum is half the second derivative of the axis.
     pub(super) fn end_bend(&self) -> Vec2 {
         self.sum(self.path.change(), 1.0)
     }
 
-    /// Position `Σ B̄_i x̄_i` on the master, averaged over the path and over the step [length].
+    /// Position on the master, averaged over the path and over the step [length].
     pub fn mean_point(&self) -> PathVector {
         let value = self.sum(self.path.mean(), 0.5);
         PathVector { value, by_end: self.sum(self.path.slope(), 0.5) * 0.5 }
     }
 
-    /// Mean tangent `τ = Σ D_i x̄_i` of the path, in the mean configuration of the master [length].
+    /// Mean tangent of the path, in the mean configuration of the master [length].
     #[inline]
     pub fn tangent(&self) -> PathVector {
         let value = self.sum(self.path.difference(), 0.5);
         PathVector { value, by_end: self.sum(self.path.change(), 0.5) }
     }
 
-    /// Quarter of the change of the mean tangent in the step, `d = ¼ Σ D_i Δx_i` [length].
+    /// Quarter of the change of the mean tangent in the step [length].
     #[inline]
     pub fn tangent_change(&self) -> PathVector {
         let value = self.movement(self.path.difference()) * 0.25;
@@ -183,8 +174,6 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    /// Factor of the couple in the forces on the master: the sliding increment `Δξ`, or 1 with a kink.
-    /// With a kink, the displacement of the axis is a moment arm even if the path has zero length.
     fn couple_factor(&self) -> f64 {
         self.kink.map_or(self.unknowns.increment, |_| 1.0)
     }
@@ -198,7 +187,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master.
-    /// For each control point, returns a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// For each control point, returns a factor for the force, a factor for the couple, and a vector for the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();
@@ -213,14 +202,14 @@ impl Contact<'_> {
         })
     }
 
-    /// Weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control points of the master whose basis functions are nonzero on the path [-].
+    /// Weights of the control points of the master [-]: at the end of the path, averaged over the path, and as divided differences.
     pub fn weights(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let mean_and_difference = self.path.mean().iter().zip(self.path.difference());
         let weights = self.path.end().iter().zip(mean_and_difference);
         weights.map(|(end, (mean, difference))| (*end, *mean, *difference))
     }
 
-    /// Equations of a closed gap at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1` (Sibileau & Muñoz, equation 15).
+    /// Equations of a closed gap at the end of the step (Sibileau & Muñoz, equation 15).
     pub(super) fn closed(&self) -> [Equation; 2] {
         let point = self.end_point();
         let gap = self.slave_movement - point.value;
@@ -232,9 +221,6 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations of a closed gap to a kinked axis at the end of the step, `x_s1 = Σ B_i(ξ1) x_i1 + g1 p1/GA`.
-    /// The argument `force` is the force of the kink `p1`, and `factor` is its derivative with respect to the contact force.
-    /// Without a kink, the equations are those of [`closed`](Self::closed).
     pub(super) fn closed_on_kink(&self, force: Vec2, factor: f64) -> [Equation; 2] {
         let mut equations = self.closed();
         if let Some(kink) = &self.kink {
@@ -248,7 +234,6 @@ impl Contact<'_> {
         equations
     }
 
-    /// Equations `η = 0`.
     pub(super) fn no_couple(&self) -> [Equation; 2] {
         AXES.map(|axis| Equation {
             by_unknowns: ContactUnknowns { couple: axis, ..NONE },
@@ -256,7 +241,6 @@ impl Contact<'_> {
         })
     }
 
-    /// Equations `λ = 0`.
     pub(super) fn no_force(&self) -> [Equation; 2] {
         AXES.map(|axis| Equation {
             by_unknowns: ContactUnknowns { force: axis, ..NONE },
@@ -264,7 +248,6 @@ impl Contact<'_> {
         })
     }
 
-    /// Equation `Δξ = 0`, scaled by the length `ℓ`.
     pub(super) fn no_increment(&self) -> Equation {
         Equation {
             by_unknowns: ContactUnknowns { increment: self.length, ..NONE },
@@ -272,7 +255,6 @@ impl Contact<'_> {
         }
     }
 
-    /// Equation `λ·direction/ℓ = 0` of a contact without friction. The given direction must not depend on the control points of the master.
     pub(super) fn frictionless(&self, direction: PathVector) -> Equation {
         let (force, scale) = (self.unknowns.force, 1.0 / self.length);
         let way = force.dot(&direction.by_end) * scale;

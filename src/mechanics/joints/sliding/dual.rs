@@ -6,8 +6,7 @@ use super::contact::PathVector;
 use super::{Contact, ContactUnknowns, Equation, Unit};
 use crate::geometry::Vec2;
 
-/// Number of derivatives of a dual number.
-/// The variables are: displacement of the slave from the smooth axis, mean tangent, quarter tangent change, contact force, couple, sliding increment.
+/// Number of derivatives of a dual number: one for each variable of the contact equations.
 pub(super) const ALL_SLOPES: usize = 11;
 
 /// Number of derivatives of a dual number that is only a value.
@@ -21,8 +20,7 @@ const FORCE: usize = 6;
 const COUPLE: usize = 8;
 const WAY: usize = 10;
 
-/// Number with its derivatives.
-/// The variables are: slave displacement from the smooth axis, mean tangent `τ`, quarter tangent change `d`, force `λ`, couple, increment `Δξ`.
+/// Number with its derivatives with respect to the variables of the contact equations.
 /// The number of derivatives is [`ALL_SLOPES`] or [`NO_SLOPES`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dual<const SLOPES: usize> {
@@ -38,17 +36,11 @@ pub(super) struct DualVector<const SLOPES: usize> {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ContactDuals<const SLOPES: usize> {
-    /// Displacement of the slave from the smooth axis at the end of the step, `x_s1 - Σ B_i(ξ1) x_i1` [length].
     pub offset: DualVector<SLOPES>,
-    /// Mean tangent `τ` of the path [length].
     pub tangent: DualVector<SLOPES>,
-    /// Vector `d`, a quarter of the change of the tangent in the step [length].
     pub tangent_change: DualVector<SLOPES>,
-    /// Contact force `λ` on the master [force].
     pub force: DualVector<SLOPES>,
-    /// Couple of the contact [force].
     pub couple: DualVector<SLOPES>,
-    /// Sliding increment `Δξ` [-].
     pub increment: Dual<SLOPES>,
 }
 
@@ -74,7 +66,6 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Creates a number that depends only on the sliding increment. `by_way` is the derivative with respect to the increment.
     pub fn path_dual(value: f64, by_way: f64) -> Self {
         let mut jet = Self::constant(value);
         jet.add_slope(WAY, by_way);
@@ -181,12 +172,10 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector `J a`: `a` rotated by a right angle.
     pub fn turned(&self) -> Self {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Vector `p` that satisfies `a·p = α` and `b·p = β`.
     pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Dual<SLOPES>; 2]) -> Self {
         let determinant = a.cross(&b).inverse();
         (a.turned() * beta - b.turned() * alpha) * determinant

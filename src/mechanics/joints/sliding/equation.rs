@@ -21,13 +21,13 @@ pub struct Equation {
     pub unit: Unit,
     /// Derivative of `value` with respect to the increment of the slave.
     pub by_slave: Vec2,
-    /// Factor of `B_i(ξ1)` in the derivative with respect to the increment of control point `i` of the master.
+    /// Derivative of the value with respect to the end position of the slave on the master [unit of the equation/length].
     pub by_end: Vec2,
-    /// Factor of `B̄_i` in the derivative with respect to the increment of control point `i` of the master.
+    /// Derivative of the value with respect to the mean position of the slave on the master [unit of the equation/length].
     pub by_mean: Vec2,
-    /// Factor of `D_i` in the derivative with respect to the increment of control point `i` of the master.
+    /// Derivative of the value with respect to the mean tangent of the master [unit of the equation/length].
     pub by_difference: Vec2,
-    /// Derivatives with respect to the unknowns `λ`, `η` and `Δξ`.
+    /// Derivatives with respect to the contact force, the couple and the sliding increment.
     pub by_unknowns: ContactUnknowns,
 }
 
@@ -46,7 +46,7 @@ impl Equation {
     }
 
     /// Derivative of the value with respect to the increment of a control point of the master.
-    /// The argument contains the weights `B_i(ξ1)`, `B̄_i` and `D_i` of the control point.
+    /// The argument contains the three weights of the control point in the order of `Contact::weights`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

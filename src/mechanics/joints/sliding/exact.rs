@@ -3,15 +3,8 @@
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
 /// Exact sliding law. The gap is closed at the end of every step. Energy and linear momentum are conserved, but not angular momentum.
-///
-/// ```text
-/// closed gap at the end:    x_s1 = Σ B_i(ξ1) x_i1
-/// no force along the path:  λ·τ = 0
-/// no couple:                η = 0
-/// ```
-///
-/// The law is that of Sibileau & Muñoz, equations 15 and 17, with the divided difference `D_i` instead of `B_i'(ξ1)`.
-/// Energy is therefore conserved exactly.
+/// The law is that of Sibileau & Muñoz, equations 15 and 17, with a divided difference instead of a derivative.
+/// The divided difference makes the conservation of energy exact.
 #[derive(Debug, Clone, Copy)]
 pub struct Exact;
 

@@ -1,16 +1,7 @@
-//! Coulomb friction of a sliding contact in a step.
+//! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
-//! With the mean tangent `τ` of the path, the contact exchanges the force `T = (λ·τ + 4 η·d)/|τ|` along the master, and `N = τ × λ/|τ|` across it:
-//!
-//! ```text
-//! slip with the sign σ:   T - σ μ |N*| = 0          stick:   Δξ = 0,   |T| ≤ μ |N*|          N* = N + (w1 - w0)/(W Δt)
-//! ```
-//!
-//! The bodies lose the energy `Δξ |τ| T` in the step.
-//! The velocity of the slave across the master is `w0` at the start and `w1` at the end of the step.
-//! A unit impulse across the master changes this velocity by `W`. The second term of `N*` removes the alternating part of `N`.
-//! A velocity error across the master changes its sign from step to step without moving anything.
-//! The force that reverses the error grows with `1/Δt`.
+//! An error of the velocity across the master changes its sign from step to step, and has no effect on positions.
+//! The force that reverses the error grows with the inverse of the step length. The friction limit excludes this force.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -33,11 +24,11 @@ pub struct Friction<'a> {
     pub mode: FrictionMode,
     /// Velocity of the slave at the start of the step [length/time].
     pub slave_velocity: Vec2,
-    /// Velocities, at the start of the step, of the control points of the master whose basis functions are nonzero on the path [length/time].
+    /// Velocities of the control points of the master along the path, at the start of the step [length/time].
     pub master_velocities: &'a [Vec2],
-    /// Velocity `w0` across the master at the start of the step [length/time].
+    /// Velocity of the slave across the master at the start of the step [length/time].
     pub start_velocity_across: f64,
-    /// Inertia `1/W`: the inverse of the velocity change that a unit impulse across the master causes [mass].
+    /// Inverse of the velocity change that a unit impulse across the master causes [mass].
     pub inertia_across: f64,
     /// Duration of the step [time].
     pub duration: f64,
@@ -48,11 +39,11 @@ pub struct Friction<'a> {
 /// Forces and velocities of a contact with friction in an iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionForces {
-    /// Force along the master times the length of the mean tangent, `T |τ|` [force·length].
+    /// Force along the master, times the length of the mean tangent [force·length].
     pub along: f64,
-    /// Force across the master in the friction limit times the length of the mean tangent, `N* |τ|` [force·length].
+    /// Normal force in the friction limit, times the length of the mean tangent [force·length].
     pub across: f64,
-    /// Length of the mean tangent, `|τ|` [length].
+    /// Length of the mean tangent [length].
     pub tangent: f64,
     /// Velocity of the slave along the master at the end of the step [length/time].
     pub end_velocity: f64,
@@ -64,19 +55,16 @@ struct EndMotion {
     velocity: Vec2,
     /// Unit tangent of the master [-].
     along: Vec2,
-    /// Change `w1 - w0` of the velocity across the master in the step [length/time].
     change_across: f64,
 }
 
 impl Friction<'_> {
-    /// Quotient `1/(W Δt)` of the inertia across the master and the step duration [mass/time].
     fn impedance_across(&self) -> f64 {
         self.inertia_across / self.duration
     }
 }
 
 impl Contact<'_> {
-    /// Motion at the end of the step, if the mean velocity of the step is the increment divided by the duration, as with the midpoint rule.
     fn end_motion(&self, friction: &Friction<'_>) -> EndMotion {
         let rate = 2.0 / friction.duration;
         let (_, moved) = self.master;
@@ -109,9 +97,8 @@ impl Contact<'_> {
         }
     }
 
-    /// Sliding equation with friction. It replaces the equation `frictionless`, whose value is `T |τ|/ℓ`.
-    ///
-    /// The derivatives of the sliding equation omit the rotation of the tangent at the end of the step, which has little effect on `N*`.
+    /// Sliding equation with friction, in place of the given frictionless equation.
+    /// The derivatives omit the rotation of the tangent at the end of the step, which has little effect.
     pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
         let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
         let (tangent, force) = (self.tangent(), self.unknowns.force);

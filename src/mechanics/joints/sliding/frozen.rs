@@ -6,18 +6,6 @@ use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, Sl
 
 /// Sliding law for a master with a kink that rotates with the master but does not depend on the contact force.
 /// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
-///
-/// ```text
-/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1 + g1 a1
-/// rotated kink:           a1 = (1 - q J)⁻¹ (1 + q J) a0
-/// rotation in the step:   q = 2 Jτ·d/|τ|²
-/// balance of moments:     |τ|² χ + (r × λ) Jτ = 0
-/// arm of the force:       r = Δξ d + ½ (g0 a0 + g1 a1)
-/// balance of forces:      (λ - (Δπ/Δt) e)·w = κ ½ GA |a|² Δg/Δξ
-/// direction of the path:  w = τ - 2 q J d + (Δg/Δξ) (1 + q J) a0
-/// ```
-///
-/// The quantities `π`, `e` and `v1` are those of the law [`Kinked`](super::Kinked), and `κ = 1 - ρA v0 v1/GA`.
 /// Derivation: docs/theory.md, section 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Frozen;
@@ -41,15 +29,10 @@ impl SlidingLaw for Frozen {
 /// Quantities of the kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
-    /// Vector `w` along the path of the slave [length].
     direction: DualVector<SLOPES>,
-    /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// Force `p1 = GA a1` of the jump `a1` of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
-    /// Inertia force of the kink: `(Δπ/Δt) e` [force].
     inertia: DualVector<SLOPES>,
-    /// Change of the energy of the kink divided by the sliding increment [force·length].
     energy_slope: Dual<SLOPES>,
 }
 

@@ -3,7 +3,7 @@
 use super::{CONTACT_UNKNOWNS, Contact, Equation, KinkState, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Law for a held slider. The slave is hinged to the end of the master, including its kink: `x_s1 = Σ B_i(ξ1) x_i1`, `Δξ = 0`, `η = 0`.
+/// Law for a held slider. The slave is hinged to the end of the master, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldSlider;
 
@@ -19,8 +19,6 @@ impl SlidingLaw for HeldSlider {
     }
 }
 
-/// Static force `p1` of the kink at the end of the step, for a slider that does not move along its master [force].
-/// The force `p1 = 2 λ - p0` follows from the mean contact force `λ` and the force `p0` for the kink at the start.
 fn jump_at_end(contact: &Contact<'_>) -> Vec2 {
     let before = contact.kink.as_ref().map_or(Vec2::zeros(), |kink| kink.before);
     contact.unknowns.force * 2.0 - before

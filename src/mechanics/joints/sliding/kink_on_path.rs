@@ -6,17 +6,11 @@ use crate::elementary::square;
 
 /// Quantities of a kink that depend on the path of the slave, in an iterate.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
-    /// Kink length `g1` at the end of the path [length].
     pub length: Dual<SLOPES>,
-    /// Divided difference `Δg/Δξ` of the kink length [length].
     pub difference: Dual<SLOPES>,
-    /// Divided difference `Δs/Δξ` of the arc length [length].
     pub stretch: Dual<SLOPES>,
-    /// Factor `1/|τ|²` [1/length²].
     pub over_square: Dual<SLOPES>,
-    /// Displacement of the slave from the smooth axis at the start of the step, `g0 a0` [length].
     pub offset_before: DualVector<SLOPES>,
-    /// Mean vector `r` from the contact point of the master to the slave [length].
     pub arm: DualVector<SLOPES>,
 }
 
@@ -24,7 +18,6 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
-/// Returns equations that set the given values to zero. The units of the values are [`UNITS`].
 pub(super) fn vanish(
     numbers: [Dual<ALL_SLOPES>; CONTACT_UNKNOWNS],
 ) -> [Equation; CONTACT_UNKNOWNS] {
@@ -46,7 +39,6 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
     }
 
     /// Residuals of the contact equations for a kink `jump` [force] at the end of the step.
-    /// The equations are: gap to the kinked axis, moment balance, force balance along the path.
     /// The argument `balance` is the residual of the force balance along the path [force·length].
     pub fn imbalances(
         &self,

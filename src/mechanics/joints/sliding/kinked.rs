@@ -4,28 +4,12 @@ use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 
-/// Conserving sliding law for an axis with a kink.
+/// Conserving sliding law for an axis with a kink at the slave.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
-/// ```text
-/// closed gap at the end:  x_s1 = Σ B_i(ξ1) x_i1 + g1 a1
-/// balance of moments:     |τ|² χ + (r × λ) Jτ = 0
-/// arm of the force:       r = Δξ d + ½ (g0 a0 + g1 a1)
-/// jump of the tangent:    ā·w + (Δg/Δξ) (½ a0·a1 + b a0 × a1) = 0
-/// direction of the path:  w = τ - 4 b J d with b = Jτ·d/|τ|²
-/// contact force:          λ = (GA - ρA v0 v1) ā + (Δπ/Δt) (Δs/Δξ) τ/|τ|²
-/// momentum of the kink:   π = ρA g |a|² v
-/// speed of the kink:      ½ (v0 + v1) Δt = (Δs/Δξ) τ·u/|τ|²
-/// abbreviation:           u = Δξ τ + Δ(g a) - 4 b J r
-/// ```
-///
-/// The slave is on the axis, which has a kink under the contact force.
-/// The tangent of the axis jumps by `a` at the slave, and the kink moves along the master with the speed `v`.
-/// The mesh does not contain the energy `½ g |a|² (GA + ρA v²)` of the kink.
-/// In the energy of the kink, `ρA` is slightly larger than the mass per length of the beam.
-/// The jump at the end of the step follows from the equation for the jump of the tangent, and from the component of `λ` across the master.
-/// The remaining equation is the balance of forces along the master. Without a [`Kink`] the law is [`Conserving`].
-/// Derivation: docs/theory.md, sections 10 and 10.1.
+/// The tangent of the axis jumps at the slave, and the kink moves along the master.
+/// The law adds the energy of the kink, which the mesh does not contain.
+/// Without a [`Kink`] the law is [`Conserving`]. Derivation: docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 
@@ -61,13 +45,9 @@ fn imbalances<const SLOPES: usize>(
 
 struct KinkInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
-    /// Speed `v1` of the kink along the master at the end of the step [length/time].
     speed: Dual<SLOPES>,
-    /// Force `p1 = GA a1` of the jump `a1` of the tangent at the end of the step [force].
     jump: DualVector<SLOPES>,
-    /// Mean force of the kink, `κ ½ (p0 + p1)`, with `κ = 1 - ρA v0 v1/GA` [force].
     mean_force: DualVector<SLOPES>,
-    /// Inertia force of the kink: `Δπ/Δt` [force].
     inertia: Dual<SLOPES>,
 }
 

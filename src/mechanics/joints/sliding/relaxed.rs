@@ -7,16 +7,9 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law. The gap is closed on average over each step. Energy, linear and angular momentum are conserved. A closed gap may open.
-///
-/// ```text
-/// closed mean gap:   ½ (x_s0 + x_s1) = Σ B̄_i x̄_i
-/// sliding equation:  λ·(2/Δξ) (Σ B̄_i x_i0 - x_s0) = 0
-/// no couple:         η = 0
-/// ```
-///
 /// The law is that of Sibileau & Muñoz, equations 11 to 14.
-/// A step may have no solution, because the direction in the second equation deviates from the tangent as the gap grows.
-/// The direction is undefined for `Δξ = 0`.
+///
+/// As the gap grows, a step may have no solution. The direction of sliding is undefined in a step without sliding.
 #[derive(Debug, Clone, Copy)]
 pub struct Relaxed;
 
@@ -28,7 +21,6 @@ impl SlidingLaw for Relaxed {
     }
 }
 
-/// Equations of a closed gap in the middle of the step: `½ (x_s0 + x_s1) = Σ B̄_i x̄_i`.
 fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     let point = contact.mean_point();
     let gap = contact.slave_movement * 0.5 - point.value;
@@ -41,7 +33,7 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     })
 }
 
-/// Sliding equation. Its direction `2/Δξ (Σ B̄_i x_i0 - x_s0)` is computed as the tangent plus the gap: `Σ D_i x_i0 + 2/Δξ (Σ B_i(ξ0) x_i0 - x_s0)`.
+/// Sliding equation. Its direction is the mean tangent at the start plus a multiple of the gap.
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {

@@ -1,8 +1,8 @@
-//! Law for a slider that has left its master.
+//! Law of a slider after its release from its master.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
-/// Law for a released slider, which has no force and no constraint: `λ = 0`, `η = 0`, `Δξ = 0`.
+/// Law of a slider that has left its master, and has neither force nor constraint.
 #[derive(Debug, Clone, Copy)]
 pub struct Released;
 

@@ -1,26 +1,19 @@
 //! Static laws of sliders.
 //!
-//! A static contact is treated as a contact with a path of zero length at `ξ1`, on the master in its final configuration.
+//! A static contact is treated as a contact with a path of zero length, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Static law of a slider without friction. The potential energy of its contact, `λ·(x_s - Σ B_i(ξ) x_i) - ½ g(ξ) |λ|²/GA`, is stationary:
-///
-/// ```text
-/// closed gap:  x_s = Σ B_i(ξ) x_i + g(ξ) λ/GA
-/// no work:     λ·x'(ξ) + ½ g'(ξ) |λ|²/GA = 0
-/// no couple:   η = 0
-/// ```
-///
-/// Without a [`Kink`](super::Kink), `g = 0`. Derivation: docs/theory.md, section 14.
+/// Static law of a slider without friction. The potential energy of the contact is stationary (docs/theory.md, section 14.1).
+/// Without a [`Kink`](super::Kink), the axis is smooth.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// Static law of a slider that a stop holds at an end of its master: `x_s = Σ B_i(ξ) x_i` at this end, including the kink of the master.
+/// Static law of a slider that a stop holds at an end of its master, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
-    /// Sliding increment `Δξ` to the end [-].
+    /// Sliding increment to the end of the master [-].
     pub increment: f64,
 }
 
@@ -42,7 +35,7 @@ impl SlidingLaw for AtStop {
     }
 }
 
-/// Equation `(λ·x'(ξ) + ½ g'(ξ) |λ|²/GA)/ℓ = 0`. It states that the contact does no work if the slave moves along the master.
+/// Equation without friction: the contact does no work if the slave moves along the master.
 fn not_driven(contact: &Contact<'_>) -> Equation {
     let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
     let tangent = contact.end_point().by_end;
@@ -60,13 +53,13 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
 }
 
 impl Contact<'_> {
-    /// Static contact forces `B_i(ξ) λ` on the control points of the master [force].
+    /// Static contact forces on the control points of the master [force].
     pub fn master_forces_at_rest(&self) -> impl Iterator<Item = Vec2> + '_ {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the static contact forces `B_i(ξ) λ` on the control points of the master.
-    /// For each control point, returns a factor for the force `λ`, a factor for the couple `η`, and a vector for the sliding increment `Δξ`.
+    /// Derivatives of the static contact forces on the control points of the master.
+    /// For each control point, returns a factor for the force, a factor for the couple, and a vector for the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -81,7 +81,7 @@ const RELAXED: RuleEntry = RuleEntry {
 };
 
 impl SlidingRule {
-    /// Entry of this rule in [`SLIDING_RULES`].
+    /// Entry of the sliding rule in [`SLIDING_RULES`].
     pub fn entry(self) -> &'static RuleEntry {
         match self {
             Self::Kinked => &KINKED,
@@ -91,7 +91,7 @@ impl SlidingRule {
         }
     }
 
-    /// Sliding law with the equations of this rule.
+    /// Sliding law with the equations of the sliding rule.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
             Self::Kinked => &Kinked,

@@ -1,11 +1,8 @@
 //! Means of schedules over steps.
 //!
-//! Between breaks, constants and tables are polynomials, which a three-point Gauss rule integrates exactly.
-//! Sines, smooth pulses, and their products with each other and with tables are sums of terms.
-//! A term has the form `p(x) cos(κ x + φ)` with a polynomial `p`.
-//! Terms `p(x) cos(κ x + φ)` are integrated in closed form. All other schedules are sampled at five points.
-//! Two quadrature rules use the five points: three Gauss points, and the middle point with two additional points.
-//! Both quadrature rules are exact for cubic polynomials. The difference of their results is an estimate of the sampling error.
+//! Constants and tables are integrated exactly by a three-point Gauss rule. Sines, smooth pulses and their products are integrated in closed form.
+//! All other schedules are sampled at five points, for two quadrature rules that are exact for cubic polynomials.
+//! The difference between the results of both rules is an estimate of the sampling error.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -111,7 +108,6 @@ impl Schedule {
         Ok(values)
     }
 
-    /// Bounds for the number and the degree of the terms of the closed form between breaks; `None` if there is a script function.
     fn shape(&self) -> Option<Shape> {
         let wave = |waves| Shape { degree: 0, waves, is_polynomial: false };
         match self {
@@ -144,7 +140,6 @@ fn gauss_mean(values: [f64; 3]) -> StepMean {
     found
 }
 
-/// Upper bounds of the number and the degree of the terms that represent a schedule between breaks.
 struct Shape {
     degree: usize,
     waves: usize,
@@ -229,7 +224,6 @@ impl Step {
         (amplitude, turn): ([f64; 2], f64),
     ) -> Option<f64> {
         if wave.is_constant() {
-            // If the wave is constant, only its real part has an effect.
             let [real, _] = wave.amplitude;
             let amplitude = amplitude.map(|part| real * part);
             return self.mean(factors, Wave { amplitude, turn, ..wave });
@@ -241,7 +235,6 @@ impl Step {
     }
 }
 
-/// Value of a table in the middle of a step, and its change from the middle to the end of the step.
 fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
     let passed = rows.partition_point(|row| row.0 <= middle);
     let value = table_value(rows, middle, LimitSide::After);
@@ -258,7 +251,6 @@ struct Wave {
     /// Coefficients of `p`.
     polynomial: [f64; MOST_DEGREE + 1],
     degree: usize,
-    /// Real and imaginary part of the amplitude.
     amplitude: [f64; 2],
     turn: f64,
 }
@@ -297,7 +289,6 @@ impl Wave {
     fn mean(&self) -> f64 {
         let [real, imaginary] = self.amplitude;
         let (sine, cosine) = (sin(self.turn), cos(self.turn));
-        // Half the integral of xᵏ cos (even k) or xᵏ sin (odd k). The other integrals are zero.
         let mut moment = if self.turn == 0.0 { 1.0 } else { sine / self.turn };
         let mut sum = real * self.polynomial[0] * moment;
         for (power, coefficient) in self.polynomial.iter().enumerate().take(self.degree + 1).skip(1)
@@ -315,7 +306,6 @@ impl Wave {
     }
 }
 
-/// Half the integral over [-1, 1] of `xᵏ cos(turn x)` for even `k`, or `xᵏ sin(turn x)` for odd `k`, computed by a power series.
 fn slow_moment(power: usize, turn: f64) -> f64 {
     let odd = power % 2;
     let (mut term, mut sum) = (if odd == 1 { turn } else { 1.0 }, 0.0);
@@ -336,7 +326,6 @@ mod tests {
         Schedule::combined(Operation::Product, a.clone(), b.clone()).unwrap()
     }
 
-    /// Mean by a composite Gauss rule with many parts.
     fn by_parts(schedule: &Schedule, start: f64, end: f64) -> f64 {
         let parts = 4000;
         let width = (end - start) / f64::from(parts);

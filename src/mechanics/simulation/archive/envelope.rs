@@ -1,13 +1,9 @@
 //! File envelope: magic number, versions, lengths and checksum.
 //!
-//! ```text
-//! mark       8 bytes    89 "withy" 0D 0A; 89 is not text, and 0D 0A reveals a conversion of line ends
-//! format     u16        little-endian like all numbers of the file
-//! program    u8, text   length and text of the version of the program that wrote the file, for information
-//! length     u64        number of bytes of the content
-//! content
-//! checksum   u32        CRC-32 of all preceding bytes
-//! ```
+//! A file starts with the eight bytes `89 "withy" 0D 0A`. The byte 89 is not text, and 0D 0A reveals a conversion of line ends.
+//! The version of the file format follows (`u16`), then the version of the program as a length (`u8`) and a text.
+//! The number of bytes of the content (`u64`) precedes the content. The file ends with the CRC-32 of all preceding bytes (`u32`).
+//! All numbers are little-endian.
 
 use super::ArchiveError;
 

@@ -174,7 +174,7 @@ impl Simulation {
         }
     }
 
-    /// Takes the rest of a step without error estimate. If a slider arrives at an end, the step ends at the arrival.
+    /// Takes the remaining interval of a step without error estimate. If a slider arrives at an end, the step ends at the arrival.
     fn cover_uncompared(
         &mut self,
         halving: StepRetry,

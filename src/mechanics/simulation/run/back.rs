@@ -67,7 +67,6 @@ impl Simulation {
         }
     }
 
-    /// Number of steps that ended at or before a time, if the history or the snapshots contain this time.
     fn steps_until(&self, time: f64) -> Option<usize> {
         if self.has_all_rows() {
             let rows = self.record.history.samples();
@@ -136,7 +135,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Error for a state that is not stored. `steps` is the smallest number of steps back that may lead to a stored state.
     fn missing_snapshot_error(&self, target: String, steps: usize) -> SimulationError {
         let now = self.progress.counts.steps;
         let kept = self.snapshots.first().zip(self.snapshots.unbroken_from(now));

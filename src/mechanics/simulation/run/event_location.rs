@@ -16,11 +16,11 @@ use crate::system::{
 const MOST_TRIES: usize = 60;
 
 /// Distance from an end, as a fraction of the length of the master, below which an approaching slider has reached the end.
-/// A step over a shorter distance would convert rounding errors of positions to velocities.
+/// A step over a very short distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
 /// Fraction of a step. An end of slip or a take-off within this fraction of the start of the step is moved to the start.
-/// In a shorter step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
+/// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
 /// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
@@ -32,9 +32,7 @@ const CHATTER: usize = 3;
 /// Largest number of arrivals within one step of the grid. More arrivals are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
-/// Step that ends at an event of a slider.
 pub(super) struct EventStep {
-    /// Interval of the step and its work. `None` if the event is at the start of the step.
     pub(super) step: Option<(Interval, NewtonReport)>,
     event: Event,
 }
@@ -54,14 +52,11 @@ enum ArrivalEstimate {
 }
 
 impl ArrivalEstimate {
-    /// Event at the start of the step.
     fn at_once(number: usize) -> Self {
         Self::Located(EventStep { step: None, event: Event::Slider(SliderEvent::of(number)) })
     }
 }
 
-/// Two steps that bracket an event: one ends before the slider reaches the limit, the other one after.
-/// Each step is given by its duration [time] and the signed distance of the slider beyond the limit.
 struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
@@ -86,7 +81,7 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Replaces the step on the same side of the arrival.
+    /// Replaces an attempted step that ends on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -110,22 +105,17 @@ impl TimeBracket {
         self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
     }
 
-    /// Duration of the next step to try.
     fn next_duration(&self) -> f64 {
         self.estimate().max(self.shortest)
     }
 
-    /// Next duration, by the method of false position with halved weight of a retained end (Illinois method; Dowell & Jarratt 1971).
     fn estimate(&self) -> f64 {
         let ((t0, f0), (t1, f1)) = (self.before, self.after);
         let t = t1 - f1 * (t1 - t0) / (f1 - f0);
-        // Because of rounding, the computed duration may equal one of the ends.
         if t > t0 && t < t1 { t } else { 0.5 * (t0 + t1) }
     }
 }
 
-/// Brackets the change of sign of a quantity of a slider, which is `start` at the start of the interval and negative at its end.
-/// An event in less than the time `shortest` is moved to the start [time].
 fn bracket_sign_change(
     interval: Interval,
     Overshoot { event, distance }: Overshoot,
@@ -155,7 +145,6 @@ impl Simulation {
     fn search(&mut self, interval: Interval, first: Overshoot) -> Result<EventStep, StepError> {
         let (mut cut, mut overshoot) = (interval, first);
         let mut tries = 0..MOST_TRIES;
-        // Each pass handles a slider that arrives before the current target.
         loop {
             let target = SliderEvent::of(overshoot.event);
             self.model.set_target(Some(target));
@@ -233,8 +222,6 @@ impl Simulation {
         self.halve_until_before(interval, number, after)
     }
 
-    /// Halves a step until it ends before an event of a slider that starts at its limit or on the axis.
-    /// `after` contains the duration and the distance of a step that ends after the event.
     fn halve_until_before(
         &mut self,
         interval: Interval,
@@ -311,7 +298,6 @@ impl Simulation {
             || self.model.approaches(limit, dt).unwrap_or(true)
     }
 
-    /// Executes the event at the end of a located step.
     pub(super) fn execute(&mut self, located: &EventStep) -> Result<(), SimulationError> {
         match located.event {
             Event::JustBefore => (),
@@ -356,7 +342,6 @@ impl Simulation {
             let strikes = self.model.leads_beyond(limit);
             let kind = match self.model.end_action(limit.slider) {
                 _ if self.model.continues_beyond(limit) => {
-                    // The slider only touched the seam, or its velocity was reversed exactly at the seam.
                     if located.step.is_some() && !strikes {
                         continue;
                     }
@@ -372,7 +357,6 @@ impl Simulation {
                     self.model.release_slider(limit.slider);
                     ArrivalKind::Released
                 }
-                // The slider only touched the stop, or its velocity was reversed exactly at the stop.
                 _ if located.step.is_some() && !strikes && !self.model.approaches(limit, dt)? => {
                     ArrivalKind::Bounced
                 }
@@ -432,7 +416,7 @@ impl Simulation {
     }
 
     /// Returns true if a slider is held at a seam instead of passing it.
-    /// Either both sides return the slider to the seam at once, or the slider oscillates about the seam within few steps.
+    /// A slider is held if both sides of the seam return it at once, or if it oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
         let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
@@ -482,7 +466,6 @@ impl Simulation {
         last.by_ref().take_while(|arrival| again(arrival)).count() == CHATTER
     }
 
-    /// Records arrivals of all sliders at the ends of their masters in a dry run, because scripts may wait for them.
     pub(super) fn dry_run_arrivals(&mut self) {
         let arrival = |slider: usize| {
             let kind = match self.model.end_action(slider) {

@@ -9,21 +9,20 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Ratio of deformed to initial length of the axis, below which the axis counts as crushed at this point.
+/// Ratio of deformed to initial length of the axis at a point, below which the axis counts as crushed.
 const COMPRESSED: f64 = 0.5;
 
-/// Ratio of deformed to initial length of the axis, above which the axis counts as torn at this point.
+/// Ratio of deformed to initial length of the axis at a point, above which the axis counts as torn.
 const STRETCHED: f64 = 1.5;
 
 /// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
 /// Smallest distance from an end of its master that a slider can reach, as a fraction of the length of the master.
-/// The kink under the contact force prevents smaller distances.
+/// The kink of the master under the contact force prevents a slider from coming closer to the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
-    /// Text about extreme conditions in the present configuration, for messages; empty if there are none.
     pub(super) fn plight(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());

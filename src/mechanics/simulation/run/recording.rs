@@ -41,7 +41,6 @@ impl Simulation {
         self.store_snapshot();
     }
 
-    /// Adds a temporary row for the present state. No row is added if the state has a row already, or if a step is paused in its middle.
     pub(in crate::simulation) fn show_present(&mut self) {
         if self.is_paused_in_step() {
             return;

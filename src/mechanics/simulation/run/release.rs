@@ -92,7 +92,6 @@ impl Simulation {
         Ok(record.relocate_sensors(scene, model)?)
     }
 
-    /// Executes, in a dry run, all releases that the caller triggers. Scripts may wait for these releases.
     pub(super) fn dry_run_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if self.waits_for_release(release) {

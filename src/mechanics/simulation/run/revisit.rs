@@ -3,7 +3,6 @@
 use super::Simulation;
 use crate::simulation::{Monitor, SimulationError};
 
-/// Monitor that pauses a run at a given time.
 struct PauseTime<'m> {
     time: f64,
     monitor: &'m mut dyn Monitor,
@@ -66,7 +65,7 @@ impl Simulation {
 
     /// Repeats, in this copy, the original run up to a row of its history.
     /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original.
-    /// The two runs may differ if script functions were called during the original run.
+    /// The repeated run may differ from the original run if script functions were called during the original run.
     ///
     /// # Errors
     /// Fails in the same cases as [`run_to`](Self::run_to), or if the row does not exist.
@@ -80,8 +79,6 @@ impl Simulation {
         let Some(wanted) = rows.get(row) else { return Ok(false) };
         let time = wanted.measures.time;
         if time > self.time() {
-            // The original step may have been planned beyond the arrival.
-            // The copy continues towards the next row and pauses at the arrival.
             let is_arrival = |at: &f64| of.arrivals().iter().any(|arrival| arrival.time == *at);
             let mut ends = rows[row..].iter().map(|row| row.measures.time);
             let planned = || self.clock.grid.end_of_step(self.time());

@@ -32,7 +32,6 @@ impl Simulation {
         Err(self.too_many_arrivals())
     }
 
-    /// Returns the error of a slider with too many arrivals in one step.
     pub(super) fn too_many_arrivals(&self) -> SimulationError {
         let arrival = self.progress.arrivals.last().map_or_else(
             || format!("a slider is about to reach an end of its beam after t = {}", self.time()),

@@ -54,7 +54,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Ratio of the step size that resolves the motion of the scene to the mean step size, above which a warning is given.
-/// With this ratio, the steps follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps shorter by this ratio follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders whose resolution is described.
@@ -263,7 +263,6 @@ impl Simulation {
         if !keeps || !self.scene.sliders.is_empty() {
             return None;
         }
-        // The other rows of the history are examined only if the energies of the first and the last row differ too much.
         let apart = Invariant::Energy.value(&last) - Invariant::Energy.value(&first);
         let now = last.energy.kinetic + last.energy.strain + last.energy.stored;
         if apart.norm() <= LARGEST_DRIFT * now {

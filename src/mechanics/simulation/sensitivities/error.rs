@@ -24,7 +24,7 @@ pub enum DerivativeError {
     )]
     Mean { sensor: String },
     #[error(
-        "the number of unknowns or sliders changes when '{parameter}' changes by {distance:e}: only numerical values of a scene may depend on a parameter"
+        "the number of unknowns, sliders or contacts between bodies changes when '{parameter}' changes by {distance:e}: only numerical values of a scene may depend on a parameter, and contacts must open and close in the same steps"
     )]
     Form { parameter: String, distance: f64 },
     #[error(

@@ -25,7 +25,6 @@ const STRAIN_ROUNDINGS: f64 = 100.0;
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,
-    /// Bodies of the scene: beams, then particles, then rigid bodies.
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
@@ -238,7 +237,6 @@ impl<'a> Assembly<'a> {
         stations.iter().map(|station| self.place(station)).collect()
     }
 
-    /// Trackers of the starts and ends of all beams, then of the stations of the scene, then of the rigid bodies.
     fn trackers(&self) -> Result<Vec<Tracker>, SystemError> {
         let ends = self.scene.beams.iter().enumerate().flat_map(|(beam, definition)| {
             [0.0, definition.axis.length()].map(|arc_length| Station::on_beam(beam, arc_length))

@@ -28,7 +28,6 @@ impl Numbering {
         let mut sizes = vec![0_usize; self.unknowns];
         component.iter().for_each(|&of| sizes[of] += 1);
         let unknown = |at: &usize| *at < self.unknowns;
-        // For each set of coupled unknowns, identified by its root: the number of sliders whose slaves have unknowns in the set.
         let mut sliders_on = vec![0_usize; self.unknowns];
         for slider in sliders {
             let (body, point) = slider.connection.slave;

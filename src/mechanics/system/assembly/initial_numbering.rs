@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Placeholder for a component that is not an unknown.
+/// Number that stands for "no unknown", for a component whose motion is given.
 const NONE: usize = usize::MAX;
 
 /// Unknowns in the order of the bodies, before bandwidth reduction.
@@ -16,7 +16,6 @@ pub struct InitialNumbering {
     pub number: Vec<usize>,
     /// Force unknowns of each rigid link, numbered just before the linked point.
     pub forces: Vec<[usize; 2]>,
-    /// Force unknown of each inclined roller, numbered just before the point of the roller; `None` after a release.
     pub roller_forces: Vec<Option<usize>>,
 }
 

@@ -5,14 +5,14 @@ use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Constraint force for a gap of one, above which only rounding determines the force.
+/// Constraint force per unit of gap, above which the force counts as undetermined.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
     /// Rejects redundant constraints of rigid bodies and rollers.
     ///
     /// The check closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
-    /// Determined forces are then at most as large as the gaps times the square of the number of bodies in a chain.
+    /// A force that is determined is at most the gap times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());

@@ -10,7 +10,6 @@ use crate::system::elements::{PrescribedMovement, Support};
 use crate::system::scene::Scene;
 use crate::system::state::{UnknownKind, Unknowns};
 
-/// Rigid link: its body, the linked control point, and its force unknowns. It starts at the first control point of the body.
 #[derive(Debug, Clone, Copy)]
 pub struct LinkPlace {
     pub body: usize,
@@ -99,8 +98,6 @@ impl Numbering {
         })
     }
 
-    /// Returns the unknowns, and the supports in the order of their degrees of freedom (prescribed supports first).
-    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
     pub fn supports_and_unknowns(
         &self,
         scene: &Scene,

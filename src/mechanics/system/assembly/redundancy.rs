@@ -1,8 +1,7 @@
 //! Check that the contact forces of sliders are determined. Redundant contacts have no unique forces.
 //!
-//! Contact impulses `P` change the velocities of the slaves across their masters by `G M⁻¹ Gᵀ P`.
-//! The constraint matrix is `G` and the mass matrix is `M`.
-//! If `G M⁻¹ Gᵀ` is singular, some impulses have no effect, and the contact forces of a step are undetermined.
+//! The check computes the velocities of slaves across their masters due to contact impulses.
+//! If the matrix of these velocities is singular, some impulses have no effect, and the contact forces are undetermined.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
@@ -10,8 +9,7 @@ use crate::system::{Scene, System, SystemError};
 /// Ratio of a pivot of the Cholesky factorisation to the diagonal entry, below which the pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Velocity change due to a unit impulse at a slider, as a fraction of the velocity change of the total mass.
-/// Below this fraction, the velocity change is due to rounding.
+/// Largest velocity change due to an impulse at a slider that counts as zero, as a fraction of the velocity change of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {
@@ -19,7 +17,6 @@ impl System {
         let Ok(response) = self.response_across() else {
             return Err(self.sliders().overdetermined());
         };
-        // Rows of the Cholesky factor.
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(response.len());
         for (slider, response) in response.iter().enumerate() {
             let own = response[slider];

@@ -15,11 +15,10 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero. Its unit is the velocity of the fastest point of the scene.
-/// At a dead centre of a mechanism, rounding errors of velocities have about this size.
+/// The limit is about the size of the rounding errors of velocities at a dead centre of a mechanism.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
-    /// Contacts of the sliders, in the order of the sliders in the scene.
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
@@ -144,8 +143,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
-    ///
-    /// A speed `w` across a master counts as zero if the strain `w/c` of its wave is below the rounding error `ε`. The wave speed is `c`.
+    /// A velocity counts as zero if it would cause a wave with a strain below the rounding error of strains.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         self.follow_masters();
@@ -181,7 +179,7 @@ impl System {
     }
 
     /// Checks the velocity of the slave across the master.
-    /// The slave of a slider that only pushes starts in flight if it moves away from the axis on the side of the flight.
+    /// A slider that only pushes starts in flight if its slave moves away from the axis to the side on which it can fly.
     fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);
         if speed.abs() <= negligible || self.slider(slider).is_separated() {

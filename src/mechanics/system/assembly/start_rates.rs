@@ -14,7 +14,6 @@ const SAME_VELOCITY: f64 = 1e-9;
 /// The initial rate is computed by finite differences, which have an error.
 const SAME_START: f64 = 1e-6;
 
-/// Names of the components in messages.
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
 
 const GROUND: &str = "the ground is at rest there";
@@ -23,7 +22,6 @@ fn given_rate_text(rate: f64) -> String {
     format!("its motion is prescribed there and begins with {}", rounded(rate))
 }
 
-/// Start rates found so far. `rates` contains the rate of each unknown and the body that set it. `requested` contains the rates of single nodes.
 struct SharedRates<'a> {
     rates: Vec<Option<(usize, f64)>>,
     requested: Vec<Option<RequestedRate<'a>>>,
@@ -40,7 +38,6 @@ struct RequestedRate<'a> {
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
-    /// Initial rates, preceded by unused entries for the contact unknowns.
     rates: &'a [f64],
     constraints: usize,
 }
@@ -53,7 +50,6 @@ impl InitialDriveRates<'_> {
 }
 
 impl SharedRates<'_> {
-    /// Sets the rate of a degree of freedom. If another body or the ground has already set a different rate, returns the earlier rate.
     fn set_rate(
         &mut self,
         at: usize,
@@ -209,7 +205,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested rates of single nodes, indexed by the number of the unknown.
+    /// Requested start velocities of nodes. The key is the index of the unknown to which a velocity belongs.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

@@ -11,17 +11,13 @@ pub const GROUND: usize = 0;
 /// Classes of components tied by joints, particles and rigid bodies. Components are numbered from one in the order of the bodies.
 pub struct TiedComponents {
     pub ties: Ties,
-    /// First component of each body, followed by the total number of components.
     offsets: Vec<usize>,
     pub links: Vec<(usize, usize)>,
-    /// Body and control point of each inclined roller, in the order of the joints; `None` for a released roller.
     pub rollers: Vec<Option<(usize, usize)>>,
-    /// Classes with a prescribed motion, in the order of the drives.
     pub prescribed: Vec<usize>,
 }
 
 impl TiedComponents {
-    /// Ties the components of a scene. `place` locates stations on the meshes. Joints and drives in `released` have no effect.
     pub fn new(
         scene: &Scene,
         released: &[Releasable],
@@ -74,7 +70,6 @@ impl TiedComponents {
         }
     }
 
-    /// Ties the angles of all points of a rigid body to the angle of the body. Points at the centre are tied to the centre.
     fn tie_rigid_bodies(&mut self, scene: &Scene) {
         let first = scene.first_rigid_body();
         for (body, definition) in (first..).zip(&scene.rigid_bodies) {
@@ -95,7 +90,6 @@ impl TiedComponents {
         self.offsets[self.offsets.len() - 1]
     }
 
-    /// Index of a component of a control point.
     pub fn component(&self, (body, point): (usize, usize), component: Component) -> usize {
         self.offsets[body] + 3 * point + component as usize
     }

@@ -14,7 +14,6 @@ const NO_WEIGHT: f64 = 1e-12;
 pub struct Bodies {
     pub(super) all: Vec<Body>,
     meshes: Vec<Mesh>,
-    /// Trackers of the starts and ends of all beams, then of the stations of the scene, then of the rigid bodies.
     pub(super) trackers: Vec<Tracker>,
     joined: Vec<(BodyPoint, BodyPoint)>,
     /// Mass of the beams [mass].
@@ -109,14 +108,12 @@ impl Bodies {
         self.iter().map(|body| body.dynamics.strain_energy()).sum()
     }
 
-    /// Stores the increments of the unknowns in the bodies.
     pub fn gather(&mut self, increments: &[f64]) {
         for body in &mut self.all {
             body.gather(increments);
         }
     }
 
-    /// Values of the unknowns, arranged by body and control point; zero at supported degrees of freedom.
     pub fn by_control_point(&self, values: &[f64]) -> Vec<Vec<Movement>> {
         let mut all = Vec::new();
         self.write_by_control_point(values, &mut all);
@@ -155,7 +152,6 @@ impl Bodies {
         bodies.for_each(|(body, own)| std::mem::swap(&mut body.degrees_of_freedom, own));
     }
 
-    /// Nodes that joints connect with a node, including this node. They are given by body and control point. `None` if the point is not a node.
     pub fn tied_nodes(&self, place: &BodyPoint) -> Option<Vec<(usize, usize)>> {
         let mut nodes = vec![node_of(place)?];
         let mut next = 0;

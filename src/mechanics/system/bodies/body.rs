@@ -17,10 +17,8 @@ pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
     consecutive: Vec<Option<usize>>,
-    /// For each control point, true if the unknowns of all spans that contain this point are consecutive.
     in_order: Vec<bool>,
     unknowns: usize,
-    /// First control point and first row of the tangent of each concurrent part, without the first part.
     parts: Vec<(usize, usize)>,
     movements: Vec<Movement>,
     forces: Vec<Movement>,
@@ -112,7 +110,6 @@ impl Body {
         self.rows().max()
     }
 
-    /// Stores values of the unknowns by control point, and returns them; zero at supported degrees of freedom.
     pub fn gather(&mut self, values: &[f64]) -> &[Movement] {
         self.degrees_of_freedom.gather(values, &mut self.movements);
         &self.movements
@@ -124,7 +121,6 @@ impl Body {
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))
     }
 
-    /// Displacement and rotation at a point of the body [length, length, rad], interpolated from values of the unknowns.
     pub fn at(&self, place: &BodyPoint, values: &[f64]) -> Movement {
         let mut sum = [0.0; 3];
         for (point, weight) in place.weights() {
@@ -141,7 +137,6 @@ impl Body {
         Vec2::new(value(x), value(y))
     }
 
-    /// Position of a control point, and the rounding error that its increments have accumulated [length].
     pub fn precise_point(&self, point: usize) -> (Vec2, Vec2) {
         (self.dynamics.control_points()[point], self.dynamics.remainders()[point])
     }
@@ -154,7 +149,6 @@ impl Body {
         self.dynamics.advance(&self.movements, rotations);
     }
 
-    /// Adds the forces accumulated in the body to `out`, resets the accumulated forces to zero, and returns their summary.
     pub fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         self.degrees_of_freedom.scatter(&mut self.forces, out);
         std::mem::take(&mut self.summary)
@@ -169,7 +163,6 @@ impl Body {
         self.summary = self.dynamics.add_forces(at, &self.movements, weight, &mut self.forces);
     }
 
-    /// Accumulates the internal forces with strain mismatches condensed out, and adds their derivatives to the given rows of the tangent.
     pub fn linearise(
         &mut self,
         at: Collocation,

@@ -2,7 +2,7 @@
 //!
 //! Sums are computed in the order of the bodies: each body accumulates its forces separately, and one thread adds them to the result.
 //! In the tangent, the thread of the second half writes only the rows in which no body of the first half has entries.
-//! Contributions of the second half to other rows are added afterwards by one thread.
+//! Contributions of bodies of the second half to rows of the first half are added afterwards by one thread.
 
 use super::Body;
 
@@ -17,7 +17,7 @@ pub(super) struct BodyHalves {
     pub(super) body: usize,
     /// First row of the tangent in which no body of the first half has entries.
     pub(super) row: usize,
-    /// Bodies of the second half with rows before `row`.
+    /// Bodies of the second half that have entries in rows of the first half.
     pub(super) astride: Vec<usize>,
 }
 

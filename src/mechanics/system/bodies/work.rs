@@ -45,7 +45,6 @@ impl Bodies {
         self.scatter(out)
     }
 
-    /// Adds the forces accumulated in the bodies to `out`. The order of the bodies is fixed, so that rounding is reproducible. Returns their summary.
     fn scatter(&mut self, out: &mut [f64]) -> ForceSummary {
         let mut summary = ForceSummary::default();
         for body in &mut self.all {
@@ -54,7 +53,6 @@ impl Bodies {
         summary
     }
 
-    /// Adds the internal forces with strain mismatches condensed out to `out`, and their derivatives to the tangent.
     pub fn add_linearised_forces(
         &mut self,
         at: Collocation,

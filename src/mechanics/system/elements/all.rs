@@ -14,16 +14,12 @@ use crate::system::bodies::{Body, Momenta};
 pub struct Elements {
     masses: Vec<NodalMass>,
     weight: Option<Weight>,
-    /// External forces, in the order of the scene.
     forces: Vec<Box<dyn ExternalForce>>,
-    /// Internal forces, in the order of the scene.
     resistances: Vec<Box<dyn InternalForce>>,
-    /// Largest relative difference between a force and its law in the last iterate, and the index of the internal force.
     largest_mismatch: (f64, usize),
 }
 
 impl Elements {
-    /// Collects the built elements, and adds the weight of the point masses to the weight of the beams.
     pub fn new(parts: impl Iterator<Item = BuiltElement>, mut weight: Option<Weight>) -> Self {
         let (mut masses, mut forces, mut resistances) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts {
@@ -63,7 +59,6 @@ impl Elements {
         self.resistances.iter().map(|resistance| &**resistance)
     }
 
-    /// Springs, dampers and tendons, in the order of the scene.
     fn springs_mut(&mut self) -> impl Iterator<Item = &mut Box<dyn InternalForce>> {
         self.resistances.iter_mut().filter(|resistance| resistance.stretched().is_some())
     }
@@ -72,14 +67,13 @@ impl Elements {
         self.springs_mut().nth(spring).into_iter().for_each(|spring| spring.release());
     }
 
-    /// Marks the selected springs as released and all other springs as attached, before their state is restored.
     pub fn detach_only(&mut self, is_released: impl Fn(usize) -> bool) {
         for (at, spring) in self.springs_mut().enumerate() {
             if is_released(at) { spring.detach() } else { spring.attach() }
         }
     }
 
-    /// Prepares all elements for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    /// Prepares all elements for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
     pub fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
         self.resistances.iter_mut().for_each(|one| one.begin(bodies, inertia));
     }
@@ -125,8 +119,6 @@ impl Elements {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M` for all point masses.
-    /// Values for the same row and column must be added up.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],
@@ -152,7 +144,6 @@ impl Elements {
         self.weight.as_ref().map_or(0.0, |weight| weight.energy_of(bodies, body))
     }
 
-    /// Subtracts the forces of all elements in an iterate from `out`. Returns the largest force and the largest moment on a control point.
     pub fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64) {
         let weight = self.weight.iter_mut().map(|weight| weight as &mut dyn ExternalForce);
         let forces = self.forces.iter_mut().map(|force| &mut **force as &mut dyn ExternalForce);
@@ -205,15 +196,12 @@ impl Elements {
         }
     }
 
-    /// Internal force that differed most from its law in the last iterate, given by its name and the relative difference.
-    /// Returns `None` if all differences are zero.
     pub fn farthest(&self) -> Option<(&str, f64)> {
         let (missing, index) = self.largest_mismatch;
         let resistance = self.resistances.get(index)?;
         (missing != 0.0).then(|| (resistance.name(), missing))
     }
 
-    /// Adds all internal forces with force residuals condensed out, and their derivatives with respect to the `unknowns` increments.
     pub fn add_linearised_resistance(
         &mut self,
         at: TrialState<'_>,
@@ -259,7 +247,6 @@ impl Elements {
             .for_each(|resistance| resistance.add_forces_at_start(bodies, rates, out));
     }
 
-    /// Calls `take` for each damped rate at the start of the step, with the rate and its damping coefficient.
     pub fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
@@ -273,7 +260,6 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.static_stiffness(bodies, take));
     }
 
-    /// Work and impulse of all elements in the completed step, computed from the increments stored in the bodies.
     pub fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for element in self.forces().chain(self.weight()) {

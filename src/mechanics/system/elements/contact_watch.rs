@@ -42,7 +42,7 @@ impl ContactWatch {
     }
 
     /// Records a step.
-    /// The flags are true if the spring is slack at the start and at the end.
+    /// The flags are true if the spring is slack at the start and at the end of the step.
     /// The rates of elongation are those of the previous step and of this step.
     pub fn add(
         &mut self,

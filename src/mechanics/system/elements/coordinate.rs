@@ -32,7 +32,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference from a number. Its rounding error is relative to the difference, not to the sum.
+    /// Difference between the sum and a number. The rounding error is relative to this difference, not to the sum.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

@@ -9,7 +9,7 @@ use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
 /// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
-/// A force of this size is accepted at zero rate, and also in the direction in which it adds energy.
+/// A law may have a force of this size at zero rate, or in a direction in which the force adds energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
@@ -38,7 +38,7 @@ impl From<f64> for DampingLaw {
 pub enum NegativeDamping {
     /// Point of the law that adds energy: its rate [length/time, rad/time] and its force [force, force·length].
     At { rate: f64, force: f64 },
-    /// Linear extrapolation beyond the end of the law at the rate `end`. It adds energy beyond the rate `from`.
+    /// Linear extrapolation of the law beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },
 }
 
@@ -116,7 +116,6 @@ impl DampingLaw {
         if let Some((rate, force)) = moving.find(|at| feeds(*at)) {
             return Some(NegativeDamping::At { rate, force });
         }
-        // At this large rate, the force of an extrapolation with negative slope has changed its sign.
         let reach = |end: f64| 1e6 * (end.abs() + (last.0 - first.0));
         let beyond = [(first, first.0 - reach(first.0)), (last, last.0 + reach(last.0))];
         let (end, rate) = beyond.into_iter().find(|(_, rate)| feeds((*rate, self.force(*rate))))?;
@@ -124,7 +123,6 @@ impl DampingLaw {
         Some(NegativeDamping::Extrapolated { end: end.0, from: end.0 - end.1 / slope })
     }
 
-    /// Returns the law with an additional point of zero force at zero rate. The slope may change at this point.
     pub(crate) fn with_corner_at_rest(&self) -> Self {
         let mut law = self.clone();
         if let Self::Curve(SpringLaw::Table { points } | SpringLaw::Sampled { points, .. }) =
@@ -156,10 +154,6 @@ impl DampingLaw {
         }
     }
 
-    /// Force and slope for Newton's method.
-    /// If the impedance of the rest of the system is known, the law is linearised at its intersection with the line of the impedance.
-    /// The line of the impedance passes through (`rate`, `force`) with the slope `-impedance`.
-    /// Without the line of the impedance, the iteration could alternate between two steep segments.
     pub(crate) fn linearised_target(
         &self,
         rate: f64,
@@ -172,7 +166,6 @@ impl DampingLaw {
         let Some(passed) = corners.iter().position(|(at, _)| above(*at) >= 0.0) else {
             return at_rate;
         };
-        // Rate in the interior of the segment below this corner.
         let Some(before) = passed.checked_sub(1) else { return at_rate };
         let inside = 0.5 * (corners[before].0 + corners[passed].0);
         let slope = self.slope(inside);

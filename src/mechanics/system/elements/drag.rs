@@ -78,7 +78,6 @@ impl ElementDef for Drag {
         }
     }
 
-    /// Stations with quadratic drag, which couples the velocity components.
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         match &self.on {
             Dragged::Beam { .. } => Vec::new(),

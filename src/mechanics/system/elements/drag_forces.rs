@@ -1,18 +1,7 @@
-//! Drag in a step.
+//! Drag in a step (docs/theory.md, section 9.3).
 //!
-//! ```text
-//! relative velocity:  v = Δx/Δt - wind
-//! nodal force:        f_a = -w N_a G(v, t)
-//! dissipated energy:  D increases by Σ w G·v Δt ≥ 0
-//! work of the wind:   W increases by -Σ w G·wind Δt
-//! ```
-//!
-//! Here `w` are quadrature weights, `N_a` the basis functions, `f_a` the nodal forces, `D` the dissipated energy and `W` the work of the wind.
-//! The power `G·v` is computed from the force `G` alone by means of the law.
-//! The difference `G·Δx - G·wind Δt` would be a small difference of large numbers, and rounding could change its sign.
-//! The work `W` is computed as the remainder to `-G·Δx`, so that the energy balance is exact.
-//!
-//! The direction `t` of the axis is that of the mean configuration.
+//! The dissipated power is computed from the force alone by means of the drag law, so that rounding cannot change its sign.
+//! The work of the wind follows from the work of the drag force and the dissipated energy, so that the energy balance is exact.
 
 use super::drag_law::DragLaw;
 use super::drag_point::{DragPoint, Medium};
@@ -52,7 +41,6 @@ impl DragForces {
         self.rate_history.at(at.stage, at.weight).filter(|_| is_timed)
     }
 
-    /// Work of the wind and dissipated energy at one point in the completed step [energy]. The increments stored in the body of the point are used.
     fn turnover(&self, point: &DragPoint, body: &Body) -> [f64; 2] {
         let (force, movement) = (point.applied_force(), point.movement(body));
         let taken = force.dot(&movement);

@@ -1,11 +1,4 @@
 //! Drag laws: force as a function of the velocity relative to the medium, with derivatives.
-//!
-//! ```text
-//! force on the medium at a point:  G = (c + k |v|) v
-//! force on the medium at a line:   G = φn(n·v) n + φt(t·v) t
-//! law of each direction:           φ(s) = c s + k |s| s
-//! dissipated power:                G·v ≥ 0
-//! ```
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +18,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power `F s` at the speed `s`. It is computed from the force `F = c s + k |s| s` alone, so that it is never negative.
+    /// Power at a speed, computed from the force alone, so that it is never negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -40,24 +33,21 @@ impl SpeedLaw {
     }
 }
 
-/// Drag law of a point or of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragLaw {
     Point(SpeedLaw),
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of the body on the medium with its derivatives, in components across (`n = J t`) and along a line with unit tangent `t`.
+/// Force of the body on the medium with its derivatives, in components across and along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
     /// Components of the force across and along the line [force, or force/length].
     pub force: Vec2,
     pub by_velocity: [Vec2; 2],
-    /// Derivatives of the components with respect to the angle of the line.
     pub by_angle: Vec2,
 }
 
-/// Vector in space, computed from its components across and along a line with unit tangent `t`.
 pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
     perpendicular(t) * components.x + t * components.y
 }
@@ -71,7 +61,6 @@ impl DragLaw {
             Self::Point(law) => {
                 let speed = velocity.norm();
                 let factor = law.linear + law.quadratic * speed;
-                // Nonlinear term k v ⊗ v/|v| of the derivative.
                 let bend = if speed > 0.0 { velocity * (law.quadratic / speed) } else { velocity };
                 DragResponse {
                     force: Vec2::new(across, along) * factor,
@@ -106,7 +95,6 @@ impl DragLaw {
         }
     }
 
-    /// Linear coefficients across and along the line [force·time/length; for a line force·time/length²].
     pub fn linear(&self) -> Vec2 {
         match self {
             Self::Point(law) => Vec2::repeat(law.linear),
@@ -156,7 +144,6 @@ mod tests {
                     assert!((by - expected).norm() < 1e-8, "{law:?}: {by} {expected}");
                 }
                 let turned = force(velocity, angle + h) - force(velocity, angle - h);
-                // The vector changes with its components and with the rotation of the line.
                 let by = found.by_angle + Vec2::new(found.force.y, -found.force.x);
                 assert!((in_space(t, by) - turned / (2.0 * h)).norm() < 1e-8, "{law:?}");
             }

@@ -18,16 +18,13 @@ pub struct Medium {
 #[derive(Debug, Clone)]
 pub struct DragPoint {
     pub body: usize,
-    /// First control point with a nonzero basis function at the point.
     first: usize,
-    /// Basis functions at the point [-]. `slope` contains their derivatives with respect to arc length [1/length]; they are zero for isotropic drag.
     shape: Vec<f64>,
     slope: Vec<f64>,
     /// Quadrature weight [length]; 1 for a point.
     weight: f64,
     /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest term in the sum for the velocity at the start of the step [length/time]. It determines the rounding error of the velocity.
     speed: f64,
     /// Force components across and along the line in the present iterate [force, or force/length].
     force: Vec2,
@@ -43,7 +40,6 @@ pub struct DragPoint {
 struct DragTrial {
     tangent: Vec2,
     response: DragResponse,
-    /// Derivative of the line angle with respect to the gradient vector [1/length].
     angle_by_gradient: Vec2,
     rates: (f64, f64),
 }
@@ -63,7 +59,6 @@ impl DragTrial {
     }
 }
 
-/// Unit tangent along a gradient and the inverse length of the gradient [1/length]. The direction is arbitrary if the gradient is zero.
 fn unit_tangent(gradient: Vec2) -> (Vec2, f64) {
     let length = gradient.norm();
     match length > 0.0 {
@@ -142,7 +137,6 @@ impl DragPoint {
         self.combine(&self.shape, |at| Vec2::new(moved[at][0], moved[at][1]))
     }
 
-    /// Mean position of the point in the completed step, computed from the increments stored in its body.
     pub fn middle(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -175,7 +169,6 @@ impl DragPoint {
         DragTrial::new(&around.law, velocity, gradient, (rates.by_change, rates.fraction))
     }
 
-    /// Compares the force with the drag law in an iterate. Returns the difference as a fraction of the scale of the velocities.
     pub fn compare(
         &mut self,
         around: &Medium,
@@ -251,7 +244,7 @@ impl DragPoint {
         self.force += self.mismatch + Vec2::new(across, along) + resisted.by_angle * turn;
     }
 
-    /// Applied force of the last iterate in space [force].
+    /// Drag force that was applied in the last iterate, in components along x and y [force].
     pub fn applied_force(&self) -> Vec2 {
         self.applied_force
     }
@@ -262,14 +255,12 @@ impl DragPoint {
     }
 
     /// Displacement of the point minus `duration` times the velocity in the drag law [length].
-    /// The result is zero if the velocity in the drag law is the mean velocity of the step.
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
             + self.last_velocity * (rates.by_last * duration)
     }
 
-    /// Force that would remove the residual of the drag law, in the direction of the last linearisation [force].
     pub fn missing(&self) -> Vec2 {
         in_space(self.linearised.tangent, self.mismatch) * self.weight
     }

@@ -15,7 +15,7 @@ use crate::system::SystemError;
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
 /// To add a type, add a variant and a file in `system/elements` with its [`ElementDef`].
-/// The file also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
+/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.
@@ -103,14 +103,12 @@ pub trait ElementDef {
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError>;
 }
 
-/// Element of a model, built from its definition.
 pub enum BuiltElement {
     PointMass(NodalMass),
     Force(Box<dyn ExternalForce>),
     Resistance(Box<dyn InternalForce>),
 }
 
-/// Scene queries for the check of an element.
 pub trait SceneChecks {
     /// All beams and particles of the scene.
     fn contact_targets(&self) -> Vec<ContactTarget>;
@@ -145,12 +143,10 @@ pub trait AssemblyContext {
 
     fn mesh(&self, beam: usize) -> &Mesh;
 
-    /// Cross section as a function of the position along a beam.
     fn variation(&self, beam: usize) -> &SectionVariation;
 
     /// Body in its initial state. Body indices count beams first, then particles, then rigid bodies.
     fn body(&self, index: usize) -> &dyn BodyDynamics;
 
-    /// Converts a geometry error of a beam to a scene error.
     fn wrong(&self, beam: usize, error: GeometryError) -> SystemError;
 }

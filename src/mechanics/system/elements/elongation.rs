@@ -1,16 +1,8 @@
-//! Elongations: the length of a polygonal path over several points, or the angle between two sections.
+//! Elongations: the length of a polygonal path over several points, or the angle between two sections (docs/theory.md, section 9.1).
 //!
-//! ```text
-//! change of a length:  Δℓ = Σ e·Δd over the parts of the path
-//! secant of a part:    e = (d₀ + d₁)/(ℓ₀ + ℓ₁)
-//! change of an angle:  Δθ = r (Δω_b - Δω_a) with the secant r
-//! ```
-//!
-//! The vectors `e` and `r` are secants. A force along a secant does exactly the work `F Δℓ` or `M Δθ`. The forces at both ends are opposite.
-//! Differences of positions are updated by increments. Their rounding error does not depend on the distance from the origin.
-//! The elongation is stored as its growth since the start.
-//! The difference of a length and the natural length would have the rounding error of the length.
-//! The rounding error of the length may be much larger than that of the elongation.
+//! Forces act along secants, so the work of a step is exactly the force times the elongation change.
+//! Positions are updated by increments, so their rounding error does not depend on the distance from the origin.
+//! The elongation is stored as its growth since the start, because the rounding error of a length may exceed the elongation.
 
 mod shares;
 mod term;
@@ -52,56 +44,44 @@ impl ElongationEnd {
 
 #[derive(Debug, Clone)]
 enum Measure {
-    /// Length of a path. The values are the differences `d₀` between consecutive terminals at the start of the step [length].
     Length(Vec<Vec2>),
     Angle,
     /// Component of the vector between two terminals: x (0) or y (1).
     Component(usize),
 }
 
-/// Length or angle `q` between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
-///
-/// The coordinates `u` of an elongation are the increments of its terminals, in their order. A length has coordinates x and y, an angle the rotation.
+/// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
+/// The coordinates of a length are the x and y increments of its terminals, those of an angle the rotation increments.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
-    /// Coefficients that express the coordinates by the degrees of freedom, in the numbering of the last call of `locate`.
     shares: Vec<CoordinateShare>,
     /// Elongation in the initial configuration on the meshes [length, rad].
     initial: f64,
-    /// Growth of the elongation from the initial configuration to the start of the step [length, rad].
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
-    /// Change `Δq` in the step [length, rad].
     pub change: f64,
-    /// Change of the elongation in the last accepted iterate, and the further change that its force implies [length, rad].
-    /// The stored change is more accurate than a change computed from increments.
-    /// The rounding error of increments would store energy in a stiff spring.
     settled: (f64, f64),
-    /// Secant `g`, which gives the elongation change as `Δq = Σ g u` [-].
-    /// For methods with forces at the end of a step, the secant is the derivative of the elongation `q` at the end.
+    /// Secant: factors of the coordinates that give the elongation change [-].
+    /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end.
     pub secant: Vec<f64>,
-    /// Derivative `∂Δq/∂u` with respect to the coordinates [-].
+    /// Derivative of the elongation change with respect to the coordinates [-].
     pub slope: Vec<f64>,
-    /// Derivative `∂g/∂u` of the secant with respect to the coordinates in the last iterate that needed it, row by row [1/length, 1/rad].
+    /// Derivative of the secant with respect to the coordinates, row by row [1/length, 1/rad].
     pub secant_slope: Vec<f64>,
-    /// Difference between the force direction at the time given to [`balance`](Self::balance) and the secant [-].
     pub lag: Vec<f64>,
-    /// Derivative of `lag` with respect to the coordinates, row by row [1/length].
     pub lag_slope: Vec<f64>,
 }
 
 impl Elongation {
-    /// Creates the length of a path through terminals. `at` contains the initial positions of the terminals.
     pub fn path_length(terminals: Vec<ElongationEnd>, at: &[Vec2]) -> Self {
         let parts: Vec<Vec2> = at.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let length = parts.iter().map(Vec2::norm).sum();
         Self::new(Measure::Length(parts), length, terminals, 2)
     }
 
-    /// Creates a component (x or y) of the vector from the first terminal to the second. The second argument contains the initial positions.
     pub fn component(
         terminals: [ElongationEnd; 2],
         [from, to]: [Vec2; 2],
@@ -155,18 +135,15 @@ impl Elongation {
         self.initial
     }
 
-    /// Growth of the elongation since the initial configuration, with compensated rounding [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
 
-    /// Magnitude of the largest term in the sum for the elongation of an iterate [length, rad]. It determines the rounding error of the elongation.
     pub fn extent(&self) -> f64 {
         let after = (self.value() + self.change).abs();
         match self.measure {
             Measure::Length(_) => after,
             Measure::Angle => larger(1.0, after),
-            // The increments of the component may be much larger than the component.
             Measure::Component(..) => {
                 self.movements.iter().fold(after, |size, by| size.max(by.abs()))
             }
@@ -179,8 +156,6 @@ impl Elongation {
         rounding_error(moved)
     }
 
-    /// If `missing` is within the rounding error of the increments, stores it as a part of the elongation change of the last iterate.
-    /// Returns true if `missing` was stored.
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {
         let is_rounding = missing.abs() <= self.rounding();
         self.settled = (self.change, if is_rounding { missing } else { 0.0 });
@@ -206,7 +181,6 @@ impl Elongation {
         })
     }
 
-    /// Evaluates change, secant and slope of the elongation in an iterate.
     pub fn evaluate(&mut self, at: TrialState<'_>) {
         self.locate(at.bodies);
         self.gather(at.increments);
@@ -214,8 +188,6 @@ impl Elongation {
         self.compare(collocation.rotations);
     }
 
-    /// Evaluates the lag of the last iterate: the force direction at the fraction `share` of the step, minus the secant.
-    /// The lag is zero if `share` is `None`. For angles, it is always zero, because their force directions are constant.
     pub fn balance(&mut self, share: Option<f64>) {
         let Self { measure, movements: moved, lag, lag_slope: lag_bend, .. } = self;
         [&mut *lag, lag_bend].into_iter().for_each(|all| all.fill(0.0));
@@ -243,7 +215,6 @@ impl Elongation {
         }
     }
 
-    /// Rate of the elongation at the start of the step, computed from the rates of all control points.
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
         let mut sum = 0.0;
         for (place, coordinates) in self.moving() {
@@ -256,12 +227,10 @@ impl Elongation {
         sum
     }
 
-    /// Rate of the elongation at the end of the last step, computed from the rates of the unknowns at that time.
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         self.moving().fold(0.0, |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
-                // Rates of angles are given directly. They do not need the conversion factor between increments and angles in the slope.
                 (true, slope) => sum + slope[0].signum() * spin,
                 (false, slope) => sum + (slope[0] * x + slope[1] * y),
             }
@@ -356,9 +325,6 @@ impl Elongation {
         }
     }
 
-    /// Lengths of the segments of a path in the present configuration.
-    /// The vectors are the derivatives of the displacement across each segment with respect to the coordinates.
-    /// The direction of the force rotates with the segment.
     pub fn turned(&self) -> Vec<(f64, Vec<f64>)> {
         let Measure::Length(parts) = &self.measure else { return Vec::new() };
         let of_part = |(index, part): (usize, &Vec2)| {
@@ -372,7 +338,6 @@ impl Elongation {
         parts.iter().enumerate().filter(|(_, part)| part.norm() > 0.0).map(of_part).collect()
     }
 
-    /// Evaluates secant and slope at the start of the step.
     pub fn evaluate_at_start(&mut self, bodies: &[Body]) {
         self.locate(bodies);
         self.movements.fill(0.0);

@@ -21,7 +21,6 @@ pub fn collocation(stage: Stage) -> Collocation {
 /// Iterate of a step in which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
-    /// All bodies of the model at the start of the step.
     pub bodies: &'a [Body],
     pub stage: Stage,
     /// Increments of the unknowns since the start of the step [length, rad].
@@ -58,12 +57,12 @@ pub trait ExternalForce {
     /// Evaluates the element just after a time, for example at the end of a static load step.
     ///
     /// # Errors
-    /// Fails if a value at this time is not finite.
+    /// Fails if a value of the element is not finite.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }
 
-    /// Returns true if the value may jump at this time.
+    /// Returns true if the value of the element may jump at the given time.
     fn may_jump_at(&self, _time: f64) -> bool {
         false
     }
@@ -97,7 +96,6 @@ pub trait ExternalForce {
         false
     }
 
-    /// Number of sections whose angle is tracked.
     fn tracked_sections(&self) -> usize {
         0
     }
@@ -112,7 +110,6 @@ pub trait ExternalForce {
     /// Describes the evaluation of the element in a step, for each of the given methods.
     fn explain(&self, methods: &[Method]) -> String;
 
-    /// Number of script functions that the element calls.
     fn functions(&self) -> usize {
         0
     }

@@ -7,12 +7,11 @@ use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::{Body, Tracker};
 
-/// Force that rotates with a section: `f = Λτ F`, with the rotation `Λτ` of the section at a stage `τ` of the step.
+/// Force that rotates with a section. The rotation is evaluated at a stage of the step.
 #[derive(Debug, Clone)]
 pub struct Follower {
     tracker: Tracker,
     force: Vec2,
-    /// Contribution from the start of the step to the force. The contribution from the present iterate is in `current`.
     force_parts: Vec2,
     current: Vec2,
 }
@@ -27,7 +26,6 @@ impl Follower {
         &bodies[self.tracker.place.body]
     }
 
-    /// Rotations of the section at the stage `τ` and at the end of the step, and the rotation increment `Δω`.
     fn rotations(&self, at: TrialState<'_>) -> (Rotation, Rotation, f64) {
         let [.., increment] = self.body(at.bodies).at(&self.tracker.place, at.increments);
         let collocation = collocation(at.stage);
@@ -84,7 +82,6 @@ impl Follower {
         }
     }
 
-    /// Adds the work and impulse of the follower force in the step whose increments are stored in the bodies.
     pub fn add_exchange(&self, bodies: &[Body], duration: f64, sum: &mut WorkAndImpulse) {
         let body = self.body(bodies);
         let force = self.force_parts + self.current;

@@ -22,13 +22,13 @@ pub struct SpringTrialState {
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
 /// Residuals use the present value of the force.
-/// Linearisations condense the force out. Corrections update the force together with the increments.
-/// Hence the rounding error of the configuration is not multiplied by the stiffness. The number of iterations does not increase with the stiffness.
+/// Linearisations eliminate the force. Corrections update the force together with the increments.
+/// A force that is an unknown contains no rounding error of the configuration times the stiffness. The number of iterations does not increase with the stiffness.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares the element for the start of a simulation. The last argument is the diagonal of the inertia matrix of the unknowns.
+    /// Prepares the element for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
     fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
 
     /// Writes the contacts that exist at present. Their number changes during a simulation.
@@ -55,7 +55,7 @@ pub trait InternalForce {
     /// Adds `at.weight` times the present forces on bodies to `out`. Returns the largest force and the largest difference from a force law.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
 
-    /// Adds `at.weight` times the forces with their residuals condensed out, and their derivatives with respect to the increments.
+    /// Adds `at.weight` times the forces with the force unknowns eliminated, and their derivatives with respect to the increments.
     fn add_linearised_forces(
         &mut self,
         at: TrialState<'_>,
@@ -100,7 +100,6 @@ pub trait InternalForce {
         None
     }
 
-    /// Bodies that are inside this obstacle at present.
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
         Vec::new()
     }
@@ -134,7 +133,6 @@ pub trait InternalForce {
         None
     }
 
-    /// Index of the beam whose material is damped.
     fn damped_beam(&self) -> Option<usize> {
         None
     }

@@ -33,7 +33,6 @@ impl ElementDef for Load {
         }
     }
 
-    /// Stations coupled by the load. A force that rotates with a rigid body couples the displacement of its point with the rotation of the body.
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         match &self.kind {
             LoadKind::Force { station, frame: LoadFrame::Follower, .. }
@@ -123,17 +122,12 @@ struct AppliedLoad {
     check: Option<ScheduleCheck>,
     action: Action,
     factors: StageFactors,
-    /// Schedule factor at the start of the step, multiplied by the weight of the start. The product for the present iterate is in `current`.
     weighted_factors: f64,
     current: f64,
     account: Option<LoadAccount>,
-    /// Magnitude of the load at a schedule factor of 1.
     size: f64,
 }
 
-/// Values of a schedule at the stages of a step.
-/// The fields `start` and `end` are the ends of a straight line that has the mean and the change of the schedule in the step.
-/// With the straight line, every method has the exact impulse of a load. Factors that the step does not use are NaN.
 #[derive(Debug, Clone, Copy)]
 struct StageFactors {
     start: f64,
@@ -317,7 +311,6 @@ impl ExternalForce for AppliedLoad {
     }
 }
 
-/// Times after the start at which steps must end, because the schedule or its derivative jumps. They are in increasing order.
 fn cuts(schedule: &Schedule) -> Vec<f64> {
     let mut times = schedule.breaks();
     times.retain(|time| *time > 0.0);
@@ -326,7 +319,6 @@ fn cuts(schedule: &Schedule) -> Vec<f64> {
     times
 }
 
-/// Number of evaluations of a schedule in a step. Forces are evaluated in the middle of each substep, or at one or both ends of the step.
 fn calls_in_step(stages: &[Stage]) -> usize {
     match stages.contains(&Stage::End) {
         true => VALUES_OF_A_MEAN + stages.len(),

@@ -44,7 +44,6 @@ impl LoadVector {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }
 
-    /// Work and impulse of `factor` times the forces in the step whose increments are stored in the bodies. Forces act at mean positions.
     pub fn exchange(&self, bodies: &[Body], factor: f64, duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (body, point, [fx, fy, moment]) in &self.entries {
@@ -60,12 +59,12 @@ impl LoadVector {
         sum
     }
 
-    /// Sum `Σ f·x` over the loaded points, which is minus the potential of constant forces [energy].
+    /// Sum of the scalar products of forces and positions, which is minus the potential of constant forces [energy].
     pub fn potential_work(&self, bodies: &[Body]) -> f64 {
         self.potential_work_on(bodies, |_| true)
     }
 
-    /// Contribution of the selected bodies to the sum `Σ f·x` [energy].
+    /// Contribution of the selected bodies to the sum of the scalar products of forces and positions [energy].
     pub fn potential_work_on(&self, bodies: &[Body], counts: impl Fn(usize) -> bool) -> f64 {
         let work = |(body, point, [fx, fy, _]): &(usize, usize, Movement)| {
             bodies[*body].dynamics.control_points()[*point].dot(&Vec2::new(*fx, *fy))

@@ -56,7 +56,6 @@ impl ElementDef for MaterialDamping {
     }
 }
 
-/// Internal force of a damped beam: its dashpots, their increments in the present step, and the dissipated energy.
 struct DampedMaterial {
     name: String,
     beam: usize,

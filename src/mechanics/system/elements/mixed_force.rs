@@ -8,14 +8,11 @@ pub struct MixedForce {
     pub force: f64,
     pub last: f64,
     pub mismatch: f64,
-    /// Derivative of the target force with respect to the elongation change `Δq`, at the last linearisation.
     pub stiffness: f64,
-    /// Derivative of the target force at the last comparison.
     target_slope: f64,
     search: IterationState,
 }
 
-/// Number of linearisations in the present step. The other fields contain the rate (or elongation change) and the force at the last linearisation.
 #[derive(Debug, Clone, Copy, Default)]
 struct IterationState {
     linearised: u32,
@@ -29,7 +26,6 @@ pub const CORNER_TOLERANCE: f64 = 2e-4;
 /// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
-/// Force that the law requires in a configuration, and its derivative with respect to the elongation change `Δq`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceTarget {
     pub force: f64,
@@ -37,8 +33,6 @@ pub struct ForceTarget {
 }
 
 impl MixedForce {
-    /// Compares the force with its target.
-    /// Returns the difference as a fraction of the force scale, which includes the stiffness times `extent` (a length or angle).
     pub fn compare(&mut self, target: ForceTarget, extent: f64) -> f64 {
         self.mismatch = target.force - self.force;
         self.target_slope = target.stiffness;
@@ -47,8 +41,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Change of the elongation increment `Δq` for which the target would equal the present force, to first order.
-    /// The missing change is infinite if the slope is not positive.
+    /// Elongation change for which the target would equal the present force, to first order.
+    /// The result is infinite if the slope is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -62,7 +56,6 @@ impl MixedForce {
         self.search = IterationState::default();
     }
 
-    /// Estimate of the impedance of the rest of the system by a secant through the last two iterates; `None` during the first iterations.
     pub fn impedance(&mut self, rate: f64) -> Option<f64> {
         let IterationState { linearised, at: (rate_before, force_before) } = self.search;
         self.search = IterationState { linearised: linearised + 1, at: (rate, self.force) };
@@ -71,7 +64,6 @@ impl MixedForce {
             .then_some(impedance)
     }
 
-    /// Stores the difference from the target, and the derivative of the target, for the next correction.
     pub fn linearise(&mut self, target: ForceTarget) {
         self.mismatch = target.force - self.force;
         self.stiffness = target.stiffness;
@@ -86,10 +78,9 @@ impl MixedForce {
 const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
-    /// Target of a linearisation at `change`, from the intersection of an increasing law with a straight line.
-    ///
-    /// The line passes through the present force at `change`, and falls with the impedance of the rest of the system.
-    /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
+    /// Target of a linearisation at `change`: the intersection of an increasing law with a line of negative slope.
+    /// The slope of the line is the impedance of all other objects of the scene.
+    /// If no intersection were used, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,
         force: f64,
@@ -100,7 +91,6 @@ impl ForceTarget {
         Self { force: met.force + met.stiffness * (change - at), stiffness: met.stiffness }
     }
 
-    /// Elongation change at this intersection.
     pub fn intersection_point(
         change: f64,
         force: f64,
@@ -118,8 +108,6 @@ impl ForceTarget {
     ) -> (f64, Self) {
         let above = |at: f64, of: Self| of.force - force + impedance * (at - change);
         let (mut at, mut met) = (change, law(change));
-        // A law of zero slope would intersect the line at `reach`.
-        // An increasing law intersects the line between `change` and `reach`.
         let reach = change - above(change, met) / impedance;
         let (mut low, mut high) = (change.min(reach), change.max(reach));
         for _ in 0..MOST_TRIES {

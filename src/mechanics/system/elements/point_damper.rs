@@ -1,17 +1,8 @@
-//! Damper along the line between two points. The distance of the points may pass through zero.
+//! Damper along the line between two points, whose distance may pass through zero.
 //!
-//! ```text
-//! relative velocity:  v = Δd/Δt
-//! mean vector:        d̄ = d₀ + ½ Δd
-//! direction:          e = d̄/|d̄|
-//! force:              F = φ(e·v) e, opposite at both ends
-//! dissipated energy:  D increases by F·Δd ≥ 0
-//! ```
-//!
-//! The rate of the length, `Δℓ/Δt`, vanishes if the connecting vector reverses through zero within a step.
-//! The ends then pass each other at full speed, although the rate of the length is zero.
-//! The rate along the mean vector `d̄` is also correct for a reversal. Without a reversal, this rate agrees with `Δℓ/Δt` to second order.
-//! The force acts along the mean line, so that angular momentum is conserved. The dissipated energy is `D`.
+//! The rate of the distance would be zero for ends that pass each other within a step and exchange their sides.
+//! The rate along the mean connecting vector is correct also for ends that pass each other.
+//! The force acts along the mean line, so that angular momentum is conserved.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -31,20 +22,15 @@ use crate::system::bodies::Body;
 pub struct PointDamper {
     name: String,
     terminals: [ElongationEnd; 2],
-    /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: [Option<Vec2>; 2],
-    /// Vector `d₀` from the first to the second terminal [length].
     distance: Vec2,
     law: DampingLaw,
     range: Option<LawRange>,
     released: Option<DampingLaw>,
     rate_history: RateHistory,
-    /// Relative velocity `Δd/Δt` in the previous step [length/time].
     last_velocity: Vec2,
-    /// Largest term in the sum for the rate at the start of the step [length/time]. It determines the rounding error of the rate.
     speed: f64,
     force: MixedForce,
-    /// Force on the second terminal in the last evaluation [force].
     applied_force: Vec2,
     linearised: DamperTrial,
     dissipated: f64,
@@ -52,14 +38,10 @@ pub struct PointDamper {
 
 #[derive(Debug, Clone, Copy)]
 struct DamperTrial {
-    /// Unit vector `e` of the force direction.
     direction: Vec2,
-    /// Rate `e·v` [length/time].
     rate: f64,
     target: ForceTarget,
-    /// Derivative of the rate with respect to `Δd` [1/time].
     rate_by_movement: Vec2,
-    /// Factor `direction_slope` in the derivative of the direction `e`: `∂e/∂Δd = (1 - e⊗e) · direction_slope` [1/length].
     direction_slope: f64,
 }
 
@@ -152,7 +134,6 @@ impl PointDamper {
         }
     }
 
-    /// Damping force for a relative velocity at the start of the step.
     fn force_at_start(&self, velocity: Vec2) -> Vec2 {
         let direction = direction(self.distance, velocity);
         direction * self.law.force(direction.dot(&velocity))
@@ -215,7 +196,6 @@ impl InternalForce for PointDamper {
         self.force.linearise(target);
         let DamperTrial { direction, rate_by_movement, direction_slope: turn, .. } = met;
         self.scatter(at.bodies, direction * target.force, out);
-        // The direction of the force rotates with the connecting line.
         let turning = self.force.force * turn;
         let terminals = || self.terminals.iter().zip([-1.0, 1.0]);
         for (to, sign) in terminals() {

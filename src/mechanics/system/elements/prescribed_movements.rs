@@ -1,17 +1,6 @@
 //! Prescribed motions of supported degrees of freedom: increments in a step, and work and impulse of the drives.
 //!
-//! Let `v` be the rates and `v̄` their mean over a step. At prescribed degrees of freedom, they are derivatives of the prescribed functions.
-//! Let `ε = Δx - Δt v̄` be the difference between a prescribed increment and its mean rate times `Δt`.
-//! The difference `ε` is of third order in `Δt`, and zero for unknowns.
-//! The proofs for the energy–momentum step give the exact changes of energy, momentum and angular momentum:
-//!
-//! ```text
-//! energy:            ΔE = Σ R·Δx - Σ ε·M Δv/Δt with the reactions R
-//! momentum:          Δp = Δt Σ R
-//! angular momentum:  ΔL = Δt Σ x̄ × R + Σ ε × M v̄
-//! ```
-//!
-//! The sums extend over the prescribed degrees of freedom and give the work, impulse and angular impulse of the drives.
+//! Work and impulses of the drives follow from the exact changes of energy and momenta in a step (docs/theory.md, section 9.5).
 
 mod at_rest;
 
@@ -50,13 +39,11 @@ struct PresentMotion {
     check: Option<ScheduleCheck>,
     /// Reaction [force, force·length]. A moment is conjugate to the angle.
     reaction: StepMean<f64>,
-    /// Product `M Δv` of the inertia and the change of the rate in the completed step [force·time, force·length·time].
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
     /// Displacement on the way to `goal` that has already been applied [length, rad].
     placed: f64,
-    /// Momentum `M v̄` of the control point in the completed step, with the mean rates `v̄` [mass·length/time].
     momentum: Vec2,
 }
 
@@ -81,7 +68,7 @@ pub struct DriveState {
     pub moment: f64,
 }
 
-/// Ratio `Δω/Δθ` of a rotation increment to the rotation angle. It converts a moment conjugate to the increment into a moment conjugate to the angle.
+/// Ratio of a rotation increment to the rotation angle, which converts moments between both measures of rotation.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
@@ -102,10 +89,6 @@ pub struct PrescribedMovements {
 }
 
 impl PrescribedMovements {
-    /// Creates the prescribed degrees of freedom of drives, which are numbered after the unknowns and the constraint multipliers.
-    ///
-    /// # Errors
-    /// Returns the name of a drive whose function has no value at the start, and the reason.
     pub fn new<'d>(
         movements: Vec<PrescribedMovement>,
         drives: impl Iterator<Item = &'d Drive>,
@@ -149,8 +132,6 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Replaces the prescribed degrees of freedom by `movements` after a release. They are numbered after the `unknowns` and the multipliers.
-    /// The states of the remaining prescribed degrees of freedom are kept.
     pub fn with(self, movements: Vec<PrescribedMovement>, unknowns: usize) -> Self {
         let known = |wanted: &PrescribedMovement| {
             let mut all = self.movements.iter().zip(&self.present);
@@ -203,7 +184,6 @@ impl PrescribedMovements {
         own.map(|((movement, present), rate)| (movement.drive, present.reaction.value * rate))
     }
 
-    /// State of a drive of the scene.
     pub fn state(&self, drive: usize) -> DriveState {
         let own = self.movements.iter().zip(&self.present);
         let own = own.filter(|(movement, _)| movement.drive == drive);
@@ -304,14 +284,14 @@ impl PrescribedMovements {
         std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
-    /// Stores the entries of `M Δv` of a step for the prescribed degrees of freedom.
+    /// Stores the momentum changes of a step at the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;
         }
     }
 
-    /// Stores the entries of `M v̄` of a step for the control points of the prescribed degrees of freedom.
+    /// Stores the mean momenta of a step at the control points of the prescribed degrees of freedom.
     pub fn store_mean_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;
@@ -365,7 +345,6 @@ impl PrescribedMovements {
         sum
     }
 
-    /// Sets the reactions for a step of zero length. The reactions are the residual at the prescribed degrees of freedom [force, force·length].
     pub fn start_reactions(&mut self, residual: &[f64]) {
         for (present, reaction) in self.present.iter_mut().zip(&residual[self.first..]) {
             present.reaction = StepMean::at_start(*reaction);

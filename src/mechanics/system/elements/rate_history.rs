@@ -33,8 +33,8 @@ impl RateHistory {
 
     /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where rates are not used.
     ///
-    /// Rates are evaluated once per step. A method with forces at both ends of the step evaluates the balance at the fraction `weight` of the step.
-    /// The rate at the fraction `weight` is extrapolated from the rates at the middle of this step and of the previous step.
+    /// Rates are evaluated once per step, at the fraction `weight` of the step.
+    /// The rate is extrapolated from the mean rates of the present step and of the previous step.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

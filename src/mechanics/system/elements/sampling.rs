@@ -66,8 +66,6 @@ fn largest_force(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Adds a point to every segment of the polygon that deviates from the function by more than `allowed` at its fraction `part`.
-/// Returns the new polygon and the largest deviation.
 fn refined<E>(
     points: &[(f64, f64)],
     force: &mut impl FnMut(f64) -> Result<f64, E>,
@@ -107,7 +105,6 @@ mod tests {
             let missed = (law.force(q) - 100.0 * q - 50.0 * q * q * q).abs();
             assert!(missed < 1.2e-5, "{q}: {missed:e}");
         }
-        // The stored energy is the integral of the polygon, which is close to the integral of the function.
         let (low, high) = (law.energy(-0.2), law.energy(0.7));
         let exact = |q: f64| 50.0 * q * q + 12.5 * q * q * q * q;
         assert!((high - low - exact(0.7) + exact(-0.2)).abs() < 1e-5);

@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
 /// Difference between two quadrature rules for the mean over a step, above which the steps do not resolve a schedule.
-/// The difference is given as a fraction of the largest value of the schedule.
+/// The unit is the largest value of the schedule.
 /// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, the difference equals this constant.
 const LARGEST_MISS: f64 = 0.01;
 

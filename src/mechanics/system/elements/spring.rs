@@ -48,11 +48,11 @@ pub struct Spring {
     pub name: String,
     /// Quantity on which the forces depend.
     pub kind: SpringKind,
-    /// Force as a function of this quantity; `None` for a pure damper.
+    /// Force as a function of the length or angle; `None` for a pure damper.
     pub law: Option<SpringLaw>,
     /// Configuration of zero elongation in the law.
     pub origin: Origin,
-    /// Damping force as a function of the rate of this quantity.
+    /// Damping force as a function of the rate of the length or angle.
     pub damping: DampingLaw,
 }
 

@@ -1,13 +1,4 @@
-//! Springs and dampers in a step: forces along an elongation, as independent unknowns.
-//!
-//! ```text
-//! energy–momentum method:       F = ΔU/Δq + d(Δq/Δt) along the secant of the elongation, opposite at both ends
-//! work of this force:           F Δq = ΔU + D
-//! springs with forces at ends:  U'(q₀) and U'(q₁)
-//! dampers with forces at ends:  d(q̇) once per step, at the time and in the direction of the force balance
-//! ```
-//!
-//! Symbols: stored energy `U`, damping law `d`, and dissipated energy `D`.
+//! Springs and dampers in a step: forces along an elongation, as independent unknowns (docs/theory.md, section 9.1).
 
 mod targets;
 
@@ -30,7 +21,6 @@ use crate::system::bodies::Body;
 pub struct SpringDamper {
     name: String,
     elongation: Elongation,
-    /// Secant, slope and lag at the last linearisation, which corrections use.
     linearised: [Vec<f64>; 3],
     /// Derivative of the force with respect to the coordinates, row by row.
     tangent: Vec<f64>,
@@ -42,10 +32,9 @@ pub struct SpringDamper {
     rises: bool,
     /// Elongation changes from the initial configuration at which the stiffness jumps [length, rad].
     corners: Vec<f64>,
-    /// Elongation in the scene for which the argument of the law is zero.
+    /// Elongation for which the argument of the force law is zero [length, rad].
     offset: f64,
     ranges: [Option<LawRange>; 2],
-    /// Text of the law in the scene.
     law_text: Option<String>,
     /// Damping law `d(q̇)`.
     damping: DampingLaw,
@@ -54,10 +43,8 @@ pub struct SpringDamper {
     damper: MixedForce,
     /// Duration `Δt` of the step; infinite for increments of zero duration [time].
     duration: f64,
-    /// Duration of the last step, and the mean rate of the elongation in that step.
     last: (f64, f64),
     rotations: RotationIncrement,
-    /// Contribution from the start of the step to the force along the coordinates. The contribution from the present iterate is in `current`.
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
@@ -112,7 +99,6 @@ impl SpringDamper {
         new
     }
 
-    /// Evaluates an iterate. With a damper, the difference between its force direction and the secant is also evaluated.
     fn evaluate(&mut self, at: TrialState<'_>) {
         self.elongation.evaluate(at);
         if self.damping.is_active() {
@@ -128,7 +114,6 @@ impl SpringDamper {
         }
     }
 
-    /// Records the forces along the coordinates. `force` acts along the secant, and `damper` acts additionally along the lag.
     fn record_force(&mut self, stage: Stage, force: f64, damper: f64) {
         let Self {
             elongation: Elongation { secant, lag, .. },
@@ -218,7 +203,6 @@ impl InternalForce for SpringDamper {
         if self.damping.is_active() {
             self.elongation.scatter(&self.elongation.lag, damping.force, out);
         }
-        // Geometric terms use the force of the present iterate.
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
         let Elongation { secant, slope, secant_slope: bend, lag, lag_slope: lag_bend, .. } =
@@ -341,7 +325,6 @@ impl InternalForce for SpringDamper {
         }
     }
 
-    /// The stored energy of a released spring counts as dissipated.
     fn release(&mut self) {
         self.dissipated += self.stored();
         self.detach();

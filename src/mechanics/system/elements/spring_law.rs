@@ -38,14 +38,14 @@ pub enum SpringLaw {
 /// Mean force of a step, defined as the discrete gradient of the stored energy (Gonzalez 1996), with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeanForce {
-    /// Mean force `G = ΔU/Δq` for an elongation change `Δq`, or `U'` for zero change [force, force·length].
+    /// Change of the stored energy divided by the elongation change, or the force of the law for zero change [force, force·length].
     pub force: f64,
-    /// Derivative `∂G/∂q₁` with respect to the elongation `q₁` at the end of the step [force/length, force·length/rad].
+    /// Derivative of the mean force with respect to the elongation at the end of the step [force/length, force·length/rad].
     pub slope: f64,
 }
 
 impl SpringLaw {
-    /// The force `U'(q)` [force, force·length].
+    /// Force at an elongation [force, force·length].
     pub fn force(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {
@@ -60,7 +60,7 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness `U''(q)` [force/length, force·length/rad]. At a corner, the stiffness of the segment above the corner is returned.
+    /// Stiffness at an elongation [force/length, force·length/rad]. At a corner, the stiffness of the segment above the corner is returned.
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -150,7 +150,7 @@ impl SpringLaw {
         self.force(q).abs() <= off
     }
 
-    /// Stored energy `U(q)` [energy]. It is zero where the force is zero, or at the first point of a table whose force has no zero.
+    /// Stored energy at an elongation [energy]. It is zero where the force is zero, or at the first point of a table whose force has no zero.
     pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {
@@ -163,7 +163,7 @@ impl SpringLaw {
         }
     }
 
-    /// Work `∫ F dq` between two elongations of a table. It is summed by segments to avoid differences of large numbers.
+    /// Work between two elongations of a table, summed by segments to avoid differences of large numbers.
     fn work(&self, points: &[(f64, f64)], from: Coordinate, to: Coordinate) -> f64 {
         let rises = to.difference_from(from) >= 0.0;
         let (low, high) = if rises { (from, to) } else { (to, from) };
@@ -261,14 +261,12 @@ fn shifted(points: &[(f64, f64)], by: f64) -> Vec<(f64, f64)> {
     points.iter().map(|(q, force)| (q + by, *force)).collect()
 }
 
-/// Ends of the segment that contains an elongation or is nearest to it. At a corner, the segment above the corner is chosen.
 fn segment(points: &[(f64, f64)], q: Coordinate) -> [(f64, f64); 2] {
     let beyond = points.partition_point(|(at, _)| q.difference(*at) >= 0.0);
     let beyond = beyond.clamp(1, points.len() - 1);
     [points[beyond - 1], points[beyond]]
 }
 
-/// Zero of the straight line through two points. For a horizontal line, the abscissa of the first point is returned.
 fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
     match (f1 == f0, f1 == 0.0) {
         (true, _) => q0,
@@ -362,7 +360,6 @@ mod tests {
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
         let hardening = |q: f64| Ok::<f64, ()>(q + q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), hardening).unwrap().sharp_corners().is_empty());
-        // A zero of the stiffness is not a sharp corner either.
         let cubic = |q: f64| Ok::<f64, ()>(q * q * q);
         let waves = |q: f64| Ok::<f64, ()>((3.0 * q) - q * q * q);
         assert!(SpringLaw::sampled((-1.0, 1.0), cubic).unwrap().sharp_corners().is_empty());

@@ -72,7 +72,6 @@ impl Supports {
         })
     }
 
-    /// Impulse of the fixed supports in an impact.
     pub fn impact_exchange(&self, bodies: &[Body], impulses: &[f64]) -> WorkAndImpulse {
         self.impulse(impulses, 1.0, |body, point| bodies[body].dynamics.control_points()[point])
     }

@@ -1,9 +1,8 @@
 //! Springs of zero natural length, whose ends may coincide.
 //!
-//! A linear spring of zero natural length is a pair of springs along x and y: `U = ½ k (x² + y²)`.
-//! A single force `k ℓ` along the connecting vector would change its direction infinitely fast where the ends meet.
+//! A linear spring of zero natural length is a pair of springs along x and y.
+//! A single force along the connecting vector would change its direction infinitely fast where the ends meet.
 //! Nonlinear laws act on the length.
-//! The parallel damper uses the rate along the mean vector. The rate of the length is wrong if the ends pass through each other within a step.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};
@@ -18,14 +17,12 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Springs along x and y, or a single spring along the length, with an optional damper along the connecting vector.
 pub struct ZeroLengthSpring {
     along: Vec<SpringDamper>,
     damper: Option<PointDamper>,
 }
 
 impl ZeroLengthSpring {
-    /// Creates a linear spring [force/length] with a damper between two terminals. The last argument contains the initial positions of the terminals.
     pub fn new(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -45,7 +42,7 @@ impl ZeroLengthSpring {
     }
 
     /// Creates a spring with a law for the length, and a damper, between two terminals.
-    /// The last argument contains the initial positions of the terminals.
+    /// The initial positions of the terminals are also given [length].
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],

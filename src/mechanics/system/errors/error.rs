@@ -20,15 +20,8 @@ pub enum SystemError {
     Unnamed { kind: &'static str, name: String, reason: &'static str },
     #[error("the scene already has {} '{name}'; give this {new} another name", with_article(kind))]
     DuplicateName { kind: &'static str, new: &'static str, name: String },
-    /// The station lies outside its beam.
     #[error("station {station} is outside the length of beam '{beam}', [0, {}]", rounded(*length))]
-    StationOutside {
-        beam: String,
-        /// Requested arc length [length].
-        station: f64,
-        /// Length of the beam [length].
-        length: f64,
-    },
+    StationOutside { beam: String, station: f64, length: f64 },
     #[error("the outline of body '{body}' cannot be drawn: {reason}")]
     Outline { body: String, reason: &'static str },
     #[error("body '{body}' has no point '{point}'; it has {}", if known.is_empty() { "only its centre" } else { known })]
@@ -52,11 +45,7 @@ pub enum SystemError {
     #[error("{body} has no cross section")]
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]
-    NoInstant {
-        /// Time for which the function has no value [time].
-        time: f64,
-        reason: String,
-    },
+    NoInstant { time: f64, reason: String },
     #[error("there is no quantity '{name}' to record: {reason}")]
     NoSensor { name: String, reason: String },
     #[error("the history already has a column '{name}'; give this one another name")]
@@ -70,33 +59,15 @@ pub enum SystemError {
     #[error(
         "{object}: the elongation at index {index} of its table is {elongation}, but the previous one is {before}; elongations must increase"
     )]
-    TableOrder {
-        object: String,
-        /// Index of the point whose elongation does not increase, counted from 0.
-        index: usize,
-        /// Elongation of the rejected point of the table [length, rad].
-        elongation: f64,
-        /// Elongation of the previous point [length, rad].
-        before: f64,
-    },
+    TableOrder { object: String, index: usize, elongation: f64, before: f64 },
     #[error(
         "{joint}: its stations at {from} and {to} are {} apart, but must be at the same place at the start; move one of them", rounded(*gap)
     )]
-    OpenJoint {
-        joint: String,
-        from: String,
-        to: String,
-        /// Distance between the two connected points [length].
-        gap: f64,
-    },
+    OpenJoint { joint: String, from: String, to: String, gap: f64 },
     #[error("{joint}: {place} is already {existing}; remove one of the two joints")]
     AlreadyTied { joint: String, place: String, existing: String },
     #[error("{damper}: {active_range}")]
-    ActiveDamper {
-        damper: String,
-        /// Description of the rates at which the law adds energy, with advice for correcting it.
-        active_range: String,
-    },
+    ActiveDamper { damper: String, active_range: String },
     #[error(
         "the {component} of {place} is already prescribed by '{drive}' and cannot also be fixed; prescribe or fix each component once"
     )]
@@ -104,33 +75,15 @@ pub enum SystemError {
     #[error(
         "{drive}: the {component} of {place} is already {existing}; prescribe or fix each component once"
     )]
-    AlreadyDriven {
-        drive: String,
-        component: &'static str,
-        place: String,
-        /// The word `fixed` or `prescribed`, or another reason.
-        existing: &'static str,
-    },
+    AlreadyDriven { drive: String, component: &'static str, place: String, existing: &'static str },
     #[error(
         "{drive}: its {component} is {value} at t = 0, but must be 0: a prescribed motion is relative to the initial position"
     )]
-    DriveStart {
-        drive: String,
-        component: &'static str,
-        /// Initial value [length, rad].
-        value: f64,
-    },
+    DriveStart { drive: String, component: &'static str, value: f64 },
     #[error(
         "{drive}: its {component} jumps by {} at t = {time}, but a prescribed motion must be continuous", rounded(*jump)
     )]
-    DriveJump {
-        drive: String,
-        component: &'static str,
-        /// Time of the jump [time].
-        time: f64,
-        /// Size of the jump [length, rad].
-        jump: f64,
-    },
+    DriveJump { drive: String, component: &'static str, time: f64, jump: f64 },
     #[error("{drive}: {source}")]
     DriveValue { drive: String, source: LoadError },
     #[error("'{name}' already has a release; remove one of the two releases")]
@@ -142,19 +95,11 @@ pub enum SystemError {
     #[error(
         "{body} has the start velocity {} at its {place}, but {other}; give it a compatible start velocity", rounded(*velocity)
     )]
-    StartVelocity {
-        body: String,
-        place: String,
-        /// Start velocity of the body at this point [length/time, or 1/time for a rotation].
-        velocity: f64,
-        other: String,
-    },
+    StartVelocity { body: String, place: String, velocity: f64, other: String },
     #[error("{object}: a particle has no rotation")]
     ParticleTurned { object: String, by: Turning },
-    /// A sliding joint is invalid.
     #[error(transparent)]
     Slider(Box<SliderError>),
-    /// A track is invalid.
     #[error(transparent)]
     Track(Box<TrackError>),
     #[error("{object}: {name} is {value}, but must be {allowed}")]

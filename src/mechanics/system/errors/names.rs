@@ -12,8 +12,7 @@ const LONGEST: usize = 100;
 /// Characters with which spreadsheets recognise formulas. Names must not begin with them.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
-/// Characters that are invisible or look like ordinary letters.
-/// Unicode 16 categories in this list: invisible Cf and Mn, fillers, variation selectors, full-width forms, mathematical alphabets.
+/// Characters that are invisible or look like ordinary letters (Unicode 16).
 const INVISIBLE_OR_COPIES: [RangeInclusive<u32>; 14] = [
     0xAD..=0xAD,
     0x34F..=0x34F,

@@ -66,14 +66,7 @@ pub enum SliderError {
         "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
         parts.slider, parts.slave, parts.guide
     )]
-    Open {
-        parts: SliderParts,
-        from: String,
-        to: String,
-        /// Distance between the two points [length].
-        gap: f64,
-        nearest: Approach,
-    },
+    Open { parts: SliderParts, from: String, to: String, gap: f64, nearest: Approach },
     #[error(
         "slider '{}': {} already slides on the {}; remove one of the two sliders",
         _0.slider, _0.slave, _0.guide
@@ -85,24 +78,11 @@ pub enum SliderError {
     )]
     AlreadyJoined(SliderParts),
     #[error("slider '{}': the {rule} rule is available for single beams only: at the seams of the {} {behaviour}", parts.slider, parts.guide)]
-    RuleOfOneBeam {
-        parts: SliderParts,
-        rule: &'static str,
-        /// Behaviour at seams under the selected sliding rule.
-        behaviour: &'static str,
-    },
+    RuleOfOneBeam { parts: SliderParts, rule: &'static str, behaviour: &'static str },
     #[error("slider '{slider}': restitution is {restitution}, but must be from 0 to 1")]
-    Restitution {
-        slider: String,
-        /// Rejected coefficient [-].
-        restitution: f64,
-    },
+    Restitution { slider: String, restitution: f64 },
     #[error("slider '{slider}': friction is {friction}, but must be zero or more")]
-    Friction {
-        slider: String,
-        /// Rejected coefficient [-].
-        friction: f64,
-    },
+    Friction { slider: String, friction: f64 },
     #[error(
         "slider '{slider}': friction is available with the conserving rule only, not with the {rule} rule"
     )]
@@ -113,20 +93,11 @@ pub enum SliderError {
         "slider '{}': {} is {} away from the {}, but not on its {side} side; move it there or choose the other side",
         parts.slider, parts.slave, rounded(*gap), parts.guide
     )]
-    OtherSide {
-        parts: SliderParts,
-        side: &'static str,
-        /// Distance from the axis [length].
-        gap: f64,
-    },
+    OtherSide { parts: SliderParts, side: &'static str, gap: f64 },
     #[error(
         "slider '{slider}': at the start its point moves across its beam with a velocity of {}", rounded(*speed)
     )]
-    LeavesMaster {
-        slider: String,
-        /// Velocity of the slave relative to the master, in the direction across the master [length/time].
-        speed: f64,
-    },
+    LeavesMaster { slider: String, speed: f64 },
     #[error(
         "slider '{}': {} and its place on the {} are both fixed, so that the contact force is undetermined; remove the slider or a support",
         _0.slider, _0.slave, _0.guide

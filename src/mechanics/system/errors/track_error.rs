@@ -1,6 +1,5 @@
 //! Errors of tracks.
 
-/// Error for a track that cannot be defined.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
@@ -11,34 +10,11 @@ pub enum TrackError {
     #[error(
         "track '{track}': beam '{before}' ends at {place}, but the next beam '{next}' has its ends at {start} and {end}; consecutive beams must meet"
     )]
-    Gap {
-        track: String,
-        before: String,
-        next: String,
-        /// Description of the end of the beam before the gap.
-        place: String,
-        start: String,
-        end: String,
-    },
+    Gap { track: String, before: String, next: String, place: String, start: String, end: String },
     #[error(
         "track '{track}' is declared closed, but it ends at {place}, {gap:.3e} from its start {start}"
     )]
-    Open {
-        track: String,
-        /// Description of the end of the last beam.
-        place: String,
-        /// Description of the start of the first beam.
-        start: String,
-        /// Distance between the end of the last beam and the start of the first beam [length].
-        gap: f64,
-    },
+    Open { track: String, place: String, start: String, gap: f64 },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]
-    NotJoined {
-        track: String,
-        /// Description of the end of the first beam.
-        first_end: String,
-        /// Description of the end of the second beam.
-        other: String,
-        place: String,
-    },
+    NotJoined { track: String, first_end: String, other: String, place: String },
 }

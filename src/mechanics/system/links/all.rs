@@ -19,7 +19,6 @@ impl Links {
         Self { rigid, rollers, force_unknowns: ForceUnknowns::AtRest }
     }
 
-    /// Renumbers the force unknowns of all links and rollers. The number of a released roller is `None`.
     pub fn renumber(
         &mut self,
         rigid: impl Iterator<Item = [usize; 2]>,
@@ -44,7 +43,6 @@ impl Links {
         self.rigid.len()
     }
 
-    /// Rigid links, in the order of rigid bodies and points.
     pub fn iter(&self) -> impl Iterator<Item = &RigidLink> {
         self.rigid.iter()
     }
@@ -62,8 +60,6 @@ impl Links {
         2 * self.rigid.len() + self.rollers().count()
     }
 
-    /// Sum of the forces of the inclined rollers at the given nodes. `force` returns the force of a roller [force].
-    /// Returns `None` if the nodes have no roller.
     pub fn force_of_rollers(
         &self,
         nodes: &[(usize, usize)],
@@ -152,8 +148,6 @@ impl Links {
         }
     }
 
-    /// Adds the constraint forces to the forces on bodies. The constraint forces are contained in `unknowns`.
-    /// The arms of the constraint forces are those at the start of a step.
     pub fn transmit(&self, bodies: &Bodies, unknowns: &[f64], out: &mut [f64]) {
         for link in &self.rigid {
             let force = Vec2::new(unknowns[link.unknowns[0]], unknowns[link.unknowns[1]]);

@@ -1,13 +1,7 @@
-//! Inclined roller in a step: a point on a straight line, with a constraint force across the line.
+//! Inclined roller in a step: a point on a straight line, with a constraint force across the line (docs/theory.md, section 9.5).
 //!
-//! ```text
-//! constraint:          n·Δx = 0 with the unit normal n of the line
-//! force on the point:  -λ n
-//! ```
-//!
-//! The equation is linear in the increments. Hence the force `-λ n` does no work in any increment that satisfies the equation.
-//! The impulse `-Δt λ n` of the roller acts at the mean position of the point, like impulses of other supports.
-//! For methods with `v1 = 2 Δx/Δt - v0`, all velocities are along the line if the start velocity is along the line.
+//! The constraint force does no work in any increment that satisfies the constraint.
+//! The impulse of the roller acts at the mean position of the point, like impulses of other supports.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -18,20 +12,15 @@ use crate::system::bodies::Bodies;
 /// Point of a body constrained to a straight line.
 #[derive(Debug, Clone)]
 pub struct InclinedRoller {
-    /// Index of the joint in the scene.
     pub joint: usize,
     /// Body and control point of the constrained point.
     pub node: (usize, usize),
     /// Force unknown; `None` after a release.
     pub unknown: Option<usize>,
-    /// Unit normal `n` [-].
     normal: Vec2,
-    /// Initial position of the point on the line [length].
     origin: Vec2,
-    /// Scale of the violation [length]: the size of the scene plus the increments of the iterate.
     size: f64,
     movement: f64,
-    /// Multiplier `λ` of the last step or static solution [force].
     force: f64,
 }
 
@@ -64,12 +53,11 @@ impl InclinedRoller {
         self.force_of(if self.unknown.is_some() { self.force } else { 0.0 })
     }
 
-    /// Multiplier `λ` of the last step or static solution [force].
+    /// Multiplier of the last step or static solution [force].
     pub fn multiplier(&self) -> f64 {
         self.force
     }
 
-    /// Values of the unknowns at the degrees of freedom x and y of the point; zero at supported degrees of freedom.
     fn values_at(&self, bodies: &Bodies, values: &[f64]) -> Vec2 {
         let [x, y] = self.degrees(bodies).map(|at| values.get(at).copied().unwrap_or(0.0));
         Vec2::new(x, y)
@@ -91,7 +79,6 @@ impl InclinedRoller {
         ForceSummary { force: force.abs(), ..ForceSummary::default() }
     }
 
-    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -123,7 +110,6 @@ impl InclinedRoller {
         out[y] += force * self.normal.y;
     }
 
-    /// Constraint violation in a residual, as a fraction of the size of the scene plus the increments [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = self.unknown.map_or(0.0, |at| residual[at].abs());
         if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
@@ -161,7 +147,6 @@ impl InclinedRoller {
         }
     }
 
-    /// Calls `take` with the static stiffness of the constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
     pub fn at_rest(
         &self,
         bodies: &Bodies,
@@ -174,7 +159,6 @@ impl InclinedRoller {
         span.strains.extend([self.normal.x, self.normal.y]);
         span.stiffness.push(stiffness);
         take(&self.degrees(bodies), span);
-        // The spring has no geometric stiffness.
         span.begin(0);
         span.strains.push(1.0);
         span.stiffness.push(stiffness);

@@ -1,20 +1,7 @@
-//! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force.
+//! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force (docs/theory.md, section 9.4).
 //!
-//! ```text
-//! constraint:          Δx_p - Δx_b - χ J ā = 0
-//! arm and mean arm:    a = Λ r and ā = ½ (a0 + a1)
-//! rotation increment:  χ = 2 tan(Δθ/2)
-//! force on the point:  -λ
-//! force on the body:   λ with the moment aτ × λ
-//! arm of the force:    aτ = (1-τ) a0 + τ a1 with τ = ½ (other values for generalized-α and in statics)
-//! ```
-//!
-//! Here `x_p` is the position of the point, and `x_b` is the position of the body.
-//! The arm between both positions is `a`, with the rotation `Λ` of the body and the position `r` in the body frame.
-//! The tangent-scaled rotation increment is `χ`.
-//! Since `χ J ā = a1 - a0` holds for every increment, the point keeps its position in the body at the end of every step.
-//! With tangent-scaled increments `Δω` and `τ = ½`, the work `λ·Δx_b + (ā × λ) Δω - λ·Δx_p` of the force is zero.
-//! The sums of forces and of moments in the mean configuration are also zero.
+//! The point keeps its position in the body at the end of every step.
+//! With tangent-scaled rotation increments, the constraint force does no work in a step, and its moments balance.
 
 use std::ops::{Add, Div};
 
@@ -23,7 +10,6 @@ use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// Quantity that the force unknowns of a rigid link represent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
     /// In a step, the unknown is the impulse of the force. The value in the variant is the duration of the step [time].
@@ -33,7 +19,6 @@ pub enum ForceUnknowns {
 }
 
 impl ForceUnknowns {
-    /// Force for a value of the force unknown. The argument `last` is the force before the step or displacement [force].
     pub fn force<F>(self, last: F, unknown: F) -> F
     where
         F: Add<Output = F> + Div<f64, Output = F>,
@@ -57,7 +42,7 @@ impl ForceUnknowns {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
-    /// Fraction `τ` of the step at which the arm is evaluated [-].
+    /// Fraction of the step at which the arm is evaluated [-].
     pub fraction: f64,
 }
 
@@ -68,32 +53,24 @@ pub struct RigidLink {
     /// Control point of the linked point. The centre of mass is the first control point.
     pub point: usize,
     pub unknowns: [usize; 2],
-    /// Position of the point in the body frame [length].
     arm: Vec2,
-    /// Rotation of the body at the start of the step.
     rotation: Rotation,
-    /// Force `-λ` on the point in the last step or static solution [force].
     force: Vec2,
-    /// Scale of the violation [length]: the arm plus the increments of the iterate.
     size: f64,
 }
 
 struct Iterated {
-    /// Arm `a0` at the start of the step [length]. The next fields contain the arm at the end of the step, and the arm of the force.
     start: Vec2,
     end: Vec2,
     force_arm: Vec2,
-    /// Constraint force `λ` on the body [force].
     force: Vec2,
     /// Derivative of the force with respect to its unknown.
     fraction: f64,
-    /// Derivative `dΔθ/dΔω` of the rotation angle with respect to the rotation increment [-].
     rate: f64,
     increment: f64,
 }
 
 impl RigidLink {
-    /// Creates a rigid link from the centre of a body to its control point `point`. `angle` is the initial angle of the body [rad].
     pub fn new(body: usize, point: usize, unknowns: [usize; 2], at: [Vec2; 2], angle: f64) -> Self {
         let rotation = Rotation::by(angle);
         let [centre, end] = at;
@@ -173,7 +150,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds the derivatives of the terms of [`add`](Self::add) to the rows and columns of the unknowns.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,
@@ -193,7 +169,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds the coupling between the force unknowns and the rates at the start of a step to a mass matrix.
     pub fn add_coupling(&self, bodies: &Bodies, movements: usize, matrix: &mut BandedMatrix) {
         let arm = perpendicular(self.arm());
         self.couple(bodies, 1.0, arm, arm, movements, matrix);
@@ -223,7 +198,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds the force `λ` on the point, and the opposite force with its moment on the body, to a residual.
+    /// Adds a force on the point, and the opposite force with its moment on the body, to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: Vec2, arm: Vec2, out: &mut [f64]) {
         let ([x, y, rotation], [point_x, point_y, _]) = self.degrees(bodies);
         out[point_x] += force.x;
@@ -245,7 +220,7 @@ impl RigidLink {
         ((points[self.point] - points[0]) - self.arm()).norm()
     }
 
-    /// Centripetal acceleration `-ω² a` of the point about the centre of mass [length/time²].
+    /// Centripetal acceleration of the point about the centre of mass [length/time²].
     pub fn centripetal(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let ([.., rotation], _) = self.degrees(bodies);
         let spin = rates.get(rotation).copied().unwrap_or(0.0);
@@ -298,7 +273,6 @@ impl RigidLink {
         span.rounding_fractions.clear();
         span.rounding_fractions.push(0.0);
         take(&[point_x, point_y, x, y, rotation], span);
-        // The penalty term has no geometric stiffness.
         let own = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![stiffness],

@@ -9,7 +9,6 @@ impl Accelerated for System {
     }
 
     fn accelerations(&self) -> Option<&[f64]> {
-        // Accelerations computed before a jump are not valid after the jump.
         self.motion.accelerations.known().filter(|_| !self.step.jumps)
     }
 

@@ -5,13 +5,13 @@ use super::System;
 /// Energies of a body, including its point masses [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Kinetic energy.
+    /// Axial strain energy.
     pub kinetic: f64,
-    /// Axial strain energy, `½ ∫ EA Γ1² dX`.
+    /// Shear strain energy, including kinks under sliders.
     pub axial: f64,
-    /// Shear strain energy, `½ ∫ GA Γ2² dX`, including kinks under sliders.
+    /// Bending strain energy.
     pub shear: f64,
-    /// Bending strain energy, `½ ∫ EI κ² dX`.
+    /// Bending strain energy.
     pub bending: f64,
     /// Potential energy in gravity, relative to the origin.
     pub potential: f64,

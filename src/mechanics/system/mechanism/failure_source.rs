@@ -14,7 +14,6 @@ fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 impl System {
-    /// Object with the largest value in a part of the residual. For strain mismatches, it is the element with the largest strain mismatch.
     pub(super) fn worst_of(&self, part: ResidualPart, residual: &[f64]) -> Option<FailureSource> {
         match part {
             ResidualPart::Strain => self.worst_strain().or_else(|| self.worst_balance(residual)),
@@ -23,7 +22,6 @@ impl System {
         }
     }
 
-    /// Element whose internal force has a larger residual than all section forces; `None` if there is none.
     fn worst_strain(&self) -> Option<FailureSource> {
         let (name, missing) = self.elements.farthest()?;
         let is_worst = missing.is_nan() || missing >= self.step.summary.strain_mismatch;

@@ -102,7 +102,6 @@ impl System {
         self.stop_along(&reversed).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Removes the velocities of sliders along their masters by impulses along the masters. The work of the impulses is lost.
     fn stop_along(&mut self, stopping: &[usize]) -> Result<(), LinearError> {
         let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies)));
         let along: Vec<ImpactDirection> = along.collect();

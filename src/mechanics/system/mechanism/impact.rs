@@ -1,11 +1,8 @@
 //! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are solved together.
 //!
-//! Impulses `P` at contacts change the velocities by `M (v⁺ - v⁻) = Σ Gᵀ P`.
-//! Here `G v` is the velocity of a slave relative to the contact point of the master.
 //! An impulse at a closed contact conserves linear and angular momentum.
-//! With the relaxed sliding rule, there may be a gap between slave and master. An impulse across a gap changes the angular momentum.
-//! In an impact, `G v` is the part of the relative velocity that the steps resolve ([`Rigidity`]).
-//! The work of a contact on the bodies is `½ P (w⁻ + w⁺)`, with the relative velocities `w⁻` before and `w⁺` after the impact.
+//! With the relaxed sliding rule, an impulse across a gap changes the angular momentum.
+//! In an impact, relative velocities contain only the motion that the steps resolve ([`Rigidity`]).
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -18,22 +15,17 @@ use crate::system::elements::WorkAndImpulse;
 /// Slider, and direction of an impulse that changes its relative velocity.
 pub(super) type ImpactDirection = (usize, Vec2);
 
-/// Directions of contact impulses, and the deformations that the impact includes.
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Smallest ratio of two velocity responses to an impulse: with the included deformations, and with all deformations.
-/// Below this ratio of the two responses, the direction of the impulse counts as rigid.
+/// Smallest ratio of the velocity response to an impulse with the included deformations to the velocity response with all deformations.
+/// Bodies with a smaller ratio count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, with the resulting velocities.
 pub(super) struct ImpulseResponse {
-    /// Generalised forces `Gᵀ` of the impulse at all degrees of freedom, including the impulses of section forces.
     pub(super) forces: Vec<f64>,
-    /// Velocity changes `M⁻¹ Gᵀ` of the unknowns.
     pub(super) rates: Vec<f64>,
-    /// Indices of the nonzero entries of `forces`.
     touched: Vec<usize>,
-    /// Impulses of section forces; empty if no strain resists the impulse.
     transmitted: Vec<f64>,
 }
 
@@ -50,33 +42,33 @@ impl ImpulseResponse {
         Self { forces, rates, touched, transmitted }
     }
 
-    /// Component of velocity `G v` in the direction of the impulse, for given rates `v`.
+    /// Component of the relative velocity in the direction of the impulse, for given rates.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
     }
 }
 
-/// Impact law: condition on the impulse `P` and on the velocities `w⁻` before and `w⁺` after the impact.
+/// Impact law: condition on the impulse of a contact, and on its velocities before and after the impact.
 ///
-/// The mean velocity `w̄ = ½ (w⁻ + w⁺)` is conjugate to the impulse: the work of the impulse is `P w̄`.
-/// The velocity `u` is the mean velocity in the same impact without impulses of stops.
-/// In contrast to `w⁻`, it does not contain velocities across masters, which change their signs from step to step.
+/// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
+/// Laws of stops use the mean velocity in the same impact without stop impulses.
+/// Velocities across masters are excluded, because they change their signs from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
-    /// Condition `w⁺ = 0`, with an impulse of either sign.
+    /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
     Ends,
-    /// Condition `w̄ = 0`, with an impulse of either sign and without work.
+    /// Law of a contact whose impulse does no work, because the mean relative velocity is zero. The impulse may have either sign.
     Elastic,
-    /// Condition `0 ≤ P ⟂ w̄ ≥ 0`, without work, of a slider in contact that only pushes.
+    /// Law of a slider in contact that only pushes: a compressive impulse without work, or separation.
     Unilateral,
-    /// Condition `0 ≤ P ⟂ 2 w̄ - min(u, 0) ≥ 0` of a slider held at a stop.
+    /// Law of a slider held at a stop: a compressive impulse without rebound.
     Held,
-    /// Condition `0 ≤ P ⟂ 2 w̄ - (1 - e) min(u, 0) ≥ 0` with the coefficient of restitution `e`: a stop with compressive impulses only.
+    /// Law of a stop with the given coefficient of restitution and a compressive impulse.
     Restitution(f64),
-    /// Condition `2 w̄ = u` of a slider that comes to rest at a stop, with an impulse of either sign.
+    /// Law of a slider that comes to rest at a stop. The impulse may have either sign.
     Rest,
-    /// Condition `0 ≤ P ⟂ 2 w̄ - u - c ≥ 0` of a stop that returns its stored energy with a speed `c` [length/time].
+    /// Law of a stop that returns its stored energy with the given speed [length/time].
     StoredEnergy(f64),
 }
 
@@ -95,11 +87,10 @@ impl ImpactLaw {
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// Velocity changes `G M⁻¹ Gᵀ` in all contact directions due to unit impulses in these directions, one row per direction [1/mass].
+    /// Velocity changes in all contact directions due to unit impulses in these directions, one row per direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
-    /// Relative velocities `w⁻` before the impact [length/time].
+    /// Relative velocities before the impact [length/time].
     before: Vec<f64>,
-    /// Changes of the rates due to rigid links and jumps of prescribed rates, without contact impulses.
     change: Vec<f64>,
     /// Jumps of prescribed rates, indexed by degree of freedom; empty without jumps.
     jumps: Vec<f64>,
@@ -109,7 +100,7 @@ pub(super) struct ImpactProblem {
 pub(super) struct ImpactImpulses {
     /// Impulse in each direction [mass·length/time].
     pub(super) values: Vec<f64>,
-    /// Mean `½ (w⁻ + w⁺)` of the velocities in each direction before and after the impact [length/time].
+    /// Mean of the velocities in each direction before and after the impact [length/time].
     pub(super) mean_velocities: Vec<f64>,
 }
 
@@ -129,25 +120,20 @@ impl ImpactImpulses {
 }
 
 impl ImpactProblem {
-    /// Velocity change in a direction due to rigid links and jumps of prescribed rates, without contact impulses [length/time].
     fn by_links(&self, at: usize) -> f64 {
         self.responses[at].velocity(&self.change)
     }
 
-    /// Velocity in a direction before the impact, and its total change with the given impulses [length/time].
     pub(super) fn approach_velocities(&self, at: usize, impulses: &[f64]) -> (f64, f64) {
         let by_impulses: f64 = self.response[at].iter().zip(impulses).map(|(a, p)| a * p).sum();
         (self.before[at], self.by_links(at) + by_impulses)
     }
 
-    /// Mean of the velocities before and after the impact for the case without contact impulses [length/time].
     pub(super) fn mean_velocity(&self) -> Vec<f64> {
         let half_way = |(at, w): (usize, &f64)| w + 0.5 * self.by_links(at);
         self.before.iter().enumerate().map(half_way).collect()
     }
 
-    /// Violations of the given impact laws by the velocities that would result without contact impulses [length/time].
-    /// The laws apply to the last directions of the impact problem.
     pub(super) fn lacks(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
         let means = &self.mean_velocity()[first..];
@@ -168,8 +154,6 @@ impl ImpactProblem {
         Ok(laws.iter().enumerate().map(lack).collect())
     }
 
-    /// Means of the velocities before and after the impact if no stop acts, one for each law [length/time].
-    /// The laws apply to the last directions of the impact problem.
     pub(super) fn stop_velocities(&self, laws: &[ImpactLaw]) -> Result<Vec<f64>, LinearError> {
         let first = self.before.len() - laws.len();
         let mut means = self.mean_velocity().split_off(first);
@@ -205,7 +189,6 @@ impl ImpactProblem {
     }
 }
 
-/// Velocities in all directions due to unit impulses in these directions: `G M⁻¹ Gᵀ` [1/mass].
 fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
     let row = |answer: &ImpulseResponse| {
         answers.iter().map(|other| answer.velocity(&other.rates)).collect()
@@ -231,7 +214,7 @@ impl System {
     }
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives. Differences below `negligible` are ignored [length/time].
-    /// Without the adjustment, the difference of the velocities would alternate in sign from step to step.
+    /// If the velocities differed at the start, the sign of the difference would alternate from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -252,7 +235,7 @@ impl System {
     }
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
-    /// Without the impact, the violation of the velocity constraints would alternate in sign from step to step.
+    /// If no impact were computed, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if there was a jump.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
@@ -305,7 +288,7 @@ impl System {
         closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
     }
 
-    /// Column of `Gᵀ` for a direction: the generalised forces of a unit impulse at all degrees of freedom.
+    /// Generalised forces of a unit impulse in a direction, at all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
@@ -353,8 +336,9 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Creates the impact problem for the given directions. The velocity violation `w` of each rigid link changes by `links · w`.
-    /// With `links = -2`, the impact reverses the violation of the links, and the links do no work.
+    /// Creates the impact problem for the given directions.
+    /// The argument `links` is the factor by which the velocity violation of each rigid link changes.
+    /// A factor of -2 reverses the violations. The links then do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -363,7 +347,6 @@ impl System {
         self.impact_problem_with_jumps(met, links, Vec::new())
     }
 
-    /// Creates the impact problem with jumps of prescribed rates. Contacts and links use the mean of the rates before and after the jump.
     fn impact_problem_with_jumps(
         &mut self,
         met: &[ImpactSelection<'_>],
@@ -396,7 +379,6 @@ impl System {
         Ok(ImpactProblem { directions, responses: answers, response, before, change, jumps })
     }
 
-    /// Changes the velocities by the impulses of an impact.
     pub(super) fn apply(&mut self, problem: ImpactProblem, impulses: &[f64]) {
         let ImpactProblem { directions, responses: answers, mut change, jumps, .. } = problem;
         let most_passed_on = answers.iter().map(|answer| answer.transmitted.len()).max();
@@ -411,7 +393,7 @@ impl System {
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         change.extend(jumps.iter().skip(change.len()));
-        // The remainder of `M (v⁺ - v⁻) - Gᵀ P` at supports is the impulse of the supports.
+        // The remaining momentum change at supports is the impulse of the supports.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
         for (unknown, roller) in self.links.rollers() {
@@ -437,7 +419,6 @@ impl System {
         }
     }
 
-    /// Velocities across the masters due to unit impulses across the masters: `G M⁻¹ Gᵀ`, one row per slider [1/mass].
     pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
         let answers = self.impulse_responses(&inertia.factorise()?, &self.across());

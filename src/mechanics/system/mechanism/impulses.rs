@@ -1,14 +1,7 @@
 //! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
 //!
-//! After a step has been solved, its balance is evaluated again, without the ties of joints.
-//! In this evaluation, every control point has separate degrees of freedom.
+//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point.
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
-//!
-//! ```text
-//! balance of forces:  M (v1 - v0)/Δt + Σ share · F(stage) + G = r
-//! impulse of a step:  p1 - p0 = Δt Σ (r + loads)
-//! ```
-//!
 //! Methods that balance accelerations instead of momenta do not provide mean forces.
 
 use super::rigidity::add_transmitted_impulses;
@@ -33,14 +26,9 @@ pub struct ExchangeLedger {
 
 /// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
-    /// Degrees of freedom that are numbered separately for every control point, even if joints tie control points.
-    /// During an evaluation, the separate degrees of freedom replace the degrees of freedom of the model.
     numbers: Vec<DegreesOfFreedom>,
     /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
-    /// During an evaluation, the separately numbered force unknowns of links replace the force unknowns in the model.
     links: Vec<[usize; 2]>,
-    /// List with `None` for each inclined roller, because the forces of rollers are summed separately.
-    /// During an evaluation, the list replaces the force unknowns of rollers in the model.
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
     /// Residual of the balance, with additional space for contact equations.
@@ -48,12 +36,10 @@ pub struct Impulses {
     /// Impulses since the end of the last step [force·time, force·length·time].
     /// Impulses on control points are followed by impulses of inclined rollers.
     present: Vec<f64>,
-    /// Mean forces of the last step in the same order [force, force·length]. Before the first step, the list contains the present forces.
     means: Vec<f64>,
 }
 
 impl Impulses {
-    /// Adds the residual times a factor, and the impulses of inclined rollers, to the accumulated impulses.
     fn sum_up(&mut self, factor: f64, rollers: &[InclinedRoller], unknowns: &[f64]) {
         let movements = self.present.len() - rollers.len();
         let (present, across) = self.present.split_at_mut(movements);
@@ -90,7 +76,6 @@ impl ExchangeLedger {
 }
 
 impl System {
-    /// Enables the accumulation of impulses of joints and supports.
     pub(crate) fn accumulate_impulses(&mut self) {
         if self.exchanged.impulses.is_some() {
             return;
@@ -190,8 +175,6 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Adds the impulses of an impact.
-    /// The impulses follow from the changes of the rates, the impulses of rigid links and section forces, and the impulses on slaves.
     pub(super) fn add_impact_impulses(
         &mut self,
         change: &[f64],
@@ -213,7 +196,6 @@ impl System {
         self.exchanged.impulses = Some(impulses);
     }
 
-    /// Copies `count` values of the unknowns to the separate numbering of control points and rigid links.
     fn separate_values(&self, impulses: &mut Impulses, value: impl Fn(usize) -> f64, count: usize) {
         let Impulses { numbers, links, values, .. } = impulses;
         let of = |at: usize| if at < count { value(at) } else { 0.0 };

@@ -1,15 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
-//! ```text
-//! equation of motion:      M a + F(x) - f(t) - Gᵀ λ = r
-//! closed contact:          G a = 2 ξ̇ u·Σ B_i' v_i + ξ̇² u·Σ B_i'' x_i
-//! forces of the supports:  r, zero at unknown degrees of freedom
-//! ```
-//!
-//! If the master has a kink under a slider, the contact force `λ` follows from the kink.
-//! For every method, the computed accelerations and forces are accurate to second order, like configuration and rates at the end of a step.
-//! Accelerations and forces depend on the present state only. They are the same after a rewind, in a copy and in a simulation read from a file.
-//! Accelerations and forces contain unresolved vibrations. The mean of two consecutive steps does not contain them.
+//! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
+//! Accelerations and forces contain unresolved vibrations. The mean over two consecutive steps does not contain them.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};
@@ -25,7 +17,6 @@ use crate::system::{SliderState, SystemError};
 /// Accelerations and forces at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
-    /// Accelerations of the unknowns [length/time², 1/time²], with the forces of rigid links at their unknowns.
     accelerations: Vec<f64>,
     reactions: Reactions,
     /// Force of each slave on its master [force].

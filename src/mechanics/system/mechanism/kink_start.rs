@@ -1,8 +1,7 @@
-//! Consistent initial kinks: a kink begins with the contact force of a rigid contact at that moment.
+//! Consistent initial kinks: a kink begins with the contact force of a rigid contact at that moment (docs/theory.md, section 10.1).
 //!
-//! A kink acts like an undamped spring `GA/g` under the slider.
+//! A kink acts like an undamped spring under the slider.
 //! If the kink began without load, its force would oscillate between zero and twice the contact force.
-//! Derivation: docs/theory.md, section 10.1.
 
 use super::System;
 use super::impact::ImpactDirection;
@@ -16,9 +15,8 @@ use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
-    /// Slaves and masters are moved apart by `g a`. At ends of masters, velocities are rotated from the axis onto the kinked axis.
-    ///
-    /// If the contact forces are unknown, for example because a load has no value, kinks begin without load. The first step reports the reason.
+    /// Slaves and masters are moved apart by the displacement of their kinks. At ends of masters, velocities are rotated onto the kinked axis.
+    /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
     ///
     /// # Errors
     /// Fails if velocities after the rotation are undetermined.
@@ -30,7 +28,6 @@ impl System {
         if starting.is_empty() {
             return Ok(());
         }
-        // A contact without its kink is rigid.
         let axes: Vec<Option<KinkedAxis>> =
             starting.iter().map(|at| self.sliders[*at].exchange_kinked_axis(None)).collect();
         let now = self.instant();
@@ -84,11 +81,8 @@ impl System {
         Ok(())
     }
 
-    /// Moves slaves and masters apart by the offsets of their kinks.
-    /// The displacement with the smallest `Δq·M Δq` is used: `Δq = M⁻¹ Gᵀ P`, `G Δq = g a`.
-    /// The position with open gaps is the mean of the oscillation that an unloaded kink would cause.
-    /// Hence the mean of the later motion does not change.
-    ///
+    /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
+    /// The mean of the later motion does not change, because an unloaded kink would oscillate about the new position.
     /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {

@@ -8,13 +8,13 @@ use crate::geometry::{Vec2, larger};
 /// Energy of a mechanism by type [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// Kinetic energy `½ ∫ ρA |ẋ|² + ρI θ̇² dX`, including point masses and moving kinks under sliders [energy].
+    /// Kinetic energy, including point masses and moving kinks under sliders [energy].
     pub kinetic: f64,
-    /// Strain energy `½ ∫ Γ·CΓ + EI κ² dX`, including kinks under sliders and energy stored in stops [energy].
+    /// Strain energy, including kinks under sliders and energy stored in stops [energy].
     pub strain: f64,
     /// Potential energy of gravity, relative to the origin [energy].
     pub potential: f64,
-    /// Potential energy `Σ U` of springs and tendons.
+    /// Potential energy of springs and tendons.
     pub stored: f64,
 }
 
@@ -30,23 +30,23 @@ impl Energy {
 pub struct Measures {
     /// Time of the measures [time].
     pub time: f64,
-    /// Energy `E` by type [energy].
+    /// Energy by type [energy].
     pub energy: Energy,
-    /// Work `W` of the loads so far [energy].
+    /// Work of the loads so far [energy].
     pub work: f64,
-    /// Energy `D` dissipated by dampers and lost in impacts so far [energy].
+    /// Energy dissipated by dampers and lost in impacts so far [energy].
     pub dissipated: f64,
-    /// Linear momentum `p` [mass·length/time].
+    /// Linear momentum [mass·length/time].
     pub momentum: Vec2,
-    /// Impulse `∫ F dt` of loads, gravity and supports so far [force·time].
+    /// Impulse of loads, gravity and supports so far [force·time].
     pub impulse: Vec2,
-    /// Angular momentum `L` about the origin [mass·length²/time].
+    /// Angular momentum about the origin [mass·length²/time].
     pub angular_momentum: f64,
-    /// Angular impulse `∫ M dt` of loads, gravity and supports about the origin so far [force·length·time].
+    /// Angular impulse of loads, gravity and supports about the origin so far [force·length·time].
     pub angular_impulse: f64,
-    /// Sum `∫ |F| dt` of the magnitudes of all impulses so far, added up separately for each load and support [force·time].
+    /// Sum of the magnitudes of all impulses so far, added up separately for each load and support [force·time].
     pub gross_impulse: f64,
-    /// Sum `∫ |M| dt` of the magnitudes of all angular impulses so far, added up separately for each load and support [force·length·time].
+    /// Sum of the magnitudes of all angular impulses so far, added up separately for each load and support [force·length·time].
     pub gross_angular_impulse: f64,
     /// Largest distance between the partners of a joint [length].
     pub gap: f64,

@@ -8,7 +8,6 @@ use crate::integrators::Mechanism;
 /// Forces of joints and supports: the residuals of the balance of each control point, evaluated without joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reactions {
-    /// Residual at each degree of freedom [force, force·length]. At supported degrees of freedom, it is the support force.
     residual: Vec<f64>,
     /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
@@ -39,8 +38,6 @@ impl Reactions {
 }
 
 impl System {
-    /// Computes the forces of joints and supports.
-    /// The argument `left` contains the residuals of all control points, and `across` the multipliers of all inclined rollers.
     pub(super) fn reactions_from_residuals(&self, left: &[f64], across: &[f64]) -> Reactions {
         let mut residual = vec![0.0; self.degrees_of_freedom()];
         let mut forces = left.chunks_exact(3).map(|force| [force[0], force[1], force[2]]);
@@ -68,8 +65,6 @@ impl System {
         self.held_by(place, &given.residual, |roller| given.roller_forces[roller])
     }
 
-    /// Returns the reaction of supports and inclined rollers at a point; `None` if there is no support.
-    /// The argument `residual` contains the residual at all degrees of freedom. The callback `of_roller` returns the force of a roller.
     pub(super) fn held_by(
         &self,
         place: &BodyPoint,

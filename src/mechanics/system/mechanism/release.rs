@@ -10,14 +10,12 @@ use crate::linalg::BlockLayout;
 use crate::system::elements::{PrescribedMovement, Support, Supports};
 use crate::system::state::{StepMeasures, Unknowns};
 
-/// Numbers of all degrees of freedom of a model, and data that depend on these numbers.
+/// Numbering of the degrees of freedom of a model, and data that depend on the numbering.
 pub struct DofNumbers {
-    /// Degree of freedom of each component of each control point of each body.
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
     pub links: Vec<[usize; 2]>,
     /// Force unknowns of inclined rollers; `None` for a released roller.
     pub rollers: Vec<Option<usize>>,
-    /// Prescribed degrees of freedom, in the order of their numbers.
     pub prescribed: Vec<PrescribedMovement>,
     /// Fixed degrees of freedom, in the order of their numbers.
     pub held: Vec<Support>,

@@ -18,7 +18,7 @@ pub struct StaticForces {
     pub force: f64,
     /// Largest section moment or moment of a load [force·length].
     pub moment: f64,
-    /// Largest difference between the strains of the configuration and the strains that belong to the section forces [-].
+    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
     pub strain_mismatch: f64,
 }
 
@@ -30,7 +30,6 @@ impl System {
         self.links.begin_movement();
     }
 
-    /// Sets the displacements to zero and the contact unknowns to their last values. The contact unknowns are stored after the displacements.
     pub(crate) fn predict_unchanged(&self, unknowns: &mut [f64]) {
         unknowns.fill(0.0);
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
@@ -57,7 +56,7 @@ impl System {
         }
     }
 
-    /// Adds the internal forces with strain mismatches condensed out, minus `load_factor` times the loads.
+    /// Adds the internal forces with the section force unknowns eliminated, minus `load_factor` times the loads.
     /// Adds also the derivatives of all added forces with respect to the displacements.
     pub fn add_linearised_static_forces(
         &mut self,
@@ -76,7 +75,6 @@ impl System {
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
     }
 
-    /// Largest violation of a rigid link or contact equation in a static iterate [-]. It is a fraction of a force scale or of the lengths involved.
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
         let equations = &residual[self.unknowns.count()..];
         let relative = |off: f64| if off == 0.0 { 0.0 } else { off / force };
@@ -98,7 +96,6 @@ impl System {
         self.sliders.update_stop_contacts(&self.bodies, movements, contacts)
     }
 
-    /// Subtracts `load_factor` times loads and weight from `out`. Returns the largest force and the largest moment on a control point.
     pub(crate) fn subtract_static_loads(
         &mut self,
         movements: &[f64],

@@ -1,18 +1,6 @@
-//! Response of beams to an impulse, with only selected deformations.
+//! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The equations below give the velocity response `a` to a unit impulse `Gᵀ`, and the impulses `n` of the section forces.
-//!
-//! ```text
-//! balance of impulses:  M a + Bᵀ n = Gᵀ
-//! strains:              B a = n/(s C)
-//! resulting impulses:   f = Gᵀ - Bᵀ n
-//! velocity response:    a = M⁻¹ f
-//! ```
-//!
-//! Here `B` is the strain–rate matrix and `C` the section stiffness.
-//! For strains that steps of a length `h` resolve, `s = h²/4`; for suppressed strains, `1/s = 0`.
-//! The vector `f` is the unit impulse together with the impulses of section forces.
-//! The impulses `n` are separate unknowns and `Bᵀ n` has no resultant. Momenta are therefore conserved in spite of rounding.
+//! The impulses of section forces are separate unknowns without resultant, so momenta are conserved in spite of rounding.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
@@ -22,11 +10,11 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of weighted stiffness to inertia.
-/// Larger ratios are reduced to this value, for which the deformation is rigid to at least five digits.
+/// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
+/// With the largest ratio, the deformation is rigid to at least five digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution. Each correction multiplies the error by `MOST` times the machine precision.
+/// Smallest number of corrections of a solution.
 const CORRECTIONS: usize = 4;
 
 /// Largest number of corrections that reduce suppressed strains to zero.
@@ -49,8 +37,6 @@ pub(super) enum Deformation {
 struct StrainResistance {
     degrees: Vec<usize>,
     strain: Vec<f64>,
-    /// Resistance of the strain to an impulse: its stiffness times the integration length times `s = h²/4`, for steps of length `h`.
-    /// For a suppressed strain, the field is a penalty weight.
     weight: f64,
     is_rigid: bool,
 }
@@ -108,9 +94,6 @@ impl Rigidity {
         matrix
     }
 
-    /// Adds the impulses of section forces to a unit impulse. `factors` are the factors of the [`matrix`](Self::matrix).
-    ///
-    /// The method of multipliers reduces suppressed strains to zero (Hestenes 1969). Returns the impulses `n` of the section forces.
     pub(super) fn transmit_unit_impulse(
         &self,
         model: &mut System,
@@ -150,7 +133,6 @@ impl Rigidity {
         passed
     }
 
-    /// Adds `factor · Bᵀ n` to `out`, with the strain–rate matrix `B` and the impulses `n` of the section forces.
     fn add_transmitted(&self, passed: &[f64], factor: f64, out: &mut [f64]) {
         for (passed, StrainResistance { degrees, strain, .. }) in
             passed.iter().zip(&self.resistances)
@@ -173,7 +155,6 @@ fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResi
     with_inertia.map(|(k, m)| k / m).fold(0.0, larger)
 }
 
-/// Calls `take` for every strain with a nonzero stiffness. Arguments: degrees of freedom, coefficients, stiffness and type.
 fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], f64, StrainKind)) {
     model.each_span_of_bodies(&mut |degrees, span| {
         let rows = span.stiffness.iter().zip(&span.kinds).zip(span.strains.chunks(degrees.len()));
@@ -182,7 +163,6 @@ fn for_each_stiff_strain(model: &System, mut take: impl FnMut(&[usize], &[f64], 
     });
 }
 
-/// Adds the impulses `Bᵀ n` of section forces in an impact, in the present numbering. `passed` is empty if no strain resists the impulse.
 pub(super) fn add_transmitted_impulses(model: &System, passed: &[f64], out: &mut [f64]) {
     let mut passed = passed.iter();
     for_each_stiff_strain(model, |degrees, row, _, _| {

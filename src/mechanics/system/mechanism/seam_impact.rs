@@ -1,21 +1,9 @@
-//! Impacts of sliders at corners of a track, where they pass from beam to beam.
+//! Impacts of sliders at corners of a track, where they pass from beam to beam (docs/theory.md, section 10.3).
 //!
-//! The corner is treated as the limit of a rounded corner. Let `w` be the velocity of the slave relative to the contact point of the master.
-//! While the tangent rotates, the contact acts by impulses normal to the tangent.
-//! The impulses do no work and conserve the component of `w` along the tangent.
-//! Hence `½ w·W⁻¹w` is constant with `W = G M⁻¹ Gᵀ`, and `w` rotates with the tangent in the metric `W⁻¹`:
-//!
-//! ```text
-//! velocity after the impact:  w⁺ = w⁻ + W P
-//! impulse of the corner:      P = γ J ½ (w⁻ + w⁺)
-//! factor of the impulse:      γ = 2 tan(θ/2)/√det W
-//! ```
-//!
-//! Here `θ` is the angle between the tangents before and after the corner in the metric `W⁻¹`. The rotation consists of two parts.
-//! The first part is the rotation from the section direction on one side to the section direction on the other side.
-//! The first part rotates the velocity `G v` that the steps resolve, in one impact with all simultaneous impacts.
-//! The second part is the difference of the shear angles on both sides of the corner. It rotates the full velocity.
-//! Derivation: docs/theory.md, section 10.3.
+//! A corner is the limit of a rounded corner: the contact acts by impulses normal to the rotating tangent, which do no work.
+//! The relative velocity of the slave rotates with the tangent, in a metric that depends on the masses.
+//! The rotation consists of the rotation of the section direction and of the difference of the shear angles.
+//! For vibrations that the steps do not resolve, only the difference of the shear angles is applied.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -28,8 +16,8 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Angle below which two tangents count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Smallest determinant of the velocity response `W`, as a fraction of its squared trace.
-/// With a smaller determinant, an impulse changes the velocity in only one direction, and the velocity of the slider is not rotated.
+/// Smallest determinant of the velocity response, as a fraction of its squared trace.
+/// With a smaller determinant, an impulse changes the velocity in only one direction, and the velocity is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
@@ -79,7 +67,7 @@ impl SeamCrossings {
     }
 }
 
-/// Relative velocity of a slider due to an impulse: the symmetric matrix `W`, given by rows [1/mass].
+/// Relative velocity of a slider due to an impulse: a symmetric matrix, given by rows [1/mass].
 #[derive(Debug, Clone, Copy)]
 struct Response([Vec2; 2]);
 
@@ -100,9 +88,8 @@ impl Response {
         self.determinant() <= ONE_WAY * square(self.trace())
     }
 
-    /// Rotation angle between two velocities in the metric `W⁻¹` [rad].
+    /// Rotation angle between two velocities in the metric of the inverse velocity response [rad].
     fn angle(&self, from: Vec2, to: Vec2) -> f64 {
-        // Scalar product in the metric `W⁻¹`, times `det W`.
         let along = perpendicular(from).dot(&self.times(perpendicular(to)));
         atan2(self.determinant().sqrt() * cross(from, to), along)
     }
@@ -119,7 +106,6 @@ impl System {
         self.sliders[slider].crossed_seam_at(self.motion.time)
     }
 
-    /// Crossings of sliders that are at the seams of their tracks.
     pub(super) fn passages(&self, limits: &[MasterLimit]) -> SeamCrossings {
         let passing = limits.iter().filter_map(|&MasterLimit { slider, end }| {
             Some((slider, end, self.sliders[slider].seam(&self.bodies, end)?))
@@ -161,7 +147,6 @@ impl System {
         Ok(())
     }
 
-    /// Section directions along which a slider leaves one side of a seam and enters the other side [-].
     fn sections_at(&self, slider: usize, end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let slider = &self.sliders[slider];
         let along = |beam: usize, end: MasterEnd| {
@@ -172,7 +157,6 @@ impl System {
         Some([along(slider.connection.master, end)?, -beyond])
     }
 
-    /// Rotates the relative velocities of sliders at corners. The impact includes only the given deformations.
     pub(super) fn deflect(
         &mut self,
         corners: &[SeamCorner],
@@ -196,21 +180,14 @@ impl System {
     }
 }
 
-/// Rotates a direction by the angle between two other directions.
 fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
     direction * from.dot(&to) + perpendicular(direction) * cross(from, to)
 }
 
-/// Computes the impulses of an impact in which corners rotate the velocities of sliders.
-/// A corner has two components of impulse. All other contacts have impact laws.
-///
-/// At a corner the impulse is `P = γ J ½ (w⁻ + w⁺)`, with the velocities `w⁻` before and `w⁺` after the impact.
-/// The factor `γ` is determined so that the velocity rotates by the angle of the corner, to 1e-12 or as accurately as possible.
+/// Computes the impulses of an impact in which corners rotate the velocities of sliders (docs/theory.md, section 10.3).
+/// All contacts without a corner have impact laws.
+/// The rotation angle of each corner is reached to 1e-12, or as accurately as possible.
 /// Returns `None` if the angles are not reached in a case where sliders also strike stops.
-///
-/// For any `γ`, the impulses are the solution of a complementarity problem.
-/// The rows for corners are `cos(θ/2) √det W P - sin(θ/2) J W P = sin(θ/2) J 2 w̄`, with the mean velocity `w̄` without impulses.
-/// The solution of the complementarity problem is unique (docs/theory.md, section 10.3).
 pub(super) fn deflect_at_corners(
     problem: &ImpactProblem,
     corners: &[SeamCorner],
@@ -232,7 +209,6 @@ pub(super) fn deflect_at_corners(
         for (at, bend) in bends.iter().enumerate() {
             let [x, y] = [2 * at, 2 * at + 1];
             let (keeps, swings) = bend.row();
-            // The operator J maps (x, y) to (-y, x).
             for (row, from, sign) in [(x, y, swings), (y, x, -swings)] {
                 matrix[row] = problem.response[from].iter().map(|w| w * sign).collect();
                 matrix[row][row] += keeps;
@@ -255,7 +231,7 @@ pub(super) fn deflect_at_corners(
     Ok(last.filter(|_| !strikes).map(|impulses| problem.with_mean_velocities(impulses)))
 }
 
-/// Velocity response `W` of each slider at a corner to its own impulse.
+/// Velocity response of each slider at a corner to its own impulse.
 /// The response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
     problem: &ImpactProblem,
@@ -284,12 +260,10 @@ fn own_responses(
     (0..corners.len()).map(own).collect()
 }
 
-/// Iterative search for the factor `γ` for which the velocity of a slider at a corner rotates by the required angle.
 struct TurnSearch {
     own: Response,
     /// Required angle [rad].
     required_angle: f64,
-    /// Angle that parametrises `γ` [rad]. The next field contains the previous parameter and the error of its rotation angle.
     angle: f64,
     before: Option<(f64, f64)>,
 }
@@ -300,7 +274,6 @@ impl TurnSearch {
         Self { own: *own, required_angle, angle: required_angle, before: None }
     }
 
-    /// Returns the factors of `P` and `J W P` in the equations of the corner, where `P` is the impulse.
     fn row(&self) -> (f64, f64) {
         let (sine, cosine) = sin_cos(0.5 * self.angle);
         match self.own.is_one_way() {
@@ -309,14 +282,12 @@ impl TurnSearch {
         }
     }
 
-    /// Corrects the angle from the velocities before and after the impact. Returns true if the rotation angle is within the tolerance.
     fn correct(&mut self, before: Vec2, after: Vec2) -> bool {
         if self.own.is_one_way() || before == Vec2::zeros() {
             return true;
         }
         let off = self.own.angle(before, after) - self.required_angle;
         let slope = self.before.map(|(angle, other)| (off - other) / (self.angle - angle));
-        // The secant method is used if the estimated slope is plausible, otherwise the slope 1.
         let slope = slope.filter(|slope| SLOPES.contains(slope)).unwrap_or(1.0);
         self.before = Some((self.angle, off));
         self.angle -= off / slope;

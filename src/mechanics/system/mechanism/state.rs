@@ -30,20 +30,25 @@ impl SystemState {
         }
     }
 
-    /// Returns true if both states contain the same numbers of values and sliders.
+    /// Returns true if both states contain the same numbers of values, sliders and contacts.
     pub(crate) fn is_shaped_like(&self, other: &Self) -> bool {
-        self.numbers.len() == other.numbers.len() && self.sliders.len() == other.sliders.len()
+        self.numbers.len() == other.numbers.len()
+            && self.sliders.len() == other.sliders.len()
+            && self.contacts.len() == other.contacts.len()
     }
 
     /// Sets the state to `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders, contacts } = self;
         numbers.clear();
-        numbers.extend(from.numbers.iter().zip(change).map(|(own, by)| own + amount * by));
+        let moved = |(own, by): (&f64, &f64)| own + amount * by;
+        let (of_numbers, of_contacts) = change.split_at(from.numbers.len().min(change.len()));
+        numbers.extend(from.numbers.iter().zip(of_numbers).map(moved));
         (*trend, *knows_accelerations) = (from.prediction, from.knows_accelerations);
         sliders.clear();
         sliders.extend_from_slice(&from.sliders);
-        contacts.clone_from(&from.contacts);
+        contacts.clear();
+        contacts.extend(from.contacts.iter().zip(of_contacts).map(moved));
     }
 
     /// Writes the difference between this state and `other`, divided by `distance`, to `change`.
@@ -54,6 +59,7 @@ impl SystemState {
         };
         change.clear();
         change.extend(self.numbers.iter().zip(&other.numbers).map(per_unit));
+        change.extend(self.contacts.iter().zip(&other.contacts).map(per_unit));
     }
 
     /// Heap memory of the state [bytes].
@@ -133,7 +139,6 @@ impl System {
         if in_flight.any(|(slider, _)| slider.unilateral.is_none()) {
             return Err(refused("a slider without a side is in flight"));
         }
-        // The values of the sliders are at the end of `numbers`.
         let of_sliders = &numbers[numbers.len() - self.sliders.saved()..];
         if !self.sliders.fit(of_sliders) {
             return Err(refused("a slider is outside its beam"));

@@ -19,12 +19,12 @@ impl StaticOrder {
         self.count
     }
 
-    /// Half-bandwidth of matrices in this order.
+    /// Half-bandwidth of matrices whose unknowns have this order.
     pub fn half_bandwidth(&self) -> usize {
         self.half_bandwidth
     }
 
-    /// Position of an unknown in this order. Supported degrees of freedom follow all unknowns.
+    /// Position of an unknown in the order of unknowns. Supported degrees of freedom follow all unknowns.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {
@@ -38,7 +38,6 @@ impl StaticOrder {
         self.position.is_none()
     }
 
-    /// Converts values from this order to the order of time steps. Only the first `unknowns` entries are returned.
     pub(crate) fn to_step_order(&self, values: Vec<f64>, unknowns: usize) -> Vec<f64> {
         match &self.position {
             None => values,
@@ -48,7 +47,6 @@ impl StaticOrder {
 }
 
 impl System {
-    /// Order of the unknowns for the present configuration.
     pub(crate) fn static_order(&self) -> StaticOrder {
         let movements = self.unknowns.count();
         if self.sliders.is_empty() && self.sliders.blocks().is_none() {

@@ -12,14 +12,12 @@ pub struct StepPower {
 }
 
 impl System {
-    /// Enables the computation of powers over a step.
     pub(crate) fn enable_powers(&mut self) {
         let powers = self.works().map(|work| StepPower { power: 0.0, work });
         self.exchanged.powers = Some(powers.collect());
     }
 
-    /// Power of a drive over the last step: the mean of force times velocity and of moment times spin [energy/time]. `None` if not
-    /// [enabled](Self::enable_powers).
+    /// Power of a drive over the last step [energy/time]; `None` if powers are not enabled.
     pub(in crate::system) fn power_of_drive(&self, drive: usize) -> Option<f64> {
         Some(self.exchanged.powers.as_ref()?[drive].power)
     }
@@ -29,7 +27,6 @@ impl System {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
 
-    /// Sets the powers of drives to those of a step of zero length.
     pub(super) fn initialise_powers(&mut self) {
         let Some(powers) = &mut self.exchanged.powers else { return };
         for (drive, power) in self.supports.prescribed().powers(&self.motion.rates) {
@@ -46,7 +43,6 @@ impl System {
         self.exchanged.powers = Some(powers);
     }
 
-    /// Works since the start of all drives and of all loads, of which only named ones have an account [energy].
     fn works(&self) -> impl Iterator<Item = f64> {
         let of_load = |load: &dyn ExternalForce| load.account().map_or(0.0, |account| account.work);
         self.supports.prescribed().works().chain(self.elements.forces().map(of_load))

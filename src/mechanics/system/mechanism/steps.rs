@@ -50,7 +50,6 @@ impl System {
         self.elements.subtract_from(at, out)
     }
 
-    /// Adds the internal forces with residuals condensed out, minus `share` times the external forces, and their derivatives.
     pub(super) fn add_linearised(
         &mut self,
         stage: Stage,
@@ -77,7 +76,6 @@ impl System {
         let mut sum = self.elements.exchange(&self.bodies, duration);
         sum += self.supports.exchange(&self.bodies, residual, duration);
         for (unknown, roller) in self.links.rollers() {
-            // In a time step, the unknown of a roller is an impulse.
             let impulse = roller.force_of(increments[unknown]);
             sum +=
                 WorkAndImpulse::of(0.0, impulse, cross(roller.mean_place(&self.bodies), impulse));
@@ -85,7 +83,6 @@ impl System {
         if duration < 0.0 { sum.negated() } else { sum }
     }
 
-    /// Evaluates the entries of `M Δv` and `M v̄` for the prescribed degrees of freedom. `Δv` is the change and `v̄` the mean of the rates in a step.
     fn add_prescribed_inertia(&mut self, rates: &[f64]) {
         let Self { bodies, elements, supports, motion, step, .. } = self;
         let movements = supports.prescribed_mut();

@@ -12,13 +12,12 @@ use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
 /// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
-/// The penalty changes frequencies by a relative amount below the inverse of this number.
-/// All other stiffnesses remain resolved, because the matrices have 32 digits.
+/// The penalty stiffness changes frequencies by a relative amount below the inverse of the constant.
+/// Rounding does not affect other stiffnesses, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls `take` with the static stiffness of every span and spring, and the positions of its unknowns in `order`.
-    /// Supported degrees of freedom follow all unknowns.
+    /// Calls `take` with the static stiffness of every span and spring.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -50,8 +49,6 @@ impl System {
         power
     }
 
-    /// Calls `take` with each damped rate and its damping coefficient for small rates, in the present configuration.
-    /// The coefficient times the squared rate is the dissipated power [energy/time]. The number and order of calls do not depend on the rates.
     pub(crate) fn each_damped_rate(&self, rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         self.elements.each_damped_rate(&self.bodies, rates, take);
     }
@@ -73,8 +70,6 @@ impl System {
     }
 
     /// Calls `take` with the penalty stiffness of every rigid link and contact.
-    /// The penalty stiffness is `RIGID` times the largest stiffness at the degrees of freedom of the link or contact.
-    /// The callback `stiffness` returns the largest stiffness for a position in `order` [force/length, force·length].
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -122,7 +117,7 @@ impl System {
     }
 
     /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
-    /// The estimate is the smallest `EI`, divided by the largest `ρA` and by the fourth power of the total length of the beams.
+    /// The estimate is the smallest bending stiffness, divided by the largest mass per length and the fourth power of the total length.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
         let length: f64 = extents().map(|(_, length)| length).sum();
@@ -156,7 +151,6 @@ impl System {
     }
 }
 
-/// Wraps a callback so that it receives positions in `order` instead of numbers of unknowns.
 fn in_order<'t>(
     order: &'t StaticOrder,
     take: &'t mut dyn FnMut(&[usize], &SpanStiffness),
@@ -170,7 +164,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the stiffness `Bᵀ k B + K_g` of a span: its material part with the strain matrix `B`, and its geometric part `K_g`.
+/// Adds the material and the geometric stiffness of a span.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

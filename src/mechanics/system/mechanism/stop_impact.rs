@@ -72,8 +72,8 @@ impl System {
     }
 
     /// Returns true if the velocity of a slider at an end points beyond the end.
-    /// The velocity contains only deformations that an impact with steps of length `dt` includes [time],
-    /// and no velocities across masters, which change their signs from step to step.
+    /// The velocity contains only deformations that an impact with steps of length `dt` [time] includes.
+    /// Velocities across masters are excluded, because they change their signs from step to step.
     ///
     /// # Errors
     /// Fails if the impulse is undetermined.
@@ -159,7 +159,7 @@ impl System {
     /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
     ///
     /// Stops have the law [`ImpactLaw::Restitution`] and do no positive work.
-    /// Stops that hold sliders already have restitution zero. A corner at a seam rotates the velocity of the slider.
+    /// A stop that holds a slider has no restitution. A corner at a seam rotates the velocity of the slider.
     /// All other contacts are constraints.
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
@@ -191,7 +191,7 @@ impl System {
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
         // The first impact suppresses some deformations of the struck body.
-        // A second impact with all deformations removes the remaining velocities of sliders that come to rest.
+        // A second impact with all deformations stops the sliders that come to rest.
         let resting = [&arriving.plastic[..], &arriving.held].concat();
         if !resting.is_empty() {
             let hits = self
@@ -270,7 +270,7 @@ impl System {
         Ok(())
     }
 
-    /// Returns the energy stored in stops to the sliders that leave them.
+    /// Gives the stored energy of stops back to the sliders that leave the stops.
     /// The speeds of the sliders are proportional to the square roots of their stored energies.
     ///
     /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
@@ -319,9 +319,6 @@ impl System {
         Ok(())
     }
 
-    /// Returns the directions of all contact impulses with their laws [-].
-    /// For a slider that is held or has an impact law at a limit, the directions are along and across the master.
-    /// For any other slider on a master without a kink, the direction is across the master.
     pub(super) fn impulse_directions(
         &self,
         law: impl Fn(&Self, MasterLimit) -> Option<ImpactLaw>,

@@ -13,7 +13,7 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 /// Tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
-/// Distance from the axis below which a slider lands together with another one, as a fraction of the size of the contact.
+/// Distance from the axis below which a slider that lands starts together with another slider, as a fraction of the size of the contact.
 const TOGETHER: f64 = 1e-12;
 
 impl System {
@@ -93,7 +93,7 @@ impl System {
     }
 
     /// Ends the flight of a slider, and of all sliders that land simultaneously. The length of the steps is `dt` [time].
-    /// A slider that strikes its master bounces, or slides along it from now on. A slider beyond an end of its master passes it.
+    /// A slider that strikes its master bounces or stays in contact. A slider beyond an end of its master flies past.
     ///
     /// # Errors
     /// Fails if the impulses are undetermined.

@@ -9,8 +9,6 @@ impl System {
         self.supports().prescribed().state(drive)
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from the value of its function just after a time.
-    /// Returns the name of the drive and both positions [length, rad].
     pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }

@@ -44,7 +44,6 @@ impl SystemFeature {
         )
     }
 
-    /// Creates an omitted feature.
     pub(crate) fn omitted(name: impl Into<String>, saved: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Omitted(saved.into()) }
     }

@@ -1,7 +1,7 @@
 //! Forces transmitted by joints.
 //!
 //! A joint connects two sets of nodes at one point. The forces of other joints within one set cancel in the sum over its nodes.
-//! Hence the force of the joint on one side is the sum of the forces of joints and supports on all nodes of this side.
+//! The force of a joint on one side is the sum of the forces of joints and supports on all nodes of this side.
 //! If one side is the ground, the force on it is opposite to the force on the other side.
 //! Scenes reject redundant joints, so no other joint connects both sides.
 
@@ -62,7 +62,6 @@ impl System {
         let has_let_go = |hold: Releasable| unknowns.are_free_of(hold);
         let all = scene.joints.iter().map(|joint| Ok((joint.kind, ends(joint)?)));
         let all = all.collect::<Result<Vec<_>, SystemError>>()?;
-        // All points of a rigid body together transmit the force and moment of the joint.
         let links = self.links().iter();
         let turning = links.map(|link| (Some((link.body, 0)), Some((link.body, link.point))));
         let turning: Vec<(Node, Node)> = turning.collect();

@@ -48,7 +48,7 @@ impl System {
     /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at its start and end.
     /// In a stiff beam, the section forces may oscillate from step to step, but the mean of the section forces at start and end does not oscillate.
     ///
-    /// Forces of material damping are included. They are computed from the present rates.
+    /// The section forces include forces of material damping, which are computed from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
         let of_strains = self.bodies()[at.body].dynamics.section_forces(&at.place);
         self.with_damping(of_strains, at.body, &at.place)

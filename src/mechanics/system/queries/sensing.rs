@@ -122,7 +122,7 @@ impl System {
         }
     }
 
-    /// Angular velocity of the section at a place [1/time].
+    /// Angular velocity of the section at a point of a body [1/time].
     pub fn spin(&self, place: &BodyPoint) -> f64 {
         let [_, _, spin] = self.bodies()[place.body].at(place, self.rates());
         spin

@@ -22,7 +22,6 @@ impl System {
         self.slider(slider).held_by(self.bodies())
     }
 
-    /// Index of the present master of a slider.
     pub(crate) fn slider_beam(&self, slider: usize) -> usize {
         self.slider(slider).connection.master
     }
@@ -55,7 +54,7 @@ impl System {
     }
 
     /// Present force of the kink under a slider, if the kink follows the contact force [force].
-    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
+    /// If the kink does not follow the contact force, returns the [`contact_force`](Self::contact_force) of the slider.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
@@ -66,7 +65,7 @@ impl System {
     }
 
     /// Distance of the slave of a slider that only pushes from the axis of its master [length], positive on the side of the flight.
-    /// It is zero in contact, and `None` for a slider that never leaves its master.
+    /// The distance is zero in contact, and `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())
     }
@@ -107,7 +106,6 @@ impl System {
         self.slider(limit.slider).is_at(limit.end)
     }
 
-    /// Behaviour of a slider at the ends of its master.
     pub(crate) fn end_action(&self, slider: usize) -> EndAction {
         self.slider(slider).ends
     }

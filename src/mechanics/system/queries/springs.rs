@@ -39,7 +39,6 @@ impl System {
         })
     }
 
-    /// Overwrites `branches` with the branches of all springs whose laws have sharp corners, in the order of the scene.
     pub(crate) fn write_branches(&self, branches: &mut Vec<Branch>) {
         let all = self.elements().resistances();
         branches.clear();
@@ -68,7 +67,6 @@ impl System {
         all.filter(|(_, stiffness)| *stiffness > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Name of the element with the largest dissipation or work of the wind, and this energy [energy].
     pub(crate) fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
             |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);

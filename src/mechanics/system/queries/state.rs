@@ -17,7 +17,6 @@ impl System {
         self.bodies().iter().map(|body| body.dynamics.control_points())
     }
 
-    /// Body, control point and component (x, y or angle) of an unknown. If several components share the unknown, the first is returned.
     pub(crate) fn movement(&self, unknown: usize) -> Option<(usize, usize, usize)> {
         self.bodies().iter().enumerate().find_map(|(body, one)| {
             let all = one.degrees_of_freedom.as_flattened();

@@ -12,7 +12,6 @@ use crate::system::sensors::quantities::{
 use crate::system::{Sensor, SensorSource};
 
 impl Scene {
-    /// Sensors of all columns of a history after the standard ones, in their order. The recorded sensors are the last.
     pub(crate) fn history_sensors(&self) -> Vec<Sensor> {
         let (mut all, mut others, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for (at, slider) in self.sliders.iter().enumerate() {

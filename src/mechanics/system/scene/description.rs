@@ -371,7 +371,6 @@ impl Scene {
         }
     }
 
-    /// Description of the body with the given index in the model.
     pub(crate) fn name_of_body_at(&self, index: usize) -> String {
         let particle = index.checked_sub(self.beams.len());
         self.name_of_body(&match particle {

@@ -19,8 +19,6 @@ struct Group {
 }
 
 impl Group {
-    /// Larger of two lengths [length]. They are twice the largest distance of a point from the mean of all points, and the longest natural length.
-    /// Distances within rounding count as zero in the extent.
     fn extent(&self) -> f64 {
         let count = self.points.len().max(1) as f64;
         let centre = self.points.iter().sum::<Vec2>() / count;
@@ -62,7 +60,7 @@ impl Scene {
     }
 
     /// Rounding error of strain energies [energy].
-    /// With beams, the rounding error is `ε Σ (EA L + EI/L)`, with the machine precision `ε`, the lengths `L` and the stiffnesses `EA` and `EI`.
+    /// With beams, it is the machine precision times the sum of `EA L + EI/L` over the beams, with length `L` and stiffnesses `EA` and `EI`.
     /// Without beams, it is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
@@ -76,7 +74,6 @@ impl Scene {
         f64::EPSILON * stiffness.sum::<f64>()
     }
 
-    /// Sum over all weights, loads and spring forces in the initial configuration: force times rounding error of the position [energy].
     fn rounded_work(&self) -> f64 {
         let extent = self.extent();
         let reach = |at: &Station| extent + self.drawn_at(at).map_or(0.0, |place| place.norm());
@@ -141,7 +138,6 @@ fn natural_length(spring: &Spring) -> f64 {
     }
 }
 
-/// Particles and rigid bodies, divided into connected sets. `ties` finds the set of a body. `all` contains the data of each set.
 struct Groups {
     ties: Ties,
     all: Vec<Group>,

@@ -45,7 +45,6 @@ impl Scene {
             .chain(plain.elements.iter_mut().filter_map(Element::name_mut));
         names.for_each(String::clear);
         plain.rigid_bodies.iter_mut().for_each(|body| body.outline.clear());
-        // The order of elements of different types does not matter.
         plain.elements.sort_by_key(Element::kind);
         serde_json::to_value(plain)
     }
@@ -96,7 +95,6 @@ mod tests {
     use crate::geometry::Vec2;
     use crate::system::ParticleDefinition;
 
-    /// Scene with two particles, in a given unit of length and unit of mass.
     fn pair(place: Vec2, mass: f64, (length, unit): (f64, f64)) -> Scene {
         let mut scene = Scene::new("pair");
         for (name, at, mass) in [("a", Vec2::new(0.0, 3.0), 1.0), ("b", place, mass)] {

@@ -14,7 +14,7 @@ use crate::system::{Quantity, Sensor, SensorSource, SystemError};
 /// Word for a sensor in messages about its name.
 const COLUMN: &str = "column";
 
-/// Place of an object with its quantities. Names of sensors consist of the name of the object, the suffix of the place, a dot and the quantity.
+/// Location of an object with its quantities, as part of the names of sensors.
 struct Place<'s> {
     object: Cow<'s, str>,
     suffix: Cow<'s, str>,
@@ -23,7 +23,7 @@ struct Place<'s> {
 }
 
 impl Place<'_> {
-    /// Reason for which a name has no quantity of this place, with the names that are allowed.
+    /// Reason why a name is not a quantity of this location, with the allowed names.
     fn why_no_quantity(&self) -> String {
         let Self { object, quantities, .. } = self;
         let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();
@@ -49,7 +49,7 @@ impl Scene {
     /// Records a built-in quantity, given by its name.
     ///
     /// # Errors
-    /// Fails if the object, place or quantity does not exist, or if the quantity is recorded already.
+    /// Fails if the object, location or quantity does not exist, or if the quantity is recorded already.
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let (source, quantity) = self.find_sensor(name)?;
@@ -85,7 +85,7 @@ impl Scene {
         }
     }
 
-    /// Names of all sensors that can be recorded, except those at other places of beams than start, middle and end.
+    /// Names of all sensors that can be recorded. Of sensors along beams, only those at start, middle and end are listed.
     pub fn sensor_names(&self) -> Vec<String> {
         let places = self.places().into_iter();
         let names = places.flat_map(|Place { object, suffix, quantities, .. }| {
@@ -172,7 +172,6 @@ impl Scene {
             let rest = name.strip_prefix(known)?;
             rest.starts_with(['.', '[']).then_some(rest)
         };
-        // A name may be the beginning of another name.
         let mut places = self.places();
         let named =
             places.iter().filter_map(|place| Some((place.object.clone(), of(&place.object)?)));
@@ -210,7 +209,6 @@ impl Scene {
     }
 }
 
-/// Place at an arc length of a beam of a length, for the rest `0.5].x` of a name; `None` if the rest has no arc length on the beam.
 fn place_inside<'s>(
     object: Cow<'s, str>,
     beam: usize,

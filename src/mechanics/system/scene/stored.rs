@@ -125,7 +125,6 @@ impl TryFrom<StoredScene> for Scene {
 }
 
 impl Scene {
-    /// Adds an element from a file. The name of a load is not stored, but derived from the station of the load.
     fn add_stored_element(&mut self, element: Element) -> Result<(), SystemError> {
         match element {
             Element::PointMass(mass) => self.add_mass(mass),

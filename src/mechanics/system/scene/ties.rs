@@ -58,7 +58,6 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
         .collect();
     let driven: Vec<usize> = scene.drives.iter().map(|drive| index(&drive.station)).collect();
     let mut ties = Ties::new(1 + 3 * places.len());
-    // The angles of all points of a rigid body are equal.
     for (at, place) in places.iter().enumerate() {
         let is_own = |other: &Station| match (place.body, other.body) {
             (BodyIndex::Rigid(body, _), BodyIndex::Rigid(other, _)) => body == other,
@@ -179,7 +178,7 @@ impl Scene {
     }
 
     /// Stations that joints connect to a station in one component, including the station itself.
-    /// The second value is true if the ground fixes the component. The search ends at the ground.
+    /// Returns also true if the ground fixes the component. The search ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;
@@ -212,7 +211,6 @@ pub fn same_place(a: &Station, b: &Station, scene: &Scene) -> bool {
     a.body == b.body && (a.arc_length - b.arc_length).abs() <= 1e-10 * scene.length_at(a)
 }
 
-/// Returns true if a gap at a point of a beam of the given length is within the tolerance [length].
 pub fn is_closed(gap: f64, length: f64, at: Vec2) -> bool {
     gap <= CLOSED * (length + at.norm())
 }

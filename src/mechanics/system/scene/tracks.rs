@@ -81,7 +81,6 @@ impl Scene {
         }
     }
 
-    /// Largest number of changes of the active stop and seam contacts in the search for an equilibrium.
     pub(crate) fn most_settlings(&self) -> usize {
         let on_tracks = self.sliders.iter().filter(|slider| slider.track.is_some());
         2 * self.sliders.len()
@@ -178,7 +177,6 @@ impl Scene {
         Ok(legs)
     }
 
-    /// Next beam of a track, with its direction. If both ends of the beam touch, the track enters at the joined end.
     fn next_segment(&self, before: TrackBeam, beam: usize) -> Option<TrackBeam> {
         let ways = [TrackDirection::Forward, TrackDirection::Backward]
             .map(|heading| TrackBeam { beam, heading });

@@ -31,9 +31,9 @@ pub enum Timing {
     Instant,
     /// Mean over the last step.
     StepMean,
-    /// Mean over the last step, or value at its end, whichever the method of integration balances.
+    /// Mean over the last step or value at its end, depending on the method of integration.
     MeanOfMethod,
-    /// Mean over the last step, which the model forms on request.
+    /// Mean over the last step, which the model accumulates on request.
     SummedMean,
 }
 
@@ -129,8 +129,7 @@ pub(in crate::system) static SLIDER_FRICTION: Quantity =
 pub(in crate::system) static FLIGHT_GAP: Quantity =
     quantity("gap", "length", Present, Index(flight_gap));
 
-/// Quantities of sliders that are recorded on request: the instantaneous force on the master, and the arc length from the start of the master or
-/// track.
+/// Quantities of sliders that are recorded on request.
 pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
     quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
     quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),
@@ -212,7 +211,6 @@ fn internal_force(model: &System, at: usize) -> &dyn InternalForce {
     model.elements().internal_force(at)
 }
 
-/// Elongation of a spring and its force.
 fn spring(model: &System, at: usize) -> [f64; 2] {
     let state = internal_force(model, at).stretched();
     state.map_or([f64::NAN; 2], |state| [state.elongation, state.force])

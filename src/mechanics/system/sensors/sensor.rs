@@ -36,7 +36,7 @@ pub enum SensorSource {
     InternalForce(usize),
     /// Whole scene.
     Scene,
-    /// Caller, which provides the value after every row.
+    /// No object: the caller of the simulation provides the value after every row.
     External,
 }
 
@@ -49,7 +49,6 @@ impl Sensor {
         Self { name: format!("{object}.{}", quantity.name), source, quantity }
     }
 
-    /// Sensor of the contribution of an object to a sum of the scene.
     pub(in crate::system) fn in_sum(
         quantity: &'static Quantity,
         object: &str,
@@ -69,7 +68,7 @@ impl Sensor {
         }
     }
 
-    /// Returns true if the values are sums over the last step that the model forms on request.
+    /// Returns true if the values are means over the last step that the model accumulates on request.
     pub(crate) fn is_summed(&self) -> bool {
         self.quantity.timing == Timing::SummedMean
     }
@@ -90,7 +89,6 @@ impl Sensor {
     }
 }
 
-/// A sensor is stored by its name.
 impl Serialize for Sensor {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.can_be_stored() {

@@ -18,7 +18,6 @@ use crate::system::errors::{SliderError, SystemError};
 pub struct Sliders {
     all: Vec<SliderContact>,
     blocks: Option<BlockLayout>,
-    /// Event at which the next step has to end.
     target: Option<SliderEvent>,
 }
 
@@ -66,7 +65,6 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
     }
 
-    /// Keeps the kinks of all masters and the forces of slip constant in the next step. Returns true if this changes the equations of the next step.
     pub fn freeze_contacts(&mut self) -> bool {
         self.iter_mut().fold(false, |any, slider| slider.freeze() | any)
     }
@@ -85,7 +83,6 @@ impl Sliders {
         self.iter().for_each(|slider| slider.predict(bodies, rates, interval, unknowns));
     }
 
-    /// Adds the forces and equations of all contacts to a residual. Returns the largest contact force [force].
     pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -99,7 +96,6 @@ impl Sliders {
         })
     }
 
-    /// Adds the forces and equations of all contacts to a residual, and their derivatives to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -114,7 +110,6 @@ impl Sliders {
         }
     }
 
-    /// Predicts unchanged contact forces for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
@@ -146,7 +141,6 @@ impl Sliders {
         Ok(changed)
     }
 
-    /// Accepts the positions of sliders after a displacement between two equilibria. The caller must move the bodies before this call.
     pub fn accept_static_positions(&mut self, unknowns: &[f64]) {
         self.iter_mut().for_each(|slider| slider.accept_static_position(unknowns));
     }
@@ -155,8 +149,6 @@ impl Sliders {
         self.iter().map(SliderContact::movements_held).sum()
     }
 
-    /// Calls `take` with the static stiffness of all contacts. Rigid contacts have a penalty stiffness [force/length].
-    /// The position unknowns of sliders are stored after the degrees of freedom.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],
@@ -169,7 +161,6 @@ impl Sliders {
         }
     }
 
-    /// Largest violation of a contact equation [-]. Length equations are divided by the lengths involved; `relative` scales force equations.
     pub fn violation(&self, equations: &[f64], relative: impl Fn(f64) -> f64) -> f64 {
         self.iter().fold(0.0, |largest, slider| {
             let (length, force) = slider.violation(equations);
@@ -212,10 +203,6 @@ impl Sliders {
         furthest.or(leaves).map_or(Ok(()), Err)
     }
 
-    /// Friction transition of a slider in the attempted step.
-    /// For an end of slip, the returned distance is the velocity beyond zero at the end of the step [length/time].
-    /// If `aim` is an end of slip, the step must end at this event, and a velocity of either sign is returned.
-    /// An end of slip precedes a start of slip.
     fn friction_overshoot(&self, unknowns: &[f64], aim: Option<SliderEvent>) -> Option<Overshoot> {
         let mut starts = None;
         for (index, slider) in self.iter().enumerate() {
@@ -241,8 +228,6 @@ impl Sliders {
         starts
     }
 
-    /// Landing of a slider in the attempted step. The distance is that of the slave behind the axis, as a fraction of the size of the contact [-].
-    /// If `aim` is a landing, the step must end at this event, and a distance of either sign is returned.
     fn landing_overshoot(&self, aim: Option<SliderEvent>) -> Option<Overshoot> {
         self.iter().enumerate().find_map(|(index, slider)| {
             let event = SliderEvent::Landing(index);
@@ -254,7 +239,6 @@ impl Sliders {
         })
     }
 
-    /// Event at which the next step has to end.
     pub fn target(&self) -> Option<SliderEvent> {
         self.target
     }

@@ -20,10 +20,9 @@ pub struct ImpactBar {
 }
 
 impl ImpactBar {
-    /// Time in which the wave of an impact passes the beam [time], or the stopping time `m/(c ρA)` of a striking mass if this is shorter.
-    /// The argument `cosine` is the cosine of the angle `α` between impact and axis.
-    ///
-    /// An impact along the axis causes an axial wave, an impact across the axis a shear wave: `c² ρA = EA cos²α + GA sin²α` with the wave speed `c`.
+    /// Time in which the wave of an impact passes the beam [time], or the stopping time of a striking mass if this is shorter.
+    /// The argument `cosine` is the cosine of the angle between impact and axis.
+    /// An impact along the axis causes an axial wave, an impact across the axis a shear wave.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
         let Self { length, section } = self;
         let along = square(cosine).min(1.0);

@@ -11,7 +11,6 @@ pub struct Connection {
     pub master: usize,
     /// Index of the slave body, and index of the control point of the slave.
     pub slave: (usize, usize),
-    /// Index of the slider in the model.
     pub index: usize,
 }
 
@@ -39,7 +38,6 @@ impl Connection {
         of_master.iter().zip(on_master).for_each(|(at, force)| add(*at, force));
     }
 
-    /// Adds the contact forces on slave and master to a residual, followed by the values of the contact equations.
     pub fn add_values(
         &self,
         bodies: &[Body],
@@ -55,7 +53,6 @@ impl Connection {
         rows.iter_mut().zip(values).for_each(|(row, value)| *row += value);
     }
 
-    /// Adds the derivatives of [`add_values`](Self::add_values) with respect to the unknowns. Derivatives of the forces on the master are included.
     pub fn add_derivatives(
         &self,
         bodies: &[Body],

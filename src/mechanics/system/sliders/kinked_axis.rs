@@ -10,14 +10,14 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 const RIGID: f64 = 1e-14;
 
 /// Largest speed of a variable kink, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
-/// Near the speed of shear waves the stiffness `GA - ρA v²` is nearly zero.
+/// Near the speed of shear waves, the stiffness of the kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed of a variable kink, as a fraction of `√(GA/μρA)`. At the speed `√(GA/μρA)` the stiffness on the mesh vanishes.
+/// Largest speed of a variable kink, as a fraction of the speed at which the stiffness of the kink on the mesh vanishes.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Kink lengths near the ends are below this limit.
+/// Near the ends of a master, kinks are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
 /// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed of a variable kink.
@@ -30,27 +30,20 @@ const FROM_END: f64 = 0.01;
 /// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
 const LARGEST_START: f64 = 0.02;
 
-/// Data of the kink that the mesh of a master does not represent, shared by all sliders on the master.
 #[derive(Debug, Clone)]
 pub struct MasterKink {
-    /// Kink length `g(ξ)` [length].
     pub length: Arc<PiecewisePolynomial>,
-    /// Arc length `s(ξ)` [length].
     pub arc: Arc<PiecewisePolynomial>,
-    /// Inertia factor `μ` of a moving kink [-].
+    /// Correction factor of the kinetic energy of a moving kink [-].
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force `p`, which displaces the axis by `g p/GA` at the slider.
+/// Kink of the axis of a master under a contact force, which displaces the axis at the slider.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
-    /// Kink length `g(ξ)` of the mesh of the master [length].
     length: Arc<PiecewisePolynomial>,
-    /// Arc length `s(ξ)` of the master [length].
     arc: Arc<PiecewisePolynomial>,
-    /// Compliance `1/GA` of the master [1/force].
     compliance: f64,
-    /// Factor `μ ρA/GA` of the master [time²/length²].
     inverse_square_speed: f64,
     /// Speed above which the kink is kept constant [length/time].
     fastest: f64,
@@ -58,17 +51,11 @@ pub struct KinkedAxis {
     none: f64,
     /// Kink length below which the kink is kept constant [length].
     least: f64,
-    /// True if the kink is kept constant in the present step, because the step has no solution with a variable kink.
     is_frozen: bool,
-    /// Kink length `g` and its first and second derivatives with respect to `ξ`, at the slider [length].
     compliance_derivatives: [f64; 3],
-    /// Length of the master per unit of ξ at the slider [length].
     stretch: f64,
-    /// Duration of the step [time].
     duration: f64,
-    /// Jump `a` of the tangent of the master at the slider, as the force `p = GA a` that causes it statically [force].
     jump: Vec2,
-    /// Speed `v` of the kink along the master [length/time].
     speed: f64,
 }
 
@@ -93,7 +80,6 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts a step of a duration [time]. A kink without mass gets the rate `dξ/dt` [1/time].
     pub fn begin_step(&mut self, duration: f64, rate: f64) {
         self.duration = duration;
         if !self.is_heavy() {
@@ -122,12 +108,11 @@ impl KinkedAxis {
         speed.abs() < SLOW * self.fastest
     }
 
-    /// Rate `dξ/dt` [1/time], multiplied by the length of the master per unit of ξ [length/time].
+    /// Speed along the master that belongs to a rate of its parameter [length/time].
     pub fn speed_of(&self, rate: f64) -> f64 {
         self.stretch * rate
     }
 
-    /// Keeps the kink constant in the following steps. Returns true if this changes the equations of the next step.
     pub fn freeze(&mut self) -> bool {
         let changes = !self.is_frozen();
         self.is_frozen = true;
@@ -159,8 +144,6 @@ impl KinkedAxis {
         self.stretch = passage.at_end(&self.arc)[1];
     }
 
-    /// Accepts the state of the kink at the end of a step with a mean contact force `λ` [force], after [`accept_end`](Self::accept_end).
-    /// The jump of the tangent is stored as the force that would cause it statically. On a rigid axis, the mean force of the step is stored.
     pub fn advance(&mut self, mean: Vec2, KinkState { jump, speed }: KinkState) {
         self.jump = if self.is_compliant() { jump } else { mean };
         self.speed = speed;
@@ -189,12 +172,12 @@ impl KinkedAxis {
         (self.jump, self.speed) = (Vec2::new(x, y), speed);
     }
 
-    /// Contact force `λ = (GA - ρA v²) a` on the master [force].
+    /// Contact force on the master [force].
     pub fn force(&self) -> Vec2 {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes the force of a stop from the contact force. The stop force acts along the tangent `x'` of the axis [length].
+    /// Removes the force of a stop, which acts along the tangent of the axis, from the contact force.
     ///
     /// Within rounding of the end, the axis may be compliant. The force is then kept, because positions determine it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
@@ -203,7 +186,7 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts the kink with a contact force [force] across the tangent `x'` of the axis [length].
+    /// Starts the kink with a contact force [force] across the tangent of the axis [length].
     /// If the force is too large for a new kink, the kink starts without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
@@ -211,12 +194,11 @@ impl KinkedAxis {
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master to the speed that belongs to a rate `dξ/dt` [1/time].
+    /// Sets the speed of the kink along the master, for a rate of the parameter [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }
 
-    /// Keeps the force across a tangent `x'` of the axis [length], so that `p·x' + ½ g' |p|²/GA = 0` holds up to the third power of `p`.
     fn keep_force_across(&mut self, tangent: Vec2) {
         let along = |force: Vec2| tangent * (force.dot(&tangent) / tangent.norm_squared());
         let across = self.jump - along(self.jump);
@@ -229,21 +211,19 @@ impl KinkedAxis {
         self.compliance_derivatives[0] > self.none
     }
 
-    /// Displacement of the axis, `g p/GA` [length].
+    /// Displacement of the axis due to the kink [length].
     pub fn offset(&self) -> Vec2 {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to `ξ`.
-    /// The second value is half the product of the offset and its second derivative, `½ g g'' |p|²/GA²`.
+    /// Derivative of [`offset`](Self::offset) with respect to the parameter.
+    /// Returns also half the product of the offset and its second derivative.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
         (force * slope, 0.5 * length * bend * force.norm_squared())
     }
 
-    /// Compliance `g/GA` [length/force], followed by the derivative of [`offset`](Self::offset) with respect to `ξ` [length].
-    /// The last value is the second derivative of the energy for a constant force, `½ g'' |p|²/GA` [energy].
     pub fn static_compliance(&self) -> (f64, Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;
@@ -251,12 +231,12 @@ impl KinkedAxis {
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 
-    /// Strain energy of the kink, `½ g |p|²/GA` [energy].
+    /// Strain energy of the kink [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.jump.dot(&self.offset())
     }
 
-    /// Kinetic energy of the moving kink, `½ ρA g |a|² v²` [energy].
+    /// Kinetic energy of the moving kink [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.inverse_square_speed * self.speed * self.speed * self.energy()
     }

@@ -32,7 +32,7 @@ impl MasterEnd {
         }
     }
 
-    /// Sign of `dξ/dt` for a motion towards this end [-].
+    /// Sign of the rate of the parameter for a motion towards this end [-].
     pub(in crate::system) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,
@@ -46,7 +46,7 @@ impl MasterEnd {
 pub enum SliderState {
     /// Sliding along its master.
     Sliding,
-    /// Held at the stop at an end of its master.
+    /// State of a slider that a stop holds at an end of its master.
     Held(MasterEnd),
     /// In flight: a slider that only pushes has left its master, and can land on it.
     Separated,
@@ -98,7 +98,7 @@ pub enum SliderEvent {
     SlipEnd(usize),
     /// The slip of this slider with friction starts.
     SlipStart(usize),
-    /// This slider in flight reaches the axis of its master.
+    /// A slider in flight, given by its index, reaches the axis of its master.
     Landing(usize),
     /// The contact force of this slider, which only pushes, becomes tensile.
     TakeOff(usize),

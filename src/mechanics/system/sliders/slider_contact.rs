@@ -42,13 +42,11 @@ pub struct SliderContact {
     pub impulse: Vec2,
     /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left one.
     pub stop_left_at: f64,
-    /// True if the stop force may be tensile in the next step, because the slider has just left the stop but every step returns it to the stop.
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last attempted step.
     pub is_pulled: bool,
-    /// Parameter `ξ` of the master at the slider [-].
+    /// Parameter of the master at the slider [-].
     pub parameter: f64,
-    /// Contact unknowns of the last step: force, couple and sliding increment.
     pub unknowns: ContactUnknowns,
     /// Contact force on the master [force].
     mean_force: StepMean<Vec2>,
@@ -65,28 +63,20 @@ pub struct SliderContact {
     track: Option<Box<TrackPath>>,
     /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
-    /// Kinked axis of the master, for rules with a kink.
     kinked_axis: Option<KinkedAxis>,
     kink_at_end: KinkState,
     /// Length of the master per unit of its parameter [length].
     length: f64,
-    /// Path of zero length at the start of the step.
     start_path: ContactPath,
     path: ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, at the start of the step.
-    /// The list is empty if the control points must be read again.
     before: Vec<Vec2>,
     /// Index of the first control point in `before`.
     before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
-    /// Scale of rounding errors: length of the master plus length of the path of the slave in the iterate [length].
     size: f64,
-    /// Chord of the path in the mean configuration of the iterate, as a fraction of the length of the path.
     chord: f64,
-    /// Compressive stop force times the length of the tangent, in the iterate of a slider that is held at a stop [force·length].
     push: f64,
-    /// Compressive stop force times the length of the tangent, on the other side of the seam at which the slider is held [force·length].
     push_beyond: f64,
     /// True if the contact force pulls the slider onto the beam on the other side of the seam.
     pub crosses_seam: bool,
@@ -100,9 +90,6 @@ pub(super) const NEVER: f64 = f64::MAX;
 /// Tensile stop force that counts as zero, as a fraction of the contact force.
 const PULL: f64 = 1e-9;
 
-/// Returns true if a stop force is tensile beyond the tolerance.
-/// The argument `push` is the compressive stop force times the length of the tangent [force·length]. The contact force is `force` [force].
-/// The length of the master per unit of its parameter is `length` [length].
 pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
     push < -PULL * force * length
 }
@@ -167,13 +154,11 @@ impl SliderContact {
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
     }
 
-    /// Number of entries of the contact equations for steps in which the slider passes at most two spans of its master.
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
         CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
     }
 
-    /// Moves the slider to a position on its master, given by the parameter.
     fn set_parameter(&mut self, parameter: f64) {
         self.parameter = parameter;
         self.before.clear();
@@ -190,7 +175,6 @@ impl SliderContact {
         }
     }
 
-    /// Replaces the kinked axis of the master, and returns the previous kinked axis. Without a kinked axis the contact is rigid.
     pub fn exchange_kinked_axis(&mut self, axis: Option<KinkedAxis>) -> Option<KinkedAxis> {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
@@ -209,7 +193,6 @@ impl SliderContact {
         self.lost_energy += std::mem::take(&mut self.stop_energy);
         self.unknowns = ContactUnknowns::zeros();
         self.mean_force = StepMean::default();
-        // At an end of the master, the kink has no energy.
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
@@ -228,7 +211,7 @@ impl SliderContact {
     }
 
     /// Contact force on the master at the present time [force]. If a kink follows the force, its force is returned.
-    /// Otherwise, the mean force of the last step is returned.
+    /// If no kink follows the force, returns the mean force of the last step.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -243,7 +226,6 @@ impl SliderContact {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
 
-    /// Keeps the kink of the master and the force of slip constant in the next step. Returns true if this changes the equations of the step.
     pub fn freeze(&mut self) -> bool {
         let sliding = self.is_sliding();
         let kink = self.kinked_axis.as_mut().is_some_and(|axis| axis.freeze() && sliding);
@@ -345,7 +327,6 @@ impl SliderContact {
         }
     }
 
-    /// Adds the forces on slave and master to a residual, followed by the contact equations. Returns the contact force [force].
     pub fn add<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -363,7 +344,6 @@ impl SliderContact {
         let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
         let push = match state {
-            // A stop with an infinite tensile force releases the slider at once.
             SliderState::Held(_) if leans_on_nothing => f64::NEG_INFINITY,
             SliderState::Held(end) => contact.outward_push(end.outward()),
             SliderState::Sliding | SliderState::Separated | SliderState::Released => 0.0,
@@ -378,7 +358,7 @@ impl SliderContact {
     }
 
     /// Adds the forces and equations of the contact to a residual.
-    /// Adds their derivatives with respect to increments and contact unknowns to the tangent.
+    /// Adds the derivatives of the contact forces and equations to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],
@@ -396,7 +376,6 @@ impl SliderContact {
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
     }
 
-    /// Largest violations of the contact equations: of length equations, as a fraction of the lengths involved [-], and of force equations [force].
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
         let values = equations[self.connection.places()].iter().zip(self.units);
         values.fold((0.0, 0.0), |(length, force), (value, unit)| match unit {
@@ -405,17 +384,14 @@ impl SliderContact {
         })
     }
 
-    /// Chord of the path in the mean configuration, as a fraction of the length of the path along the master [-].
     pub fn chord(&self) -> f64 {
         if self.is_sliding() { self.chord } else { 1.0 }
     }
 
-    /// Distance of the slider beyond an end of the master for given contact unknowns, as a fraction of the parameter range [-].
     pub fn overshoot(&self, unknowns: &[f64], end: MasterEnd) -> f64 {
         self.master.overshoot(self.parameter + self.read(unknowns).increment, end)
     }
 
-    /// Evaluates the contact at the end of an accepted step. The caller must not move the bodies before this call.
     pub fn evaluate_end(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) {
         if self.active_friction().is_some() {
             let contact = self.evaluate(bodies, increments, unknowns);

@@ -8,7 +8,7 @@ use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
 /// Distance between the ends of two beams below which the ends coincide.
-/// It is a fraction of the length of the beam plus the distance from the origin.
+/// The distance is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 
 /// Beam of a track with the data of its sliders.
@@ -29,7 +29,6 @@ pub struct TrackPath {
     end: TrackEnd,
     /// Length of the track as drawn before each of its beams, followed by its total length [length].
     lengths: Arc<[f64]>,
-    /// Index of the present beam in the track.
     segment: usize,
     /// Number of passages from the last beam of a closed track to its first beam, minus the number of reverse passages.
     turns: f64,
@@ -40,7 +39,6 @@ pub struct TrackPath {
 /// Continuation of a track beyond an end of one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
-    /// Index of the next beam in the track.
     pub segment: usize,
     pub end: MasterEnd,
     turns: f64,
@@ -76,19 +74,16 @@ impl TrackPath {
         self.lengths[self.segments.len()]
     }
 
-    /// Distance along the track, for a slider after the fraction `part` of its present beam [length]. On closed tracks, completed rounds are added.
     pub fn arc_length(&self, part: f64) -> f64 {
         let leg = self.present();
         let along = leg.heading.along(leg.master.length(), part * leg.master.length());
         self.turns * self.length() + (self.lengths[self.segment] + along)
     }
 
-    /// Bases of the beams in the order of the track.
     pub fn bases(&self) -> impl Iterator<Item = &Basis> {
         self.segments.iter().map(|leg| leg.path.basis())
     }
 
-    /// Seam beyond an end of the present beam; `None` if the track does not continue, or if the beams do not meet there.
     pub fn seam(&self, bodies: &[Body], end: MasterEnd) -> Option<Seam> {
         self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
@@ -123,7 +118,6 @@ impl TrackPath {
         (there - here).norm() <= SAME * (next.master.length() + here.norm())
     }
 
-    /// Moves the slider to the other side of a seam.
     pub fn cross_seam(&mut self, seam: Seam) {
         self.segment = seam.segment;
         self.turns += seam.turns;
@@ -176,8 +170,6 @@ impl TrackPathSegment {
         }
     }
 
-    /// Derivative of the position on the beam with respect to its parameter at an end, after given increments of all bodies [length].
-    /// If `increments` is empty, the present configuration is used.
     pub fn end_tangent(&self, bodies: &[Body], increments: &[f64], end: MasterEnd) -> Vec2 {
         let (first, slopes) = &self.slopes[end as usize];
         let body = &bodies[self.beam];

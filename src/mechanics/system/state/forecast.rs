@@ -32,7 +32,6 @@ impl IncrementPrediction {
         Self { mean_rates: rates.to_vec(), prediction: Prediction::Unknown, inertia }
     }
 
-    /// Rates for the prediction of the next step. `at_start` contains the rates at the start of the step [length/time, 1/time].
     pub fn rates<'a>(&'a self, at_start: &'a [f64]) -> &'a [f64] {
         match self.prediction {
             Prediction::Unknown | Prediction::Smooth => at_start,

@@ -30,12 +30,10 @@ impl MotionState {
         }
     }
 
-    /// Starts the prediction with the present rates. Errors of predictions are measured in the norm of the diagonal inertia.
     pub fn begin(&mut self, inertia: Vec<f64>) {
         self.forecast = IncrementPrediction::new(&self.rates, inertia);
     }
 
-    /// Starts separate resolution measures for the given bodies, which are specified by index and degrees of freedom.
     pub fn measure_resolution_of(&mut self, bodies: impl Iterator<Item = (usize, Vec<usize>)>) {
         let noise = self.resolution.noise();
         self.monitored = bodies.map(|(body, at)| MonitoredBody::new(body, at, noise)).collect();
@@ -45,8 +43,6 @@ impl MotionState {
         &self.monitored
     }
 
-    /// Continues the motion with renumbered unknowns, with their rates and diagonal inertia. The accelerations are discarded.
-    /// The callback `movements` returns the degrees of freedom of a body.
     pub fn renumber(
         &mut self,
         rates: Vec<f64>,
@@ -88,7 +84,6 @@ impl MotionState {
         self.accelerations.mark_unknown();
     }
 
-    /// Selected rates for the prediction. This selection is the only part of the state that is not a number.
     pub fn trend(&self) -> Prediction {
         self.forecast.trend()
     }

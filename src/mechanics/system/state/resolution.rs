@@ -6,11 +6,11 @@ use crate::elementary::square;
 /// Squared prediction errors of a step in the norm of the diagonal inertia. Each value is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GuessErrors {
-    /// Error `Σ m (v̄ - v0)²` of the rates `v0` at the start of the step, where `v̄` are the mean rates of the step [energy].
+    /// Squared difference between the mean rates of the step and the rates at its start, weighted by mass [energy].
     pub by_start: f64,
-    /// Error `Σ m (v̄ - v̄₋)²` of the mean rates `v̄₋` of the previous step, where `v̄` are the mean rates of this step [energy].
+    /// Squared difference between the mean rates of this step and the previous step, weighted by mass [energy].
     pub by_mean: f64,
-    /// Scale `Σ m v̄²` of the errors, with the mean rates `v̄` of the step [energy].
+    /// Squared mean rates of the step, weighted by mass [energy].
     pub motion: f64,
 }
 
@@ -25,26 +25,18 @@ impl GuessErrors {
 /// Relative difference of two step lengths, below which they count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
-/// Measures of the temporal resolution of the motion in the steps so far. They are part of the state, so that undone steps are not included.
-///
-/// In each step of length `h` of the energy–momentum method, a vibration `v = a cos ωt` advances by a phase `φ` with `tan(φ/2) = ω h/2`.
-/// Averaged over the phases, `Σ m v̄² = ½ m a² cos²(φ/2)`, `S = Σ m (v̄ - v0)² = ½ m a² sin²(φ/2)` and `M = Σ m (v̄ - v̄₋)² = ½ m a² sin²φ`.
-/// Hence `S - M/4 = ½ m a² sin⁴(φ/2)` is the energy of unresolved motion. The contribution of resolved motion is negligible.
-/// For a motion with several frequencies, the energies of all frequencies are added (theory.md, section 13).
+/// Measures of the temporal resolution of the motion in the steps so far (docs/theory.md, section 13.3).
+/// The measures are part of the state, so that undone steps are not included.
+/// The energy of unresolved motion follows from the differences of the rates in consecutive steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// Measure of the kinetic energy: sum of `m v̄² + S` over all steps that have the same length as the previous step [energy].
     kinetic: f64,
-    /// Sum of `S - M/4` over the steps that have the same length as the previous step [energy].
     unresolved: f64,
-    /// Sum of `h² M/16` over the steps that have the same length as the previous step [energy·time²].
-    /// The squared frequency is `ω² = unresolved / bent`.
     bent: f64,
     /// Length of the last step [time].
     last: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
-    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     duration: f64,
     /// Energy below which motions are attributed to rounding [energy].
     noise: f64,
@@ -68,7 +60,6 @@ impl Resolution {
         self.noise
     }
 
-    /// Records a step or substep of a duration [time] with its prediction errors and its largest rotation increment.
     pub(super) fn add(
         &mut self,
         missed: &GuessErrors,
@@ -76,7 +67,6 @@ impl Resolution {
         increment: f64,
         rotations: RotationIncrement,
     ) {
-        // The increment is an upper bound of the angle, and is faster to compare.
         if increment > self.rotation {
             let angle = rotations.angle(increment);
             if angle > self.rotation {
@@ -93,7 +83,7 @@ impl Resolution {
         }
     }
 
-    /// Unresolved fraction of the kinetic energy, averaged over all steps [-]. For a single vibration, it is `sin⁴(φ/2)`.
+    /// Unresolved fraction of the kinetic energy, averaged over all steps [-].
     pub fn unresolved_share(&self) -> f64 {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
@@ -103,7 +93,7 @@ impl Resolution {
         self.kinetic
     }
 
-    /// Angular frequency `ω`, as a mean over all vibrations weighted by accelerations [rad/time].
+    /// Angular frequency, as a mean over all vibrations weighted by accelerations [rad/time].
     /// The frequency is exact for a single vibration, infinite if the period is lost in rounding, and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
@@ -114,7 +104,6 @@ impl Resolution {
         self.rotation
     }
 
-    /// Length of the step or substep with the largest rotation [time]; negative for a backward substep.
     pub(crate) fn turned_in(&self) -> f64 {
         self.duration
     }
@@ -144,7 +133,6 @@ impl Resolution {
 mod tests {
     use super::*;
 
-    /// Resolution after steps of the energy–momentum method, for vibrations given by mass, velocity amplitude and `ω h`.
     fn vibrating(vibrations: &[(f64, f64, f64)], steps: usize) -> Resolution {
         let mut resolution = Resolution::above(0.0);
         let mut mean: Option<Vec<f64>> = None;

@@ -7,14 +7,12 @@ use crate::integrators::Interval;
 /// Interval of the present step, and the largest forces and moments of sections, inertia, loads and contacts.
 pub struct StepMeasures {
     pub interval: Interval,
-    /// Force and moment of inertia at the start of the step: twice `M v0`, divided by the duration [force, force·length].
     pub inertia: (f64, f64),
     pub loads: (f64, f64),
     pub summary: ForceSummary,
     /// Largest contact force [force].
     pub contact: f64,
     pub rotations: RotationIncrement,
-    /// Largest arm of a rigid link [length]. The rounding errors of forces on a linked point act on its body with this arm.
     pub arm: f64,
     /// True if loads may jump at the start of the step and the method has accelerations in its state.
     pub jumps: bool,
@@ -22,7 +20,6 @@ pub struct StepMeasures {
     pub returned: f64,
     /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
-    /// `None` until a step with friction begins.
     pub inertia_solver: Option<Box<InertiaSolver>>,
     /// `None` until present forces are computed.
     pub present: Option<Box<PresentForces>>,
@@ -64,7 +61,6 @@ impl StepMeasures {
         self.summary.force + self.inertia.0 + self.loads.0 + self.contact
     }
 
-    /// Sum of the largest section, inertia and load moments, and of the moment of the largest forces at a rigid link [force·length].
     fn moment(&self) -> f64 {
         self.summary.moment + self.inertia.1 + self.loads.1 + self.arm * self.force()
     }
@@ -80,7 +76,6 @@ impl StepMeasures {
     }
 }
 
-/// Quotient of residual and scale. If the residual is zero, the quotient is zero even for a zero scale.
 fn relative(residual: f64, scale: f64) -> f64 {
     if residual == 0.0 { 0.0 } else { residual / scale }
 }

@@ -25,7 +25,6 @@ impl MonitoredBody {
         &self.resolution
     }
 
-    /// Records the increments of a step of a duration [time] and the rates at the start of the step. Called before the prediction is updated.
     pub(super) fn add(
         &mut self,
         forecast: &IncrementPrediction,

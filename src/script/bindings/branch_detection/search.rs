@@ -118,7 +118,6 @@ impl VariableFacts {
     }
 
     /// First variable in an expression with a jumping schedule whose jump times depend on a parameter.
-    /// Either the variable contains the schedule, or the expression creates the schedule from the variable.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -192,7 +191,6 @@ impl BranchSearch<'_, '_> {
         if JUMPS.contains(&sign) {
             return known.by(call.args.iter(), sign, at);
         }
-        // The call creates a closure. Its first arguments are the captured variables.
         if let Some((function, captured)) = written_within(call) {
             return self.within(&function, captured, known);
         }

@@ -134,7 +134,6 @@ fn every_number_of_arguments_that_help_allows_exists() {
                 let exists = known
                     .iter()
                     .any(|function| function.name == form.name && function.count == count)
-                    // The engine provides `print`, `debug` and `type_of` for any number of arguments.
                     || ["print", "debug", "type_of"].contains(&form.name);
                 assert!(exists, "there is no {} of {count}", form.name);
             }

@@ -64,7 +64,6 @@ pub fn evaluate_variants(
         let _within = VariantGuard::of(&family, variant);
         let given: Vec<Dynamic> = given.iter().map(|of| project(of, variant)).collect();
         match &mut receiver {
-            // Scene objects handle their variants themselves.
             Some(held) if is_thing(held) => make(Some(held), &given),
             Some(held) => {
                 let mut own = project(held, variant);
@@ -75,12 +74,10 @@ pub fn evaluate_variants(
         }
     };
     let mut results = Vec::with_capacity(family.variants());
-    // Variant 0 is evaluated last, because the variants of a scene start from its state before the call.
     for variant in (0..family.variants()).rev() {
         match at(variant) {
             Ok(made) => results.push(made),
             Err(error) if variant == 0 => return Err(error),
-            // If the call also fails in variant 0, the error in variant 0 is reported.
             Err(beside) => {
                 return Err(at(0).err().unwrap_or(beside.with_variant_context(&family, variant)));
             }

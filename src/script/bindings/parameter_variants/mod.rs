@@ -2,7 +2,7 @@
 //! If an argument of a call depends on a parameter, the call is evaluated at the parameter values, and again for every perturbed variant.
 //!
 //! Derivatives are computed from the differences between the variants.
-//! They are available for sections, loads, simulations, and functions of their results.
+//! Derivatives are available for sections, loads, simulations, and functions of their results.
 
 mod gather;
 mod lift;

@@ -12,17 +12,16 @@ use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Default perturbation, as a fraction of the parameter.
-/// The relative error of the difference quotient is about the square of this number, plus the rounding error divided by this number.
+/// The relative error of the difference quotient is about the square of the fraction, plus the rounding error divided by the fraction.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 contains their unperturbed values.
+/// Parameters of a scene. The unperturbed variant contains the given values.
 /// Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the second parameter, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
-    /// True if variants have been used. No parameter may be added after that.
+    /// True if variants have been used, so that no parameter may be added.
     is_in_use: Cell<bool>,
-    /// Script positions (line and column) of reported branches that depend on a parameter.
     reported: RefCell<BTreeSet<(usize, usize)>>,
 }
 
@@ -75,7 +74,6 @@ pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
 
-/// Marks the results of perturbed variants as unavailable, with a reason.
 pub fn set_unavailable(reason: &str) {
     LOST.set(Some(reason.into()));
 }
@@ -145,7 +143,6 @@ impl ParameterSet {
         Ok(VariantValue::new(self, values, None))
     }
 
-    /// Returns true at the first call for a position of the script.
     pub fn is_first_report(&self, line: usize, column: usize) -> bool {
         self.reported.borrow_mut().insert((line, column))
     }
@@ -164,7 +161,6 @@ impl ParameterSet {
         1 + 2 * self.parameters.borrow().len()
     }
 
-    /// Names of the parameters, with their perturbations.
     pub fn parameters(&self) -> Vec<(String, f64)> {
         let parameters = self.parameters.borrow();
         parameters.iter().map(|of| (of.name.clone(), of.distance)).collect()
@@ -179,13 +175,13 @@ impl ParameterSet {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }
 
-    /// Index of the parameter that a variant perturbs, and true for a positive perturbation; `None` for variant 0.
+    /// Index of the parameter that a variant perturbs, and true for a positive perturbation; `None` for the unperturbed variant.
     pub fn side_of_variant(variant: usize) -> Option<(usize, bool)> {
         let beside = variant.checked_sub(1)?;
         Some((beside / 2, beside % 2 == 0))
     }
 
-    /// Description of a variant, for example `EI = … + 1e-3`; empty for variant 0.
+    /// Description of a variant, for example `EI = … + 1e-3`; empty for the unperturbed variant.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
         let of =

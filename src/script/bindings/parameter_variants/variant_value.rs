@@ -17,7 +17,7 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Value in each variant, starting with variant 0. Variants that are not stored have the value of variant 0.
+    /// Value in each variant, starting with the unperturbed variant. Variants that are not stored have the value of the unperturbed variant.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }

@@ -198,8 +198,9 @@ pub const WORDS: &[ForeignName] = &[
         &["contact", "collision", "impact", "bounce", "obstacle", "collide", "bumper", "peg"],
         "scene.wall(point, normal, #{ stiffness: k }) is a floor or wall for beams, particles and \
         stations, scene.disc(centre, radius, #{ stiffness: k }) a pin or peg; a slider bounces at \
-        the ends of its beam with ends: \"bounce\"; bodies do not collide with each other",
-        &["wall", "disc", "slider", "spring"],
+        the ends of its beam with ends: \"bounce\"; scene.contact([a, b], #{ stiffness: k, \
+        radius: r }) lets bodies touch each other",
+        &["contact", "wall", "disc", "slider", "spring"],
     ),
     entry(
         &["cable", "rope", "wire", "chain", "thread", "pulley", "sheave"],

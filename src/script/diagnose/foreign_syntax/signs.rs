@@ -43,7 +43,6 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
         ("\\", "a statement continues on the next line without a sign: remove the \\"),
         ("$", "names have no $; in a text between backquotes, ${x} is the value of x"),
     ];
-    // The parser may report only the first half of an operator.
     for (sign, hint) in signs {
         let is_here = spot.word(0) == *sign;
         let halves = spot.word(0).len() < sign.len()

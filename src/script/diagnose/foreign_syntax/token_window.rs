@@ -57,10 +57,7 @@ impl<'s> TokenWindow<'s> {
             words.push(Word { text, token: token.clone(), at: *at, is_joined });
         }
         let here = found - start;
-        let gap = here.checked_sub(1).and_then(|last| {
-            // In an unclosed string, token positions need not increase.
-            program.text.get(ends[last]..ends[last + 1])
-        });
+        let gap = here.checked_sub(1).and_then(|last| program.text.get(ends[last]..ends[last + 1]));
         let gap = gap.unwrap_or_default().to_owned();
         let first = first_of_statement(&words, here);
         Self { catalog, error, words, here, first, place, gap }
@@ -71,7 +68,6 @@ impl<'s> TokenWindow<'s> {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
 
-    /// Token at the given index from the start of the statement.
     pub fn in_statement(&self, index: usize) -> &str {
         self.words.get(self.first + index).map_or("", |word| word.text.as_str())
     }
@@ -128,7 +124,6 @@ impl<'s> TokenWindow<'s> {
         self.first as isize - self.here as isize
     }
 
-    /// Token that the parser reported as missing, and the explanation by the parser.
     pub fn missing(&self) -> (&str, &str) {
         match self.error {
             ParseErrorType::MissingToken(token, why) => (token, why),
@@ -140,7 +135,6 @@ impl<'s> TokenWindow<'s> {
         self.here >= self.words.len()
     }
 
-    /// Creates an explanation for the position of the token at the given offset.
     pub fn explain(
         &self,
         from_here: isize,

@@ -1,5 +1,5 @@
 //! Outputs of the controllers of a simulation. Other simulations may share the cells of the scene that contain these outputs.
-//! Hence each simulation restores its output values before it is used.
+//! Each simulation restores the outputs of its controllers before it is used.
 
 use std::cell::RefCell;
 

@@ -20,7 +20,6 @@ use crate::system::Scene;
 pub enum RunStart {
     /// Initial state of the scene.
     Scene,
-    /// Equilibrium.
     Equilibrium(EquilibriumHandle),
     /// Saved simulation, whose start is not stored.
     Loaded,
@@ -29,9 +28,7 @@ pub enum RunStart {
 /// Discretisation of a companion run relative to the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Companion {
-    /// Ratio of the numbers of spans.
     pub span_ratio: f64,
-    /// Ratio of the step sizes, which is an integer power of two.
     pub step_ratio: f64,
 }
 
@@ -62,7 +59,6 @@ impl SimulationHandle {
         ran
     }
 
-    /// Start of the simulation.
     pub fn start(&self) -> &RunStart {
         &self.0.start
     }
@@ -76,7 +72,6 @@ impl SimulationHandle {
         self.0.sensing.all_functions()
     }
 
-    /// Scene of a companion run.
     pub fn companion_scene(&self, companion: Companion) -> Result<Scene, ScriptError> {
         let simulation = self.simulation();
         let scene = simulation.scene();
@@ -135,7 +130,7 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // The companion has changed the outputs of controllers, which it shares with this simulation. The call restores them.
+        // A companion run changes outputs of controllers that it shares with this simulation. The call restores these outputs.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)

@@ -86,7 +86,6 @@ impl Revisit {
 impl Drop for Revisit {
     fn drop(&mut self) {
         self.handle.0.simulation.swap(&self.original);
-        // The expression may have advanced the copy and called scheduled functions, so the scheduled functions are reset.
         self.handle.0.events.replace(self.events.clone());
         self.handle.0.is_ending_told.set(self.is_ending_told);
     }

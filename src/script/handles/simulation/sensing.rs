@@ -20,12 +20,10 @@ use crate::simulation::{Simulation, StepSize};
 
 pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
-    /// Number of steps at the last evaluation of the columns.
     evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
     /// Outputs of sampled controllers, by sample number. A rewind keeps the outputs up to the present time.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
-    /// Outputs of all controllers as functions of time.
     outputs: Commands,
     conditions: Vec<Condition>,
     is_looking: Cell<bool>,
@@ -48,7 +46,6 @@ impl ColumnReader {
         self.outputs.copy_from(&other.outputs);
     }
 
-    /// All script functions called between steps.
     pub(super) fn all_functions(&self) -> impl Iterator<Item = &StoredFunction> {
         let columns = self.functions.iter().map(|function| &**function);
         let conditions = self.conditions.iter().map(|condition| &*condition.function);

@@ -45,7 +45,6 @@ fn every_line_is_a_comment_or_a_whole_declaration() {
             assert!(is_declaration(line) && line.ends_with(';'), "{name}: {line}");
             let count = |letter| line.matches(letter).count();
             assert_eq!(count('('), count(')'), "{name}: {line}");
-            // Arrows and the type `?` do not occur in scripts.
             let line_of_script = Source::from(line.replace("->", "").replace('?', "unknown"));
             for (token, _) in line_of_script.tokens() {
                 assert!(!matches!(token, rhai::Token::LexError(_)), "{name}: {line}: {token}");

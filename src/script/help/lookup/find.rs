@@ -41,7 +41,6 @@ pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     if let Some(page) = page_of(&format!("std/{name}")) {
         return vec![HelpSubject::Module(page)];
     }
-    // For example, `viewer` refers to the domain `viewers`.
     let singular = |table: &&'static BindingTable| table.name.strip_suffix('s') == Some(name);
     if let Some(table) = catalog.tables().find(singular) {
         return vec![HelpSubject::Table(table)];

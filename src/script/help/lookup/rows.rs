@@ -94,7 +94,6 @@ pub fn presence(presence: Presence) -> String {
     }
 }
 
-/// Option maps allowed by a type.
 pub fn maps(kind: &Kind) -> Vec<&'static [Parameter]> {
     match kind {
         Kind::Options(keys) => vec![*keys],

@@ -125,7 +125,6 @@ fn every_name_has_a_page_that_fits() {
         assert!(!find(&catalog, name).is_empty(), "{name}");
         for width in [WIDTH, 60] {
             for line in page(&catalog, name).unwrap().plain(width).lines() {
-                // A string in a script cannot be broken.
                 let is_code = width < WIDTH && line.starts_with("    ");
                 assert!(line.chars().count() <= width || is_code, "{name}: {line}");
             }

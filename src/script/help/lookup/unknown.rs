@@ -16,7 +16,6 @@ pub struct UnknownTopic {
     pub meant: Option<&'static str>,
     /// Names with help that contain the word.
     pub related: Vec<&'static str>,
-    /// Names whose help mentions the word.
     pub mentions: Vec<&'static str>,
 }
 
@@ -25,7 +24,6 @@ impl UnknownTopic {
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
         let related = related(name, known.iter().copied());
-        // A word that is part of other names is not misspelt.
         let meant = if related.is_empty() { nearest(name, known) } else { None };
         Self { name: name.to_owned(), meant, related, mentions: mentions(catalog, name) }
     }
@@ -58,7 +56,6 @@ impl fmt::Display for UnknownTopic {
 
 fn mentions(catalog: &Catalog, word: &str) -> Vec<&'static str> {
     let word = word.trim().to_lowercase();
-    // Shorter words occur in nearly all texts.
     if word.chars().count() < 3 {
         return Vec::new();
     }

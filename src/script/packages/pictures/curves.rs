@@ -56,7 +56,6 @@ const OPTIONS: &[Parameter] =
 
 const MOST_CURVES: usize = 1000;
 
-/// Name and points of a curve.
 type Curve = (String, Vec<Point>);
 
 fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -91,7 +90,6 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
 }
 
-/// Curves with the names that the options give them.
 fn labelled(options: &Options, mut curves: Vec<Curve>) -> Result<Vec<Curve>, OptionError> {
     let labels = labels(options, curves.len())?.unwrap_or_default();
     curves.iter_mut().zip(labels).for_each(|(curve, label)| curve.0 = label);

@@ -84,7 +84,6 @@ fn is_asked(options: &Options, name: &str) -> bool {
     options.boolean(name).unwrap_or(false)
 }
 
-/// Histories with the options of their charts.
 struct HistoryCharts<'a> {
     call: &'a Call<'a, 'a>,
     options: &'a Options,
@@ -93,7 +92,6 @@ struct HistoryCharts<'a> {
 }
 
 impl HistoryCharts<'_> {
-    /// Charts of columns: one for each history, or one with shared axes.
     fn of(&self, names: &[String]) -> Result<Vec<LineChart>, ScriptError> {
         let title = self.options.optional_text("title")?;
         let chart = |of: &HistoryHandle| {

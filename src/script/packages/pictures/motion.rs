@@ -41,7 +41,6 @@ pub const MOTION: &[Parameter] = &[
     text("title").doc("title; default: the name of the simulation").optional(),
 ];
 
-/// Draws one motion, or several motions side by side.
 pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;

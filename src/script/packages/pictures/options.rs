@@ -37,7 +37,7 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 
 const DIGITS: usize = 6;
 
-/// Error of an option, in a script call or in a command at the prompt.
+/// Error in an option of a picture, which a script or a command at the prompt has given.
 pub struct OptionError {
     key: String,
     message: String,
@@ -91,7 +91,6 @@ pub fn expect_options_for_panels(options: &Options, panels: usize) -> Result<(),
     }
 }
 
-/// Applies labels, scales and limits of the options to a chart.
 pub fn with_options(options: &Options, mut chart: LineChart) -> Result<LineChart, OptionError> {
     let limits = limits(options)?;
     let is_asked = |name: &str| options.boolean(name).unwrap_or(false);

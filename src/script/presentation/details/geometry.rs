@@ -6,14 +6,12 @@ use crate::elementary::atan2;
 use crate::geometry::{Basis, Curve, KnotVector, Vec2};
 use crate::script::bindings::kind::Details;
 
-/// Summary of a vector: length and angle.
 pub fn of_vector(vector: &Vec2) -> Details {
     let angle = atan2(vector.y, vector.x);
     let angle = format!("{} rad = {}°", number(angle), number(angle.to_degrees()));
     vec![line("norm", number(vector.norm())), line("angle", angle)]
 }
 
-/// Summary of a curve: ends and curvature.
 pub fn of_curve(curve: &Curve) -> Details {
     let (start, end) = curve.domain();
     let ends = |of: &dyn Fn(f64) -> Option<String>| Some(format!("{} … {}", of(start)?, of(end)?));
@@ -33,7 +31,6 @@ pub fn of_curve(curve: &Curve) -> Details {
     lines.into_iter().chain([points]).flatten().collect()
 }
 
-/// Summary of a knot vector: basis functions and continuity.
 pub fn of_knots(knots: &KnotVector) -> Details {
     let (start, end) = knots.domain();
     let inner = Basis::BSpline(knots.clone()).continuity();

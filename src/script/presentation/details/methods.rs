@@ -29,7 +29,6 @@ pub fn of_integrator(method: &Method) -> Details {
         .collect()
 }
 
-/// Summary of a step control: tolerance and bounds.
 pub fn of_step_control(control: &StepControl) -> Details {
     let bound = |value: Option<f64>, otherwise: &str| value.map_or(otherwise.to_owned(), number);
     vec![
@@ -42,7 +41,6 @@ pub fn of_step_control(control: &StepControl) -> Details {
     ]
 }
 
-/// Summary of a sliding rule: conserved quantities and source.
 pub fn of_rule(rule: &SlidingRule) -> Details {
     let entry = rule.entry();
     let kept = [

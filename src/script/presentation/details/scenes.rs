@@ -7,7 +7,6 @@ use crate::joints::{EndAction, Slider, StartVelocities, TrackBeam, TrackDirectio
 use crate::script::bindings::kind::Details;
 use crate::system::{BeamDefinition, Scene};
 
-/// Summary of a scene: its objects by type.
 pub fn of_scene(scene: &Scene) -> Details {
     let beam = |beam: &BeamDefinition| format!("{} ({})", beam.name, number(beam.axis.length()));
     let loads: Vec<String> = scene.loads().map(|load| load.name.clone()).collect();
@@ -42,7 +41,6 @@ pub fn of_scene(scene: &Scene) -> Details {
     details
 }
 
-/// Summary of a beam: geometry, section, and supports.
 pub fn of_beam(scene: &Scene, index: usize) -> Details {
     let beam = &scene.beams[index];
     let BeamDefinition { axis, mesh, section, motion, .. } = beam;
@@ -86,7 +84,6 @@ pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Summary of a station: initial position.
 pub fn of_station(scene: &Scene, station: &Station) -> Details {
     let along = match station.body {
         BodyIndex::Beam(beam) => {

@@ -71,7 +71,6 @@ fn sliders(simulation: &Simulation) -> Details {
     lines
 }
 
-/// Summary of a history: rows, and columns by dimension.
 pub fn of_history(history: &History) -> Details {
     let samples = history.samples();
     let ends = samples.first().zip(samples.last()).map(|(a, b)| (a.measures, b.measures));

@@ -55,7 +55,6 @@ impl Context {
         self.account_for(&[])?;
         let written =
             self.output().write_by(name, |file| write(&mut CountedFile { file, context: self }));
-        // A run that must end does not write. The reason for the end is reported.
         self.proceed()?;
         Ok(self.report_kept(written?))
     }

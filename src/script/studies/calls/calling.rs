@@ -20,7 +20,6 @@ pub enum CallOutcome {
 /// Processed result of a call, with the steps of its simulations.
 pub struct CallWork<R> {
     pub result: R,
-    /// Number of simulation steps, including failed steps.
     pub steps: u64,
 }
 
@@ -86,7 +85,6 @@ pub fn thrown(error: &EvalAltResult) -> Option<String> {
     }
 }
 
-/// Reason, shortened to one line of a table.
 pub fn shortened(reason: &str) -> String {
     let line = brief(reason.replace(['\n', '\r'], " "));
     match line.char_indices().nth(LONGEST_REASON) {

@@ -29,7 +29,6 @@ pub struct FunctionQuery<'q> {
     pub names: &'q [String],
     pub function: &'q RunFunction,
     pub read: Read,
-    /// Wall-clock limit of a call.
     pub wall: Duration,
 }
 

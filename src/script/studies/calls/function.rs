@@ -20,7 +20,6 @@ pub struct RunFunction {
     pub besides: Vec<Portable>,
 }
 
-/// Error for a function that changes a captured variable.
 pub fn changes(name: &str) -> String {
     format!(
         "it changes the variable '{name}' from outside, which is separate in every run: return \
@@ -30,7 +29,7 @@ pub fn changes(name: &str) -> String {
 
 struct ParameterReading {
     names: BTreeSet<String>,
-    /// True if the map is used as a whole, so that the function may read any name.
+    /// True if the function uses its map of values as a whole, so that it may read any name.
     is_whole: bool,
 }
 
@@ -120,7 +119,6 @@ impl RunFunction {
         Some((captured, given))
     }
 
-    /// First captured variable whose value has changed.
     pub fn changed(&self, captured: &[Dynamic]) -> Option<&str> {
         let pairs = self.captured.iter().zip(captured);
         pairs.into_iter().find(|((_, was), is)| !was.is(is)).map(|((name, _), _)| name.as_str())
@@ -252,7 +250,6 @@ impl ParameterReading {
                 Some(ASTNode::Expr(Expr::Dot(of, ..) | Expr::Index(of, ..))) if is_map(&of.lhs) => {
                     name_read(&of.rhs)
                 }
-                // A closure captures the map under the same name.
                 Some(ASTNode::Expr(Expr::FnCall(made, _))) => match written_within(made) {
                     Some((within, _)) => {
                         self.read(call, &within, map);

@@ -22,9 +22,9 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// The result with this name is to be minimised.
+    /// The result with the given name is minimised.
     Least(String),
-    /// The result with this name is to be maximised.
+    /// The result with the given name is maximised.
     Largest(String),
 }
 
@@ -40,18 +40,15 @@ pub struct DesignRequest<'o> {
     pub function: &'o FnPtr,
     pub goal: Objective,
     pub limits: Vec<Limit>,
-    /// Tolerance of the parameters, as a fraction of their ranges.
     pub tolerance: f64,
     pub most_runs: usize,
     pub derivatives: Derivatives,
-    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 
 #[derive(Clone)]
 pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
-    /// Results with the best parameters.
     pub results: Vec<(String, f64)>,
     /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,
@@ -85,7 +82,6 @@ impl Limit {
             let wrong = |what: String| {
                 let message = format!("the constraint on '{name}' {what}");
                 let hint = if value.is_bool() { CONSTRAINT_HINT } else { shape };
-                // The name also occurs in the function, but the error must have the position of the option.
                 at_key(call, "constraints", message, hint)
             };
             let Some(array) = value.clone().try_cast::<Array>() else {
@@ -202,7 +198,6 @@ impl DesignRequest<'_> {
             wall: self.wall,
         };
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();
-        // The first run gives the names of the results, and reports its errors.
         let results = names(&call.context().silently(|| question.here(call, &start))?);
         let place = |name: &str| {
             results.iter().position(|known| known == name).ok_or_else(|| {

@@ -34,7 +34,6 @@ pub enum Compared {
 pub struct FitRequest<'o> {
     pub name: String,
     pub ranges: Ranges,
-    /// Option key of the function.
     pub key: &'static str,
     pub function: &'o FnPtr,
     /// Second argument of the function, if any. The first argument is the map of parameters.
@@ -46,7 +45,6 @@ pub struct FitRequest<'o> {
     /// Perturbation for finite differences, relative to the size of a parameter.
     pub step: f64,
     pub derivatives: Derivatives,
-    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 

@@ -32,7 +32,6 @@ pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
         })
     };
     if call.context().mode() == RunMode::DryRun {
-        // The signs of the results of a dry run have no meaning.
         value(from)?;
         return Ok(from.into());
     }

@@ -21,7 +21,6 @@ impl<'s> ResultScales<'s> {
 
     /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
-        // An objective that is zero in the first run has no magnitude.
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);
         self.size.set(Some(size));

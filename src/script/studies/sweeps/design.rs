@@ -133,7 +133,6 @@ impl SweepPlan {
         Ok(Self { design, levels, spread_by_ratios })
     }
 
-    /// Checksum data of the parameters and all their values.
     pub fn checksum_data(&self) -> Vec<u8> {
         let of = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
             let mut hasher = crc32fast::Hasher::new();
@@ -154,7 +153,6 @@ impl SweepPlan {
         self.spread_by_ratios.iter().any(|of| of == name)
     }
 
-    /// Values of a row, as passed to the function.
     pub fn values(&self, row: usize, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Map {
         let value = |(of, levels): (&SweptParameter, &Vec<Portable>)| {
             let level =
@@ -235,7 +233,6 @@ impl Spread {
                         *repeats /= count;
                         Choice::Grid(*repeats)
                     }
-                    // All levels have the same probability.
                     Some(points) => {
                         let level = |point: f64| ((point * count as f64) as usize).min(count - 1);
                         Choice::Drawn(points.into_iter().map(|point| level(point) as u32).collect())

@@ -26,7 +26,6 @@ const DECADE: f64 = 10.0;
 
 /// Source of pictures of a sweep.
 pub struct Picture<'t> {
-    /// Rows in the pictures.
     pub table: &'t SweepTable,
     pub title: String,
 }
@@ -51,7 +50,6 @@ fn mean(numbers: &[f64]) -> f64 {
     numbers.iter().sum::<f64>() / numbers.len() as f64
 }
 
-/// Row indices and values of two columns in rows with finite values.
 fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64, f64)> {
     let all = table.rows().map(|row| (row, x.number(row), y.number(row)));
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()

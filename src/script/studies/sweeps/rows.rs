@@ -18,7 +18,6 @@ pub enum RowOutcome {
 }
 
 impl RowOutcome {
-    /// Converts the result of a call.
     pub fn of(called: CallOutcome) -> Self {
         match called {
             CallOutcome::Returned(given) => found(&given),

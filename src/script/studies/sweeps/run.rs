@@ -28,7 +28,6 @@ pub struct SweepRequest<'o> {
     pub name: String,
     pub plan: SweepPlan,
     pub function: &'o FnPtr,
-    /// Wall-clock limit of a run.
     pub wall: Duration,
 }
 

@@ -7,9 +7,8 @@ use crate::script::state::parts::StudyPart;
 
 pub struct SweepProgress {
     pub results: SweepResults,
-    /// True for rows with a result, and for rows of other parts.
     is_known: Vec<bool>,
-    /// Number of rows that have a result or belong to other parts.
+    /// Number of completed rows of the sweep, including the rows that other parts of a divided study compute.
     pub done: usize,
     pub rows: usize,
     /// First completed row, which defines the names of the results.
@@ -28,7 +27,6 @@ impl SweepProgress {
         Self { results, is_known: vec![false; rows], done: 0, rows, model: None }
     }
 
-    /// Marks the rows of other parts as done.
     pub fn mark_other_parts(&mut self, part: StudyPart) {
         for row in (0..self.rows).filter(|row| !part.has(*row)) {
             self.restore_row(row);
@@ -89,7 +87,6 @@ impl SweepProgress {
         }
     }
 
-    /// Records the result of a row. Returns the entries for the journal.
     pub fn record_result(
         &mut self,
         at: usize,
@@ -112,7 +109,6 @@ impl SweepProgress {
                 entries.push(RowEntry::Computed(number, values));
                 Ok(entries)
             }
-            // No row has been completed yet, so the function may be wrong for all rows.
             RowOutcome::Wrong(message) if self.model.is_none() => Err(SweepError::Row(at, message)),
             RowOutcome::Failed(reason) | RowOutcome::Wrong(reason) => {
                 self.restore_row(at);

@@ -17,13 +17,11 @@ pub const FAILURE: &str = "failure";
 const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
 
-/// Finished sweep, with the values passed to its function.
 pub struct FinishedSweep {
     pub sweep: Sweep,
     pub plan: SweepPlan,
 }
 
-/// Table of all or some rows of a sweep.
 #[derive(Clone)]
 pub struct SweepTable {
     swept: Rc<FinishedSweep>,
@@ -71,7 +69,6 @@ impl SweepTable {
         self.chosen.as_ref().map_or(self.sweep().design.rows, |chosen| chosen.len())
     }
 
-    /// Row indices in the sweep.
     pub fn rows(&self) -> impl Iterator<Item = usize> + Clone + use<'_> {
         let chosen = self.chosen.as_deref();
         (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
@@ -106,7 +103,6 @@ impl SweepTable {
         }
     }
 
-    /// Table as data for other programs.
     pub fn data(&self) -> DataTable {
         let sweep = self.sweep();
         let column = |name: &str| {
@@ -156,7 +152,6 @@ impl SweepTable {
         writer.flush()
     }
 
-    /// Table as text, with the first and last rows.
     pub fn text(&self) -> String {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -192,7 +187,6 @@ impl FinishedSweep {
             let Some(column) = results.column(name) else { continue };
             let found = || column.iter().copied().enumerate().filter(|(_, x)| x.is_finite());
             let least = found().min_by(|a, b| a.1.total_cmp(&b.1));
-            // Among equal values, the first value is used.
             let largest = found().rev().max_by(|a, b| a.1.total_cmp(&b.1));
             let count = found().count().max(1);
             let mean = found().map(|(_, x)| x / count as f64).sum::<f64>();

@@ -1,10 +1,9 @@
-//! Coefficients that express the coordinates of an elongation by the degrees of freedom. They are basis functions at the terminals.
+//! Derivatives of the coordinates of an elongation with respect to the degrees of freedom, which are basis functions at the terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;
 use crate::system::bodies::Body;
 
-/// Coefficient of a degree of freedom in a coordinate: the value of its basis function at the terminal [-].
 #[derive(Debug, Clone, Copy)]
 pub struct CoordinateShare {
     pub degree: usize,
@@ -33,13 +32,10 @@ impl Elongation {
         }
     }
 
-    /// Gathers the increments of the terminals from values of the unknowns; zero at supported degrees of freedom.
     pub(super) fn gather(&mut self, values: &[f64]) {
         combine(&self.shares, values, &mut self.movements);
     }
 
-    /// Returns the first-order change of the elongation due to a correction of the increments [length, rad].
-    /// The argument `slope` contains the derivatives of the elongation with respect to its coordinates.
     pub fn along(&mut self, slope: &[f64], correction: &[f64]) -> f64 {
         let Self { shares, corrected, .. } = self;
         combine(shares, correction, corrected);
@@ -56,7 +52,6 @@ impl Elongation {
         }
     }
 
-    /// Adds the derivative of a force with respect to the coordinates to the rows and columns of the unknowns. The derivative is given row by row.
     pub fn scatter_tangent(&self, derivative: &[f64], unknowns: usize, rows: &mut BandRows<'_>) {
         let known = || self.shares.iter().filter(|share| share.degree < unknowns);
         let width = self.secant.len();
@@ -70,7 +65,6 @@ impl Elongation {
     }
 }
 
-/// Computes the coordinates from values of the unknowns. Supported degrees of freedom contribute nothing.
 fn combine(shares: &[CoordinateShare], values: &[f64], coordinates: &mut [f64]) {
     coordinates.fill(0.0);
     for CoordinateShare { degree, coordinate, share } in shares {

@@ -11,8 +11,6 @@ pub(in crate::system::elements) struct ElongationTerm {
     pub(in crate::system::elements) change: f64,
     pub(in crate::system::elements) secant: Vec2,
     pub(in crate::system::elements) slope: Vec2,
-    /// Factor `inverse` in the derivative of the secant `e`: `∂e/∂d₁ = (I - e⊗s) · inverse` [1/length].
-    /// The vector `d₁` connects the ends of the segment at the end of the step, and `s` is its direction.
     inverse: f64,
 }
 
@@ -29,7 +27,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // If forces act at the end of a step, rotation increments are increments of the angle, and the force has the direction at the end.
+        // For forces at the end of a step, rotation increments are angles, and the force has the direction at the end.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -44,8 +42,6 @@ impl ElongationTerm {
     }
 }
 
-/// Relative rotation of two sections.
-/// The relative rotation contains the ratio `r = (Δθ_b - Δθ_a)/(Δω_b - Δω_a)`, and the derivatives of `r` with respect to `Δω_a` and `Δω_b`.
 pub(super) struct RelativeTurn {
     pub(super) ratio: f64,
     pub(super) derivatives: [f64; 2],
@@ -58,7 +54,7 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between both increments is approximated by the value at their mean.
+            // The mean of dθ/dω between two rotation increments is approximated by the value at the middle.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }

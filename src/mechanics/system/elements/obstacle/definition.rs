@@ -19,7 +19,6 @@ const LOBATTO: [(f64, f64); 3] = [
     (0.447_213_595_499_957_9, 5.0 / 6.0),
 ];
 
-/// Weight of the last point of the rule.
 const LAST: f64 = 1.0 / 6.0;
 
 /// Smallest coefficient of restitution. Smaller coefficients need a damping that steps cannot resolve.
@@ -28,14 +27,14 @@ pub const LEAST_RESTITUTION: f64 = 0.05;
 /// Shape of an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum ObstacleShape {
-    /// Half-plane.
+    /// Half-plane with a straight boundary.
     HalfPlane {
         /// Point of the boundary [length].
         point: Vec2,
         /// Outer unit normal [-].
         normal: Vec2,
     },
-    /// Disc.
+    /// Circular disc.
     Disc {
         /// Centre [length].
         centre: Vec2,
@@ -62,7 +61,7 @@ pub struct Obstacle {
     pub shape: ObstacleShape,
     /// Bodies that can touch the obstacle; empty for all beams and particles of the scene.
     pub targets: Vec<ContactTarget>,
-    /// Radius of these bodies around their axes and points [length].
+    /// Distance between the surface and the axis of a body that touches the obstacle [length].
     pub radius: f64,
     /// Force per penetration on a point [force/length], or force per length and penetration on a beam [force/length²].
     pub stiffness: f64,
@@ -74,6 +73,15 @@ pub struct Obstacle {
 }
 
 impl ContactTarget {
+    /// Type and name for messages.
+    pub fn describe(&self, scene: &dyn SceneChecks) -> String {
+        let described = scene.describe(&self.station());
+        match self {
+            Self::Beam(_) => described.trim_start_matches("the start of ").to_owned(),
+            Self::Point(_) => described,
+        }
+    }
+
     /// Station of the body; the start of a beam.
     pub fn station(&self) -> Station {
         match self {
@@ -150,7 +158,7 @@ impl ElementDef for Obstacle {
         Ok(())
     }
 
-    /// Stations of points. The contact force of a disc couples their displacements.
+    /// Pairs of stations whose displacements are coupled by the contact force of a disc.
     fn coupled(&self, scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         let station = |target: ContactTarget| match target {
             ContactTarget::Beam(_) => None,

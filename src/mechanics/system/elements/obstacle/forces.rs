@@ -1,14 +1,8 @@
 //! Contact forces of an obstacle in a step.
 //!
-//! ```text
-//! energy–momentum method:        T = Δu/Δg + c ġ ≤ 0 along the secant of the gap
-//! work of this force:            T Δg = Δu + D
-//! methods with forces at ends:   u'(g₀) and u'(g₁)
-//! ```
-//!
-//! Symbols: gap `g`, potential `u`, tension `T`, damping coefficient `c` and dissipated energy `D`.
+//! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown, as the section forces of beams are.
-//! Its search intersects the law with the impedance `2m/h²` of the mass at the point, so the number of iterations does not depend on the stiffness.
+//! Its search intersects the law with the impedance of the mass at the point, so the number of iterations does not depend on the stiffness.
 
 use super::definition::ObstacleShape;
 use super::normal_force::ContactTime;
@@ -45,7 +39,7 @@ pub struct Penetration {
     pub depth: f64,
     /// Sum of the elastic contact forces on the body [force].
     pub force: f64,
-    /// Stored energy of these contacts [energy].
+    /// Energy that is stored in the contacts of the body [energy].
     pub energy: f64,
 }
 
@@ -123,7 +117,6 @@ pub(super) struct ObstacleForces {
     surface: Surface,
     bodies: Vec<TouchingBody>,
     rate_history: RateHistory,
-    /// Stage of the last evaluation, and its weight.
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,

@@ -1,16 +1,8 @@
 //! Coulomb friction of a contact point. The contact deflects elastically along the surface before it slips.
 //!
-//! ```text
-//! limit of the force:       B = μ N
-//! deflection at the start:  q₀' = q₀ limited to ±B/k
-//! deflection at the end:    q₁ = q₀' + s limited to ±B/k
-//! mean force:               f = (½ k (q₁² - q₀'²) + B |q₀' + s - q₁|)/s
-//! dissipated energy:        D = f s - ½ k (q₁² - q₀²) ≥ 0
-//! ```
-//!
-//! Here `s` is the slip in the step, `N` the mean normal force, `μ` the coefficient of friction and `k` the stiffness of the contact.
-//! The force is the mean over the exact elastic–plastic path, so `|f| ≤ B`, and a contact that sticks does not creep.
-//! A contact with a restitution below 1 also has a viscous force in parallel with the elastic one. The sum is limited to `±B`.
+//! `docs/theory.md`, section 9.7, derives the mean force of a step.
+//! The force is the mean over the exact path, so it never exceeds the limit, and a contact that sticks does not creep.
+//! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
 use super::normal_force::SOFT;
 use super::point::{ClosedContact, GapTrial};
@@ -20,7 +12,7 @@ use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
-/// Largest damping factor of a sticking contact. It gives critical damping.
+/// Damping factor at which a sticking contact is critically damped. Larger factors are reduced to it.
 const MOST_DAMPING: f64 = 2.0;
 
 /// Law of friction in a step.
@@ -31,7 +23,6 @@ struct FrictionLaw {
     /// Largest magnitude of the force [force].
     limit: f64,
     /// Deflection at the start of the step [length].
-    /// Its magnitude may exceed `limit/stiffness`, because the limit of the last step may have been larger.
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
@@ -93,9 +84,7 @@ struct SlipTrial {
     slope: Movement,
     /// Generalised force of a unit friction force: force [-] and moment [length].
     direction: Movement,
-    /// Derivatives of the direction with respect to the displacement, row by row [1/length, 1/length, -].
     direction_slope: [Vec2; 3],
-    /// Largest increment in the sum for the slip [length].
     moved: f64,
 }
 
@@ -142,7 +131,6 @@ pub(super) struct PointFriction {
     deflection: f64,
     /// Friction force, as an internal force along the turned normal [force].
     force: MixedForce,
-    /// Derivative of the force with respect to the normal force, at the last linearisation [-].
     by_normal: f64,
     trial: SlipTrial,
     linearised: SlipTrial,
@@ -250,13 +238,12 @@ impl PointFriction {
         -self.applied_moment
     }
 
-    /// Generalised force with its difference from the law condensed out. `normal_mismatch` is the difference of the normal force from its law.
     pub(super) fn condensed(&self, normal_mismatch: f64) -> Movement {
         let force = self.force.force + self.mismatch(normal_mismatch);
         self.linearised.direction.map(|by| by * force)
     }
 
-    /// Generalised force that would remove the present difference from the law.
+    /// Force and moment that would remove the present difference between the friction force and its law.
     pub(super) fn missing(&self, normal_mismatch: f64) -> Movement {
         self.linearised.direction.map(|by| by * self.mismatch(normal_mismatch))
     }
@@ -265,7 +252,6 @@ impl PointFriction {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    /// Derivative of the condensed force. `normal_slope` is the derivative of the normal force with respect to the displacement.
     pub(super) fn tangent(&self, normal_slope: Vec2) -> [Movement; 3] {
         let SlipTrial { slope, direction, direction_slope, .. } = self.linearised;
         let by_normal = [normal_slope.x, normal_slope.y, 0.0].map(|by| by * self.by_normal);

@@ -1,13 +1,7 @@
 //! Contact law: tension in a gap as a function of the gap, from a potential.
 //!
-//! ```text
-//! half-plane:  u(g) = ½ k g²           for g < 0
-//! disc:        u(g) = ½ k R g²/(R + g)  for g < 0
-//! ```
-//!
-//! Here `g` is the gap, `k` the stiffness and `R` the sum of the radii of obstacle and body.
+//! `docs/theory.md`, section 9.7, states the potentials.
 //! The potential of a disc is infinite at its centre, so its energy bounds the penetration.
-//! Both potentials have the stiffness `k` at first touch.
 //! Tensions have the sign of springs: contact forces are negative.
 
 use crate::elementary::ln;
@@ -99,7 +93,7 @@ pub fn damping_factor(restitution: f64) -> f64 {
         return 0.0;
     }
     let excess = |x: f64| ln((1.0 + x) / (1.0 - restitution * x)) - (1.0 + restitution) * x;
-    // The excess is negative between the trivial root 0 and the wanted root, and infinite at 1/e.
+    // The function `excess` is negative between its trivial root 0 and the root `x`, and infinite at 1/e.
     let (mut low, mut high) = (0.0, 1.0 / restitution);
     loop {
         let middle = 0.5 * (low + high);

@@ -1,6 +1,6 @@
 //! Obstacles that are fixed to the ground, and their contact with beams, particles and points of rigid bodies.
 //!
-//! The contact is compliant: the force follows from a potential of the gap.
+//! Contact is compliant: the contact force follows from a potential of the gap.
 //! The definition of an obstacle is in `definition`, the law of the gap in `law`, friction in `friction`, one contact point in `point`, and the sum over all points in `forces`.
 
 mod definition;
@@ -15,3 +15,4 @@ pub(super) use definition::{LEAST_RESTITUTION, contact_parameters};
 pub use forces::{ContactState, Penetration};
 pub(super) use law::{ContactLaw, damping_factor};
 pub(super) use normal_force::{ContactTime, GapChange, NormalForce, NormalLaw};
+pub(super) use point::DiscPath;

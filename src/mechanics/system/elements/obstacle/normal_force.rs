@@ -218,3 +218,28 @@ impl NormalForce {
         (self.approach, self.last_rate, self.tension.last) = (next(), next(), next());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beams::RotationIncrement;
+
+    /// A contact that stays open has no force, whatever its approach speed before the step was.
+    #[test]
+    fn an_open_contact_is_not_damped() {
+        let elastic = ContactLaw::HalfPlane { stiffness: 1e4 };
+        let law = NormalLaw { elastic, damping: 1.0 };
+        let rotations = RotationIncrement::TangentScaled;
+        let rates = RateCollocation { fraction: 0.5, by_change: 100.0, by_last: 0.0, rotations };
+        let time = |stage| ContactTime { stage, weight: 1.0, rates: Some(rates), duration: 0.01 };
+        for approach in [0.0, 2.0] {
+            let mut normal = NormalForce::new(1.0);
+            (normal.gap, normal.approach, normal.mass) = (Coordinate::from(0.5), approach, 1.0);
+            for stage in [Stage::Midpoint, Stage::End] {
+                let target = normal.target(&law, time(stage), -0.4);
+                assert_eq!((target.force, target.stiffness), (0.0, 0.0), "{approach}, {stage:?}");
+                assert!(normal.target(&law, time(stage), -0.6).force < 0.0);
+            }
+        }
+    }
+}

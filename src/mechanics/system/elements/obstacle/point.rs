@@ -14,8 +14,36 @@ use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::ForceTarget;
 
 /// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
-/// The limit is below the largest number of parts of a halved step, so halving resolves longer chords.
 const LONGEST_PATH: f64 = 1e3;
+
+/// Straight path of a point relative to a disc in a step.
+pub struct DiscPath {
+    /// Vector from the centre to the point at the start [length].
+    pub start: Vec2,
+    /// Displacement of the point relative to the centre [length].
+    pub movement: Vec2,
+    /// Radius of the disc, plus that of the body around the point [length].
+    pub radius: f64,
+    /// True if the point touches the disc at the start.
+    pub is_closed: bool,
+}
+
+impl DiscPath {
+    /// Returns true if the path leads through the disc: from outside to outside, or around its centre by more than 60°.
+    /// A chord that is longer than the distance of its ends from the centre subtends more than 60°.
+    pub fn passes_through(&self) -> bool {
+        let Self { start, movement, radius, is_closed } = *self;
+        let length = movement.norm();
+        let fraction = -start.dot(&movement) / square(length);
+        let is_within = fraction > 0.0 && fraction < 1.0;
+        let deepest = start + movement * fraction;
+        let nearest_end = start.norm().min((start + movement).norm());
+        let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
+        let is_open = nearest_end >= radius && !is_closed;
+        let allowed = if is_open { length / LONGEST_PATH } else { nearest_end };
+        is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
+    }
+}
 
 /// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
@@ -74,11 +102,8 @@ impl Surface {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     change: f64,
-    /// Vector `e` with `Δg = e·Δx`; for methods with forces at the ends of steps, the gradient of the gap [-].
     pub(super) secant: Vec2,
-    /// Derivative of the change with respect to the movement [-].
     slope: Vec2,
-    /// Derivative of the secant with respect to the movement, row by row [1/length].
     pub(super) secant_slope: [Vec2; 2],
     moved: f64,
 }
@@ -92,7 +117,7 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    /// No movement from a surface with the given normal.
+    /// Zero change of the gap, for a surface with the given normal.
     pub(super) fn along(normal: Vec2) -> Self {
         Self { secant: normal, slope: normal, ..Self::NONE }
     }
@@ -194,7 +219,7 @@ impl ContactPoint {
         }
     }
 
-    /// Adds friction with the coefficient of the surface.
+    /// Adds friction to the contact point, with the coefficient of friction of the obstacle.
     pub(super) fn with_friction(self, surface: &Surface) -> Self {
         let friction = Box::new(PointFriction::new(surface.friction, surface.radius));
         Self { friction: Some(friction), ..self }
@@ -276,19 +301,11 @@ impl ContactPoint {
         }
     }
 
-    /// Returns true if a straight movement leads through a disc: from outside to outside, or around its centre by more than 60°.
-    /// A chord that is longer than the distance of its ends from the centre subtends more than 60°.
+    /// Returns true if a straight movement leads through a disc.
     pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
         let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
-        let (radius, length) = (radius + surface.radius, movement.norm());
-        let fraction = -self.start.dot(&movement) / square(length);
-        let is_within = fraction > 0.0 && fraction < 1.0;
-        let deepest = self.start + movement * fraction;
-        let nearest_end = self.start.norm().min((self.start + movement).norm());
-        let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
-        let is_open = nearest_end >= radius && !self.is_closed();
-        let allowed = if is_open { length / LONGEST_PATH } else { nearest_end };
-        is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
+        let (start, radius) = (self.start, radius + surface.radius);
+        DiscPath { start, movement, radius, is_closed: self.is_closed() }.passes_through()
     }
 
     /// Removes the force, because no contact is possible in the present iterate.
@@ -362,7 +379,7 @@ impl ContactPoint {
         ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the force with its difference from the law condensed out to `out`, and its derivatives to `tangent`.
+    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the law of contact.
     pub(super) fn add_linearised(
         &mut self,
         surface: &Surface,
@@ -583,35 +600,5 @@ impl ClosedContact {
     /// Tension for a velocity of the point [force].
     fn tension(&self, velocity: Vec2) -> f64 {
         (self.tension.force + self.damping * self.gradient.dot(&velocity)).min(0.0)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::law::ContactLaw;
-    use super::*;
-    use crate::beams::RateCollocation;
-
-    /// A point that stays open has no force, whatever its approach speed before the step was.
-    #[test]
-    fn an_open_contact_is_not_damped() {
-        let (point, normal) = (Vec2::zeros(), Vec2::y());
-        let shape = ObstacleShape::HalfPlane { point, normal };
-        let law = ContactLaw::HalfPlane { stiffness: 1e4 };
-        let law = NormalLaw { elastic: law, damping: 1.0 };
-        let surface = Surface { shape, radius: 0.0, law, friction: 0.0 };
-        let rotations = RotationIncrement::TangentScaled;
-        let rates = RateCollocation { fraction: 0.5, by_change: 100.0, by_last: 0.0, rotations };
-        let time = |stage| ContactTime { stage, weight: 1.0, rates: Some(rates), duration: 0.01 };
-        for approach in [0.0, 2.0] {
-            let mut own = ContactPoint::new(BodyPoint::of_particle(0), 1.0);
-            let normal = &mut own.normal;
-            (normal.gap, normal.approach, normal.mass) = (Coordinate::from(0.5), approach, 1.0);
-            for stage in [Stage::Midpoint, Stage::End] {
-                let target = normal.target(&law, time(stage), -0.4);
-                assert_eq!((target.force, target.stiffness), (0.0, 0.0), "{approach}, {stage:?}");
-                assert!(normal.target(&law, time(stage), -0.6).force < 0.0);
-            }
-        }
     }
 }

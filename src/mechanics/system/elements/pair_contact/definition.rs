@@ -106,7 +106,7 @@ impl ElementDef for PairContact {
         }
         for (at, member) in self.members.iter().enumerate() {
             if self.members[..at].iter().any(|other| other.target == member.target) {
-                let body = scene.describe(&member.target.station());
+                let body = member.target.describe(scene);
                 return Err(SystemError::RepeatedBody { object: self.object(), body });
             }
         }

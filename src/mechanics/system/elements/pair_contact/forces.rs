@@ -5,7 +5,7 @@
 //! Boxes around bodies and spans exclude bodies that are far from each other.
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
-use super::shape::{Bounds, ContactSite, Foot, NearestSearch, Shape, WHOLE_AXIS};
+use super::shape::{Bounds, ContactSite, CrossingPath, Foot, NearestSearch, Shape, WHOLE_AXIS};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
@@ -39,6 +39,8 @@ pub(super) struct PairForces {
     dissipated: f64,
     /// Smallest gap at present [length].
     gap: f64,
+    /// Open pair with the smallest gap at the end of the last step.
+    closest: Option<PairIndex>,
     watch: ContactWatch,
     last_rate: f64,
     rows: LocalRows,
@@ -56,6 +58,7 @@ impl PairForces {
             last_force: Vec2::zeros(),
             dissipated: 0.0,
             gap: 0.0,
+            closest: None,
             watch: ContactWatch::default(),
             last_rate: 0.0,
             rows: LocalRows::default(),
@@ -77,7 +80,7 @@ impl PairForces {
     /// Sets the start configuration, and finds the pairs that touch in it.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.set_configuration(bodies);
-        self.pairs.iter_mut().for_each(|pair| pair.locate(&self.shapes));
+        self.pairs.iter_mut().for_each(|pair| pair.begin_configuration(&self.shapes));
         self.find_pairs();
     }
 
@@ -120,6 +123,9 @@ impl PairForces {
             return None;
         }
         let position = place.interpolate(&own.end.points);
+        if other.end.is_beyond(position, reach) {
+            return None;
+        }
         let allowed = if shape == target { *allowed } else { WHOLE_AXIS };
         let search = NearestSearch { position, allowed, limit: reach, hint: 0 };
         other.nearest(&other.end, &search)
@@ -141,33 +147,39 @@ impl PairForces {
     }
 
     /// Smallest gap in the configuration at the start of the step. It is not larger than the diagonal of the box around all bodies.
-    fn smallest_gap(&self) -> f64 {
+    fn update_gap(&mut self) {
         let accumulated = self.closed().map(|pair| pair.normal.gap.value);
         let all = self.shapes.iter().map(|shape| shape.start.bounds());
         let size = all.reduce(Bounds::joined).map_or(0.0, |all| all.diagonal());
-        let mut smallest = accumulated.fold(size, f64::min);
-        for &Partnership { own, other, .. } in &self.partnerships {
-            if smallest <= 0.0 {
-                break;
-            }
-            let (own_index, (own, target)) = (own, (&self.shapes[own], &self.shapes[other]));
-            let reach = own.radius + target.radius;
-            let bounds = target.start.bounds();
-            for site in &own.sites {
-                let limit = smallest + reach;
-                let position = site.place.interpolate(&own.start.points);
-                let is_same = own_index == other;
-                let allowed = if is_same { site.allowed } else { WHOLE_AXIS };
-                if bounds.squared_distance_from(position) < square(limit) {
-                    let search = NearestSearch { position, allowed, limit, hint: 0 };
-                    if let Some(foot) = target.nearest(&target.start, &search) {
-                        let apart = position - foot.combine(0, &target.start.points);
-                        smallest = smallest.min((apart.norm() - reach).max(0.0));
-                    }
-                }
+        self.gap = accumulated.fold(size, f64::min);
+        // The pair that was the closest one excludes most of the others.
+        if let Some(closest) = self.closest {
+            self.approach(closest);
+        }
+        for at in 0..self.partnerships.len() {
+            let Partnership { own, other, .. } = self.partnerships[at];
+            for site in 0..self.shapes[own].sites.len() {
+                self.approach(PairIndex { shape: own, site, target: other });
             }
         }
-        smallest
+    }
+
+    /// Reduces the smallest gap to that of a pair.
+    fn approach(&mut self, index: PairIndex) {
+        let (own, target) = (&self.shapes[index.shape], &self.shapes[index.target]);
+        let (site, reach) = (&own.sites[index.site], own.radius + target.radius);
+        let limit = self.gap.max(0.0) + reach;
+        let position = site.place.interpolate(&own.start.points);
+        if self.gap <= 0.0 || target.start.is_beyond(position, limit) {
+            return;
+        }
+        let allowed = if index.shape == index.target { site.allowed } else { WHOLE_AXIS };
+        let search = NearestSearch { position, allowed, limit, hint: 0 };
+        if let Some(foot) = target.nearest(&target.start, &search) {
+            let apart = position - foot.combine(0, &target.start.points);
+            self.gap = (apart.norm() - reach).max(0.0);
+            self.closest = Some(index);
+        }
     }
 }
 
@@ -183,7 +195,8 @@ impl InternalForce for PairForces {
                 .set_masses(degrees.map(|at| inertia.get(at[0]).copied().unwrap_or(f64::INFINITY)));
         }
         self.begin_configuration(bodies);
-        self.gap = self.smallest_gap();
+        self.pairs.iter_mut().for_each(|pair| pair.measure_gap(&self.shapes));
+        self.update_gap();
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
@@ -276,8 +289,9 @@ impl InternalForce for PairForces {
             self.last_rate = rate;
         }
         self.shapes.iter_mut().for_each(Shape::end_step);
+        self.pairs.iter_mut().for_each(|pair| pair.begin_configuration(&self.shapes));
         self.remove_open_pairs();
-        self.gap = self.smallest_gap();
+        self.update_gap();
         self.rate_history.end();
     }
 
@@ -314,13 +328,15 @@ impl InternalForce for PairForces {
             let is_same = own == other;
             let (own, other) = (&self.shapes[own], &self.shapes[other]);
             let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
-            let is_near = swept(own).squared_distance(&swept(other)) == 0.0;
+            let reach = if other.is_disc() { own.radius + other.radius } else { 0.0 };
+            let is_near = swept(own).squared_distance(&swept(other)) <= square(reach);
             is_near
                 && own.sites.iter().any(|site| {
                     let from = site.place.interpolate(&own.start.points);
                     let [x, y, _] = bodies[own.body].at(&site.place, increments);
                     let allowed = if is_same { site.allowed } else { WHOLE_AXIS };
-                    other.is_crossed([from, from + Vec2::new(x, y)], allowed)
+                    let (to, radius) = (from + Vec2::new(x, y), own.radius + other.radius);
+                    other.is_crossed(&CrossingPath { from, to, allowed, radius })
                 })
         })
     }
@@ -388,12 +404,15 @@ impl InternalForce for PairForces {
     }
 
     fn explain(&self) -> String {
-        let bodies = crate::system::errors::plural(self.shapes.len(), "body");
+        let bodies = match self.shapes.len() {
+            1 => "a beam with itself".to_owned(),
+            count => format!("{count} bodies"),
+        };
+        let points = crate::system::errors::plural(self.closed().count(), "point");
         let is_damped = |one: &Partnership| one.law.damping > 0.0;
         let damped = if self.partnerships.iter().any(is_damped) { ", damped" } else { "" };
-        let touching = self.closed().count();
         format!(
-            "contact among {bodies}{damped}, at {touching} points at present; the contact forces are additional unknowns"
+            "contact of {bodies}{damped}, at {points} at present; the contact forces are additional unknowns"
         )
     }
 }

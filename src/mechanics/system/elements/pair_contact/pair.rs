@@ -48,6 +48,7 @@ pub(super) struct ContactPair {
 
 impl ContactPair {
     /// New pair, with the gap in the configuration at the start of the step.
+    /// A gap that is negative there, because the nearest point was not part of the search before, counts as zero. Otherwise the energy would jump.
     pub(super) fn new(index: PairIndex, law: NormalLaw, shapes: &[Shape], foot: Foot) -> Self {
         let weight = shapes[index.shape].sites[index.site].weight;
         let start = GapStart { apart: Vec2::zeros(), foot };
@@ -62,11 +63,14 @@ impl ContactPair {
             linearised_foot: foot,
             applied: [Vec2::zeros(); 2],
         };
-        pair.locate(shapes);
+        let position = pair.place(shapes).interpolate(&shapes[index.shape].start.points);
+        let target = &shapes[index.target];
+        let at_start = target.nearest(&target.start, &pair.search(shapes, position));
+        pair.use_foot(shapes, at_start.unwrap_or(foot));
         let rate = pair.normal_at_start().dot(&pair.relative_velocity(shapes));
-        let normal = &mut pair.normal;
-        (normal.approach, normal.last_rate) = (rate.abs(), rate);
-        pair.normal.gap = Coordinate::from(pair.start.apart.norm() - pair.reach(shapes));
+        (pair.normal.approach, pair.normal.last_rate) = (rate.abs(), rate);
+        pair.measure_gap(shapes);
+        pair.normal.gap.value = pair.normal.gap.value.max(0.0);
         pair.normal.mass = pair.effective_mass(shapes);
         pair
     }
@@ -80,15 +84,21 @@ impl ContactPair {
         shapes[self.index.shape].radius + shapes[self.index.target].radius
     }
 
-    /// Finds the foot at the start of the step.
-    pub(super) fn locate(&mut self, shapes: &[Shape]) {
-        let (from, to) = (&shapes[self.index.shape], &shapes[self.index.target]);
-        let position = self.place(shapes).interpolate(&from.start.points);
-        if let Some(foot) = to.nearest(&to.start, &self.search(shapes, position)) {
-            self.start.foot = foot;
-        }
-        self.start.apart = position - self.start.foot.combine(0, &to.start.points);
-        self.foot = self.start.foot;
+    /// Uses the foot at the end of the last step, so that the gap is continuous.
+    pub(super) fn begin_configuration(&mut self, shapes: &[Shape]) {
+        self.use_foot(shapes, self.foot);
+    }
+
+    fn use_foot(&mut self, shapes: &[Shape], foot: Foot) {
+        let [own, other] = [self.index.shape, self.index.target].map(|at| &shapes[at].start.points);
+        let apart = self.place(shapes).interpolate(own) - foot.combine(0, other);
+        self.start = GapStart { apart, foot };
+        self.foot = foot;
+    }
+
+    /// Sets the gap to the distance in the start configuration.
+    pub(super) fn measure_gap(&mut self, shapes: &[Shape]) {
+        self.normal.gap = Coordinate::from(self.start.apart.norm() - self.reach(shapes));
     }
 
     /// Search for the foot that starts at the present foot.
@@ -148,7 +158,8 @@ impl ContactPair {
             let position = self.place(shapes).interpolate(&own.end.points);
             match other.nearest(&other.end, &self.search(shapes, position)) {
                 Some(foot) => self.foot = foot,
-                None => self.foot = other.foot(self.foot.xi),
+                // The force then acts at the same place of the axis.
+                None => self.foot.is_free = false,
             }
         }
         let (from, to) = (&self.start.foot, &self.foot);
@@ -393,8 +404,10 @@ impl ContactPair {
         let is_own = |one: &&Partnership| (one.own, one.other) == (index.shape, index.target);
         let law = partnerships.iter().find(is_own)?.law;
         shapes[index.shape].sites.get(index.site)?;
-        let foot = shapes[index.target].first_foot_in(next()? as usize)?;
+        let (span, xi) = (next()? as usize, next()?);
+        let foot = shapes[index.target].foot_in(span, xi)?;
         let mut pair = Self::new(index, law, shapes, foot);
+        pair.use_foot(shapes, foot);
         let mut is_complete = true;
         pair.normal.restore(&mut || {
             let number = next();
@@ -406,8 +419,8 @@ impl ContactPair {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         let PairIndex { shape, site, target } = self.index;
-        // The span decides between two feet at the same distance.
         state.extend([shape, site, target, self.foot.span].map(|index| index as f64));
+        state.push(self.foot.xi);
         self.normal.save(state);
     }
 }

@@ -5,6 +5,7 @@ use std::iter::once;
 use crate::beams::BodyPoint;
 use crate::elementary::square;
 use crate::geometry::{Basis, BasisValues, Span, Vec2, cross};
+use crate::system::elements::obstacle::DiscPath;
 
 /// Number of samples per span in the search for the nearest point, minus one.
 const SAMPLES: usize = 4;
@@ -23,6 +24,12 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct Bounds {
     low: Vec2,
     high: Vec2,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self::EMPTY
+    }
 }
 
 impl Bounds {
@@ -57,7 +64,7 @@ impl Bounds {
         square(apart(0)) + square(apart(1))
     }
 
-    pub(super) fn squared_distance_from(&self, point: Vec2) -> f64 {
+    fn squared_distance_from(&self, point: Vec2) -> f64 {
         self.squared_distance(&Self { low: point, high: point })
     }
 }
@@ -108,11 +115,18 @@ pub(super) struct ContactSite {
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
     spans: Vec<Bounds>,
+    /// Box around all spans.
+    bounds: Bounds,
 }
 
 impl Configuration {
+    /// Returns true if a position is farther from the box around the body than a distance.
+    pub(super) fn is_beyond(&self, position: Vec2, distance: f64) -> bool {
+        self.bounds().squared_distance_from(position) >= square(distance)
+    }
+
     pub(super) fn bounds(&self) -> Bounds {
-        self.spans.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span))
+        self.bounds
     }
 }
 
@@ -176,6 +190,10 @@ impl Shape {
         }
     }
 
+    pub(super) fn is_disc(&self) -> bool {
+        matches!(self.axis, Axis::Point(_))
+    }
+
     pub(super) fn set_masses(&mut self, masses: impl Iterator<Item = f64>) {
         self.masses = masses.collect();
     }
@@ -217,26 +235,14 @@ impl Shape {
         self.axis.bound(&mut self.end);
     }
 
-    /// Foot at the start of a span; `None` if the axis has fewer spans.
-    pub(super) fn first_foot_in(&self, span: usize) -> Option<Foot> {
+    /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
+    pub(super) fn foot_in(&self, span: usize, xi: f64) -> Option<Foot> {
         match &self.axis {
             Axis::Point(foot) => (span == 0).then_some(*foot),
             Axis::Curve { basis, spans, .. } => {
-                let Span { start, .. } = spans.get(span)?;
-                let values = basis.evaluate_in(&spans[span], *start);
-                Some(Foot { xi: *start, span, values, is_free: false })
-            }
-        }
-    }
-
-    /// Foot at a parameter.
-    pub(super) fn foot(&self, xi: f64) -> Foot {
-        match &self.axis {
-            Axis::Point(foot) => *foot,
-            Axis::Curve { basis, spans, .. } => {
-                let inner = spans.partition_point(|span| span.end <= xi).min(spans.len() - 1);
-                let values = basis.evaluate_in(&spans[inner], xi);
-                Foot { xi, span: inner, values, is_free: false }
+                let at = spans.get(span).filter(|at| (at.start..=at.end).contains(&xi))?;
+                let values = basis.evaluate_in(at, xi);
+                Some(Foot { xi, span, values, is_free: false })
             }
         }
     }
@@ -276,36 +282,70 @@ impl Shape {
         Some(foot)
     }
 
-    /// Returns true if a moving position passes through the moving axis.
-    /// The axis is sampled as a polyline, whose vertices move along straight lines.
-    /// A position cannot pass through the axis if its relative movement is shorter than the sum of its distances at the start and at the end.
-    pub(super) fn is_crossed(&self, [from, to]: [Vec2; 2], allowed: AllowedParts) -> bool {
-        let Axis::Curve { basis, spans, .. } = &self.axis else { return false };
-        let path = Bounds::of([from, to].into_iter());
-        spans.iter().enumerate().any(|(index, span)| {
-            let swept = self.start.spans[index].joined(self.end.spans[index]);
-            let is_within = |(low, high): &(f64, f64)| *low <= span.start && span.end <= *high;
-            if !allowed.iter().any(is_within) || swept.squared_distance(&path) > 0.0 {
-                return false;
+    /// Returns true if a moving position passes through the moving axis, or through a disc of the given radius.
+    pub(super) fn is_crossed(&self, path: &CrossingPath) -> bool {
+        let CrossingPath { from, to, allowed, radius } = *path;
+        let (basis, spans) = match &self.axis {
+            Axis::Curve { basis, spans, .. } => (basis, spans),
+            Axis::Point(foot) => {
+                let [before, after] = [(&self.start, from), (&self.end, to)]
+                    .map(|(at, position)| position - foot.combine(0, &at.points));
+                let is_closed = before.norm() < radius;
+                let path = DiscPath { start: before, movement: after - before, radius, is_closed };
+                return path.passes_through();
             }
+        };
+        let bounds = Bounds::of([from, to].into_iter());
+        let is_near = |(index, span): &(usize, &Span)| {
+            let swept = self.start.spans[*index].joined(self.end.spans[*index]);
+            let is_within = |(low, high): &(f64, f64)| *low <= span.start && span.end <= *high;
+            allowed.iter().any(is_within) && swept.squared_distance(&bounds) == 0.0
+        };
+        let near = spans.iter().enumerate().filter(is_near);
+        let Some((hint, _)) = near.clone().next() else { return false };
+        let mut search = NearestSearch { position: from, allowed, limit: f64::INFINITY, hint };
+        let before = self.nearest(&self.start, &search);
+        search.position = to;
+        let after = self.nearest(&self.end, &search);
+        let (Some(before), Some(after)) = (before, after) else { return false };
+        let distance = (from - before.combine(0, &self.start.points)).norm()
+            + (to - after.combine(0, &self.end.points)).norm();
+        // A position that passes through the axis moves by at least the sum of its distances at the start and at the end.
+        let moves = near.clone().flat_map(|(_, span)| {
+            (span.first..=span.first + basis.degree()).map(|at| self.movements[at])
+        });
+        let longest = moves.map(|by| (to - from - by).norm()).fold(0.0, f64::max);
+        if longest * (1.0 + ROUNDING) < distance {
+            return false;
+        }
+        let side = |foot: &Foot, at: &Configuration, position: Vec2| {
+            cross(foot.combine(1, &at.points), position - foot.combine(0, &at.points))
+        };
+        let changes_side = before.is_free
+            && after.is_free
+            && side(&before, &self.start, from) * side(&after, &self.end, to) < 0.0;
+        let passes_chord = |(_, span): (usize, &Span)| {
             let vertex = |at: usize| {
                 let xi = span.start + (span.end - span.start) * (at as f64 / SAMPLES as f64);
                 let values = basis.evaluate_in(span, xi);
                 let [start, end] = [&self.start, &self.end].map(|at| values.combine(0, &at.points));
                 [from - start, to - end]
             };
-            let moves = (span.first..=span.first + basis.degree()).map(|at| self.movements[at]);
-            let longest = moves.map(|by| (to - from - by).norm()).fold(0.0, f64::max);
-            let distance = |at: &Configuration, position: Vec2| {
-                let search = NearestSearch { position, allowed, limit: longest, hint: index };
-                let foot = self.nearest(at, &search);
-                foot.map_or(longest, |foot| (foot.combine(0, &at.points) - position).norm())
-            };
             (0..SAMPLES).any(|at| passes_between(vertex(at), vertex(at + 1)))
-                && longest * (1.0 + ROUNDING)
-                    >= distance(&self.start, from) + distance(&self.end, to)
-        })
+        };
+        changes_side || near.into_iter().any(passes_chord)
     }
+}
+
+/// Straight path of a contact point in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CrossingPath {
+    pub(super) from: Vec2,
+    pub(super) to: Vec2,
+    /// Parts of the axis that the point can touch.
+    pub(super) allowed: AllowedParts,
+    /// Sum of both radii [length].
+    pub(super) radius: f64,
 }
 
 /// Search for the nearest point of an axis.
@@ -323,7 +363,7 @@ pub(super) struct NearestSearch {
 impl Axis {
     /// Computes the boxes of a configuration from its control points.
     fn bound(&self, at: &mut Configuration) {
-        let Configuration { points, spans: bounds } = at;
+        let Configuration { points, spans: bounds, bounds: all } = at;
         bounds.clear();
         match self {
             Self::Point(foot) => bounds.push(Bounds::of([points[foot.values.first]].into_iter())),
@@ -335,6 +375,7 @@ impl Axis {
                 }));
             }
         }
+        *all = bounds.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span));
     }
 }
 

@@ -44,8 +44,6 @@ impl PrescribedMovements {
         self.present.iter().any(|present| present.goal != 0.0)
     }
 
-    /// Appends increments of the prescribed degrees of freedom to the static increments of the unknowns.
-    /// The increments belong to a fraction of the load.
     pub fn at_rest<'m>(&self, movements: &'m [f64], load_factor: f64) -> Cow<'m, [f64]> {
         if self.movements.is_empty() {
             return Cow::Borrowed(movements);

@@ -22,7 +22,6 @@ impl SpringDamper {
         self.restoring_after(stage, self.elongation.change)
     }
 
-    /// Force and stiffness by the spring law for an elongation change of `change` in the step [length, rad].
     fn restoring_after(&self, stage: Stage, change: f64) -> ForceTarget {
         let Some(law) = &self.law else { return ForceTarget::default() };
         let q = self.elongation.grown();
@@ -52,7 +51,7 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the linearisation uses the intersection of the law with a straight line.
-    /// The straight line represents the impedance of the rest of the system. The intersection is unique if the law is increasing.
+    /// The straight line represents the impedance of all other objects of the scene. Its intersection with an increasing law is unique.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);
@@ -92,12 +91,6 @@ impl SpringDamper {
         }
     }
 
-    /// Extrapolation factor for the rate at a time after the middle of the step.
-    /// The extrapolation factor multiplies the difference between the rates of this step and the previous step.
-    /// Returns `None` if the force does not depend on rates.
-    ///
-    /// A method with forces at both ends of the step evaluates the balance at the fraction `at.weight` of the step.
-    /// The rate at this fraction of the step is extrapolated from the rates at the middle of this step and of the previous step.
     fn lateness(&self, at: TrialState<'_>) -> Option<f64> {
         match at.stage {
             Stage::Start => None,
@@ -109,7 +102,6 @@ impl SpringDamper {
         }
     }
 
-    /// Returns the extrapolated rate of the elongation, and the derivative of this rate with respect to the elongation change `Δq`.
     fn rate(&self, late: f64) -> (f64, f64) {
         let rate = self.elongation.change / self.duration;
         (rate + late * (rate - self.last.1), (1.0 + late) / self.duration)

@@ -38,13 +38,11 @@ impl Passing for AtRest {
 }
 
 impl SliderContact {
-    /// Predicts an unchanged contact force for a displacement between two equilibria.
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
         let guess = ContactUnknowns { force: self.force_of_state(), ..ContactUnknowns::zeros() };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// Contact at the end of a static iterate.
     fn evaluate_static(
         &mut self,
         bodies: &[Body],
@@ -65,7 +63,6 @@ impl SliderContact {
         }
     }
 
-    /// Static contact equations for the state of a slider. For a held slider, `way` is the sliding increment to the stop.
     fn static_equations(
         state: SliderState,
         way: Option<f64>,
@@ -94,7 +91,6 @@ impl SliderContact {
         self.crosses_seam || is_tensile(push, force.norm(), self.length)
     }
 
-    /// Accepts the position after a displacement between two equilibria. The caller must move the bodies before this call.
     pub fn accept_static_position(&mut self, unknowns: &[f64]) {
         let found = self.read(unknowns);
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
@@ -112,7 +108,6 @@ impl SliderContact {
         }
     }
 
-    /// Unknowns that the static contact couples: the unknowns of the slave and of the master at the slider, and the position unknown `own`.
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
         let [x, y, _] = bodies[body].degrees_of_freedom[point];
@@ -122,13 +117,6 @@ impl SliderContact {
         [x, y].into_iter().chain(of_master).chain([own]).collect()
     }
 
-    /// Calls `take` with the static stiffness of the contact. A rigid axis has a penalty stiffness [force/length].
-    /// The position unknown of the slider is `own`.
-    ///
-    /// ```text
-    /// r = x_s - Σ B_i x_i      s = δx_s - Σ B_i δx_i - (x' + g' λ/GA) δξ      k = GA/g
-    /// δ²Π = k |s|² - 2 λ·Σ B_i' δx_i δξ - (λ·x'' + ½ g'' |λ|²/GA) δξ²
-    /// ```
     pub fn static_stiffness(
         &self,
         bodies: &[Body],
@@ -136,7 +124,6 @@ impl SliderContact {
         rigid: f64,
         take: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) {
-        // The position of a held slider has no stiffness.
         let still = SpanStiffness {
             strains: vec![1.0],
             stiffness: vec![rigid],

@@ -8,18 +8,18 @@ use crate::system::bodies::Body;
 
 /// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
 /// An impulse removes this velocity.
-/// Without the tolerance, the rest of a step after the end of the slip could be too short for an accurate energy balance.
+/// The tolerance prevents a step after the end of the slip that is too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
 const ROUNDING: f64 = 1e-14;
 
 /// Duration of a step below which friction does not act, as a fraction of the longest step.
-/// The forces of such a short step consist of rounding errors.
+/// The forces of a very short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
 /// Duration of a step above which the law of friction is not replaced by a constant force, as a fraction of the longest step.
-/// Shorter steps with the law are tried first.
+/// If a step with the law of friction fails, shorter steps are tried first.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
 /// Number of transitions in successive steps, above which slip does not end within a step.
@@ -28,16 +28,13 @@ const MOST_TRANSITIONS: usize = 8;
 /// Transition of a slider with friction at the end of an attempted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionTransition {
-    /// Slip ends.
     SlipEnds {
-        /// Velocity along the master at the end of the step, positive if it is opposite to the slip [length/time].
         reversed: f64,
     },
     /// The force along the master exceeds the friction limit.
     SlipStarts,
 }
 
-/// Friction of a slider.
 #[derive(Debug, Clone)]
 pub struct SliderFriction {
     /// Coefficient of friction [-].
@@ -51,16 +48,13 @@ pub struct SliderFriction {
     start_velocity_along: f64,
     /// Velocity of the slave across the master at the start of the step [length/time].
     start_velocity_across: f64,
-    /// Inverse of the velocity change across the master that a unit impulse across the master causes [mass].
     pub inertia_across: f64,
     duration: f64,
     /// Duration of the longest step so far [time].
     longest: f64,
-    /// Friction forces of the last iterate.
     forces: FrictionForces,
     /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
-    /// Number of transitions minus the number of steps, but at least zero. The value grows if transitions occur without steps between them.
     transitions: usize,
     /// Force along the master that replaces the law of slip in the present step [force].
     fixed_force: Option<f64>,
@@ -88,7 +82,6 @@ impl SliderFriction {
         }
     }
 
-    /// Keeps the force of slip at that of the last step, because a short step has no solution with the law. Returns true if the call changes the equations of the step.
     pub(super) fn freeze(&mut self) -> bool {
         let FrictionMode::Slip(sign) = self.mode else { return false };
         let is_short = self.duration <= FIXED_BELOW * self.longest;
@@ -103,7 +96,6 @@ impl SliderFriction {
         self.fixed_force = None;
     }
 
-    /// Friction of the contact in a step; `None` before the first step, and in steps that are too short for friction.
     pub(super) fn in_step(&self, window: std::ops::Range<usize>) -> Option<Friction<'_>> {
         let master_velocities = self.master_velocities.get(window).filter(|_| self.acts())?;
         Some(Friction {
@@ -163,7 +155,6 @@ impl SliderContact {
         Some(if self.is_sliding() { friction.force } else { 0.0 })
     }
 
-    /// Friction of a slider that slides along its master.
     pub fn active_friction(&self) -> Option<&SliderFriction> {
         self.friction.as_deref().filter(|_| self.is_sliding())
     }
@@ -196,7 +187,6 @@ impl SliderContact {
         }
     }
 
-    /// Adds the work of the contact in an accepted step to the lost energy. The caller must not move the bodies before this call.
     pub(super) fn dissipate(&mut self, increment: f64) {
         if self.friction_in_step().is_none() {
             return;
@@ -214,14 +204,12 @@ impl SliderContact {
         }
     }
 
-    /// Friction transition of the slider at the end of an attempted step with the given unknowns of all contacts.
     pub fn friction_transition(&self, unknowns: &[f64]) -> Option<FrictionTransition> {
         let friction = self.friction_in_step()?;
         let increment = self.read(unknowns).increment;
         let FrictionForces { along, across, end_velocity, .. } = friction.forces;
         match friction.mode {
             FrictionMode::Slip(sign) => {
-                // A sliding increment opposite to the slip would gain energy.
                 let is_against = sign * increment < 0.0;
                 let reversed = -sign * end_velocity;
                 let ends = friction.cuts_steps() && reversed > self.negligible_slip(friction);
@@ -235,8 +223,6 @@ impl SliderContact {
         }
     }
 
-    /// Velocity along the master at the end of the attempted step, positive if it is opposite to the slip [length/time]; `None` if it counts as zero.
-    /// The value is positive for an increment opposite to the slip, because such a step would gain energy.
     pub fn missed_slip_end(&self, unknowns: &[f64]) -> Option<f64> {
         let friction = self.friction_in_step()?;
         let FrictionMode::Slip(sign) = friction.mode else { return None };
@@ -270,29 +256,23 @@ impl SliderContact {
         self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
     }
 
-    /// Ratio `T/N` of the contact forces along and across the master for a slider that slips [-]; zero without friction.
-    /// The argument is the sign of the force across the master.
     pub fn slip_ratio(&self, sign: f64) -> f64 {
         let friction = self.active_friction();
         friction.map_or(0.0, |friction| sign * friction.mode_number() * friction.coefficient)
     }
 
-    /// Starts the sticking of the slider to its master.
     pub fn stick(&mut self) {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Stick);
         }
     }
 
-    /// Starts the slip of the slider in the direction of the force along the master in the last attempted step.
     pub fn slip(&mut self) {
         if let Some(friction) = &mut self.friction {
             friction.change_mode(FrictionMode::Slip(friction.forces.along.signum()));
         }
     }
 
-    /// Starts the slip of a sticking slider if the given force along the master exceeds the friction limit for the force across it [force].
-    /// Returns true if the slider starts to slip.
     pub fn slip_if_overloaded(&mut self, along: f64, across: f64) -> bool {
         if !self.sticks() {
             return false;
@@ -310,7 +290,6 @@ impl SliderContact {
         self.friction.iter_mut().for_each(|friction| friction.force = force);
     }
 
-    /// Selects slip or stick by the velocity along the master. The slider slips if the velocity is not negligible [length/time].
     pub fn choose_friction_mode(&mut self, bodies: &[Body], rates: &[f64], negligible: f64) {
         if self.active_friction().is_none() {
             return;

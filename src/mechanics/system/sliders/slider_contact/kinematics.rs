@@ -11,18 +11,16 @@ impl SliderContact {
         (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }
 
-    /// Derivative of the contact point on the master with respect to the parameter, `Σ B_i'(ξ) x_i` [length].
+    /// Derivative of the contact point on the master with respect to the parameter [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
         slope_of(self.start_path.slope(), self.window(bodies))
     }
 
-    /// Second derivative of the contact point on the master with respect to the parameter, `Σ B_i''(ξ) x_i` [length].
+    /// Second derivative of the contact point on the master with respect to the parameter [length].
     pub(super) fn bend(&self, bodies: &[Body]) -> Vec2 {
-        // For a path of zero length, the derivative of divided differences is half the second derivative.
         slope_of(self.start_path.change(), self.window(bodies)) * 2.0
     }
 
-    /// Control points of the master, starting with the first control point whose basis function is nonzero at the slider.
     fn window<'a>(&self, bodies: &'a [Body]) -> &'a [Vec2] {
         &bodies[self.connection.master].dynamics.control_points()[self.start_path.first()..]
     }
@@ -39,7 +37,6 @@ impl SliderContact {
         (self.tangent(bodies) + slope).normalize()
     }
 
-    /// Directions of motion of a slider at an end of its kinked axis, with and without the kink [-]; `None` without a kink.
     pub fn off_kink(&self, bodies: &[Body], rates: &[f64], end: MasterEnd) -> Option<[Vec2; 2]> {
         let axis =
             self.kinked_axis.as_ref().filter(|axis| self.is_sliding() && !axis.is_compliant())?;
@@ -60,7 +57,6 @@ impl SliderContact {
         self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
     }
 
-    /// Returns true if the slider is slow enough for a loaded kink at an end, although the kink of the master has no load.
     pub fn is_straight_at_end(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let axis = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         axis.is_some_and(|axis| {
@@ -76,7 +72,6 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.load(force, tangent));
     }
 
-    /// Sets the speed of the kink to the speed of the slider.
     pub fn start_kink_speed(&mut self, bodies: &[Body], rates: &[f64]) {
         let rate = self.rate(bodies, rates);
         self.kinked_axis.iter_mut().for_each(|axis| axis.start_speed(rate));
@@ -87,18 +82,17 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
 
-    /// Unit normal of the master at the slider, on the side of the flight for a slider that only pushes [-].
     pub fn across(&self, bodies: &[Body]) -> Vec2 {
         self.normal_to(self.along(bodies))
     }
 
-    /// Normal of a direction along the master, on the side of the flight for a slider that only pushes.
     pub fn normal_to(&self, along: Vec2) -> Vec2 {
         let normal = perpendicular(along);
         self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
     }
 
-    /// Adds `Gᵀ P` for an impulse or force `P` of the contact to `out`. The slave receives `P`, and the master `-P`.
+    /// Adds the generalised forces of an impulse or force of the contact to `out`.
+    /// The slave receives the impulse, and the master the opposite impulse.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
@@ -133,7 +127,7 @@ impl SliderContact {
         bodies[body].vector_at(point, rates)
     }
 
-    /// Acceleration of the contact point on the master due to sliding: `2 ξ̇ Σ B_i' v_i + ξ̇² Σ B_i'' x_i` [length/time²].
+    /// Acceleration of the contact point on the master due to sliding [length/time²].
     pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
@@ -149,7 +143,7 @@ impl SliderContact {
         turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
     }
 
-    /// Rate `dξ/dt` of the parameter at the present velocities [1/time].
+    /// Rate of the parameter at the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match (self.state, &self.kinked_axis) {
             (SliderState::Sliding, Some(axis)) => {
@@ -167,8 +161,8 @@ impl SliderContact {
         }
     }
 
-    /// Rate `dξ/dt` for an offset `r` of the slave from the smooth axis [length].
-    /// It follows from the time derivative of `r·x' = 0` in flight, and of `r·x' + ½ |r|² g'/g = 0` with the offset `r = g p/GA` of a kinked axis.
+    /// Rate of the parameter for an offset of the slave from the smooth axis [length].
+    /// The rate follows from the time derivative of the contact condition.
     fn rate_at_offset(
         &self,
         offset: Vec2,
@@ -187,7 +181,6 @@ impl SliderContact {
     }
 }
 
-/// Sum `Σ B_i' x_i` over the control points of the master.
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
     // The derivatives `B_i'` sum to zero, so the origin affects rounding only. The rounding error is smallest for a near origin.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()

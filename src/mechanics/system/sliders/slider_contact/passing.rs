@@ -7,8 +7,6 @@ use crate::system::bodies::Body;
 
 /// Type of a contact iterate: [`InStep`] or [`AtRest`].
 pub trait Passing {
-    /// Contact of a slider in an iterate, with its equations.
-    /// The iterate is given by the increments of all degrees of freedom and the unknowns of all contacts.
     fn iterate<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -27,10 +25,8 @@ pub trait Passing {
         (contact, equations.map(|equation| (equation.value, equation.unit)))
     }
 
-    /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
-    /// Derivatives of the contact forces on the master: factors for `λ` and `η`, and a force for `Δξ`.
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
     /// Chord of the path, as a fraction of the length of the path along the axis as drawn [-].

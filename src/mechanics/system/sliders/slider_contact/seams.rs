@@ -53,7 +53,6 @@ impl SliderContact {
         self.track.iter_mut().for_each(|route| route.crossed_at = time);
     }
 
-    /// Index of the beam on the other side of a seam.
     pub fn beam_beyond(&self, seam: Seam) -> Option<usize> {
         self.track.as_ref().map(|route| route.segment(seam.segment).beam)
     }
@@ -80,27 +79,21 @@ impl SliderContact {
         (self.path, self.start_path) = (leg.path.clone(), leg.path.clone());
     }
 
-    /// Seam force on the other side of a seam after given increments, positive in compression [force·length].
-    /// The force is multiplied by the length of the tangent on the other side. The result is zero unless the slider is held at a seam.
     pub(super) fn seam_push(&self, bodies: &[Body], increments: &[f64], force: Vec2) -> f64 {
         let SliderState::Held(end) = self.state else { return 0.0 };
         let Some(route) = &self.track else { return 0.0 };
         route.seam(bodies, end).map_or(0.0, |seam| {
             let leg = route.segment(seam.segment);
             let tangent = leg.end_tangent(bodies, increments, seam.end);
-            // The force is scaled to the length per unit of parameter on the present side, so that both sides can be compared.
             let scale = self.length / leg.length_of_parameter();
             force.dot(&tangent) * seam.end.outward() * scale
         })
     }
 
-    /// Returns true if the seam force is tensile on the other side, and more tensile than on the present side.
-    /// The arguments for the two sides are compressive forces times lengths of tangents [force·length]. The contact force is `force` [force].
     pub(super) fn is_pulled_across(&self, [push, push_beyond]: [f64; 2], force: f64) -> bool {
         push_beyond < push && is_tensile(push_beyond, force, self.length)
     }
 
-    /// Moves a slider that is held at a seam to the other side, if the contact force pulls the slider to that side.
     pub fn change_sides(&mut self, bodies: &[Body]) {
         let SliderState::Held(end) = self.state else { return };
         if !std::mem::take(&mut self.crosses_seam) {

@@ -46,14 +46,14 @@ impl SliderContact {
     /// Duration of an impact at the end of the master [time].
     ///
     /// An impact on a beam lasts at least until the wave of the impact returns, after twice the length divided by `c` (Saint-Venant 1883).
-    /// With a light slave, the impact lasts until the slave stops, after about `m/(c ρA)`.
+    /// With a light slave, the impact lasts until the slave stops.
     /// Between rigid bodies there are no waves, and the impact duration is infinite.
     pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
-        let on_master = blow.master.is_some().then(|| {
-            // The waves in a striking beam limit the mass that is accelerated immediately.
-            master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none()))
-        });
+        let on_master = blow
+            .master
+            .is_some()
+            .then(|| master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none())));
         let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
             let (body, point) = self.connection.slave;
             let points = bodies[body].dynamics.control_points();

@@ -39,11 +39,9 @@ pub enum ContactChange {
 /// Contact of a slider that only pushes.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
-    /// Sign of the distance from the axis, along the left normal, on the side of the flight [-].
+    /// Side of the master on which the slider can fly: 1 for the left side of the axis, -1 for the right side.
     pub sign: f64,
-    /// Nearest point of the master at the end of the last attempted step.
     nearest: NearestPoint,
-    /// True if the slave is on the side of the flight. It can reach the other side beyond an end of the master, and cannot land from there.
     may_land: bool,
     /// Number of take-offs, landings and passages of the axis since the last regular step.
     events: usize,
@@ -53,11 +51,10 @@ pub struct UnilateralContact {
     change: Option<ContactChange>,
 }
 
-/// Nearest point of the master.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NearestPoint {
     parameter: f64,
-    /// Component of the distance from the axis along the normal, positive on the side of the flight [length].
+    /// Distance from the axis along the normal, positive on the side on which the slider can fly [length].
     pub gap: f64,
     /// True if the slave is not beyond an end of the master.
     pub is_inside: bool,
@@ -124,7 +121,6 @@ impl SliderContact {
         self.state = SliderState::Sliding;
     }
 
-    /// Records that the slave landed on its master.
     pub fn record_landing(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (true, contact.events + 1);
@@ -194,7 +190,6 @@ impl SliderContact {
         let sum = |weights: &[f64]| -> Vec2 {
             weights.iter().zip(path.first()..).map(|(by, at)| from_slave(at) * *by).sum()
         };
-        // For a path of zero length, the derivative of divided differences is half the second derivative.
         [sum(path.end()), sum(path.slope()), sum(path.change()) * 2.0]
     }
 
@@ -213,7 +208,6 @@ impl SliderContact {
         self.accept_flight();
     }
 
-    /// Accepts the nearest point at the end of a step.
     pub(super) fn accept_flight(&mut self) {
         let tolerance = self.touching_distance();
         if let Some(contact) =
@@ -239,8 +233,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance of a slave in flight behind the axis at the end of the attempted step, negative in front of it, as a fraction of the size of the
-    /// contact [-]. The value is `None` within rounding of the axis.
+    /// Distance of a slave in flight behind the axis at the end of the attempted step [-]. Unit: size of the contact. Negative in front of the axis.
+    /// Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
