@@ -20,7 +20,7 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 /// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// The results of a run. The program ends after a grace period, or at the second Ctrl-C.
+    /// The results of a run. The program ends at a second Ctrl-C, or if the run does not react in time to the first Ctrl-C.
     Run,
     /// A session with all its data.
     /// If the session has not reacted to the first Ctrl-C, a second Ctrl-C at least a second later ends the program.

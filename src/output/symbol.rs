@@ -46,17 +46,17 @@ pub enum Symbol {
     LineForce,
     /// Moment. It is counter-clockwise if its direction points to the right, and clockwise if its direction points to the left.
     Moment,
-    /// Spring from its point to the end of its direction vector.
+    /// Spring from the point of the symbol to the end of the direction vector.
     Spring,
-    /// Damper from its point to the end of its direction vector.
+    /// Damper from the point of the symbol to the end of the direction vector.
     Damper,
-    /// Segment of a tendon from its point to the end of its direction vector.
+    /// Segment of a tendon, from the point of the symbol to the end of the direction vector.
     Tendon,
     /// Rotational spring at a section.
     TorsionSpring,
-    /// Straight boundary of the ground, through its point. Its direction is the outer normal.
+    /// Straight boundary of the ground through the point of the symbol. The direction of the symbol is the outer normal.
     Wall,
-    /// Disc that is fixed to the ground, around its point. The length of its direction is the radius.
+    /// Disc that is fixed to the ground. Its centre is the point of the symbol, and its radius is the length of the direction vector.
     Disc,
 }
 

@@ -27,7 +27,7 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// Creates an empty transcript. Files to be imported are searched in `folder`.
+    /// Creates an empty transcript. Imported files are searched for in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }

@@ -5,8 +5,8 @@
 //! [`diagnose`] converts every error to a message with line and column of the script.
 //! The modules of the language contain no mechanics: bindings are short and call the solver library.
 //!
-//! A module may use only modules that precede it in this order:
-//! Order: `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.
+//! Each module may use only the modules before it in this list:
+//! `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.
 
 pub mod bindings;
 pub mod diagnose;

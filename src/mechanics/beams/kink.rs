@@ -19,11 +19,11 @@ const ROUNDING: f64 = 1e-11;
 pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length]: the compliance that the mesh misses, times the shear stiffness.
     pub length: PiecewisePolynomial,
-    /// Correction factor of the kinetic energy of a moving kink that the mesh does not represent [-].
+    /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
     pub inertia: f64,
 }
 
-/// Computes the part of a kink that the mesh does not represent (docs/theory.md, section 10.1).
+/// Computes the part of a kink that is missing on the mesh (docs/theory.md, section 10.1).
 /// A force across the beam displaces the axis by more than the mesh shows: by the kink length times the force divided by the shear stiffness.
 ///
 /// The kink length is a polynomial of twice the degree on each span, and zero where the basis is only continuous.

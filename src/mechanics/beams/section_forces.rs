@@ -166,7 +166,7 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// Position at a parameter of the mesh. If two runs meet there, the position belongs to the second run.
+    /// Position at a parameter of the mesh. Where two runs of smoothly joined spans meet, the position belongs to the run that starts there.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).
@@ -176,7 +176,7 @@ impl SectionPoints {
     }
 
     /// Positions along the whole beam with their parameters: the knots, and `within` positions in each span.
-    /// At the meeting point of two runs there are two positions. The first of them belongs to the first run.
+    /// Where two runs of smoothly joined spans meet, there are two positions. The first position belongs to the run that ends there, the second position to the run that starts there.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

@@ -85,7 +85,7 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Replaces the order by an order with a small bandwidth, which includes the couplings of unknowns by blocks.
+    /// Replaces the order by an order with a small bandwidth. Couplings of unknowns by blocks are included in the bandwidth.
     fn use_level_order(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);

@@ -1,7 +1,7 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
 //! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes the large terms cancel.
-//! With 16 digits the remaining stiffness would be lost. With 32 digits the stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
+//! With 16 digits, rounding would destroy the small stiffness of these modes. With 32 digits, this stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -35,7 +35,7 @@ pub struct MotionInStep {
 /// Rate and acceleration at the start of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionAtStart {
-    /// Rate just after the start [length/time, rad/time].
+    /// Rate just after the start of the motion [length/time, rad/time].
     pub rate: f64,
     /// Derivative of the rate [length/time², rad/time²].
     pub acceleration: f64,

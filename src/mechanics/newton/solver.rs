@@ -17,7 +17,7 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// The constant is a billionth of the residual change due to a perturbation.
+/// The norm is a billionth of the residual change that the perturbation of a parameter causes.
 const FOLLOWED: f64 = 1e-14;
 
 /// Ratio of two successive residuals, above which rounding prevents a further reduction.

@@ -8,7 +8,7 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which the scene moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` that serves as a length scale, with start speed `v` and gravity `g`. Unit: largest distance of a body from the origin.
+/// Smallest distance `v²/g` that serves as a length scale, as a fraction of the largest distance of a body from the origin. Here `v` is the start speed and `g` is gravity.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: the [size](Scene::size) of the scene.

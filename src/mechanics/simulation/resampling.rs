@@ -7,7 +7,7 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed distance between the two results of the second half step. Its unit is the length scale times a power of the tolerance.
+/// Allowed distance between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
 /// In the time scale of a motion, the accumulated error due to sampling is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 

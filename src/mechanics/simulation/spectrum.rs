@@ -25,7 +25,7 @@ const SIDE_LOBES: f64 = 5e-5;
 /// Coefficients of the Blackman–Harris window function.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
-/// Half width of the main lobe of the window function. Its unit is the frequency with one period over all rows.
+/// Half width of the main lobe of the window function, as a multiple of the frequency that has one period over all rows.
 /// Frequencies below the half width cannot be distinguished from the mean.
 const LOBE: f64 = 4.0;
 

@@ -61,7 +61,7 @@ pub enum Warning {
         /// Name of a method that would damp the vibration; `None` if the method is in use or would have no effect.
         damping: Option<&'static str>,
     },
-    /// Unresolved vibration of a damped beam that has little kinetic energy in comparison with other bodies.
+    /// Unresolved vibration of a damped beam. The kinetic energy of the beam is small in comparison with other bodies.
     Beam {
         /// Name of the beam.
         beam: String,
@@ -194,7 +194,7 @@ pub enum Warning {
         /// Energy that the contacts of the body store [energy].
         energy: f64,
     },
-    /// Elastic contact of a slider that is shorter than a step.
+    /// Elastic impact of a slider. The duration of the impact is shorter than a step.
     Bounce {
         /// Name of the slider.
         slider: String,

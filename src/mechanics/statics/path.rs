@@ -10,7 +10,7 @@ pub struct PathPoint {
     /// Strain energy [energy].
     pub strain_energy: f64,
     /// Distance from the previous equilibrium [-, rad].
-    /// The distance is a root mean square over all control points: of displacements divided by the longest beam, and of rotations.
+    /// The distance is the root mean square of displacements and rotations over all control points. Displacements are divided by the length of the longest beam.
     pub distance: f64,
     /// Number of Newton iterations from the previous point of the path.
     pub iterations: usize,
@@ -63,7 +63,7 @@ impl EquilibriumPath {
 
 /// Extremum of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
-    /// Distance from the first of the three equilibria, in the metric of the path.
+    /// Distance of the extremum from the first equilibrium, in the metric of the path.
     pub(super) distance: f64,
     pub(super) load_factor: f64,
 }

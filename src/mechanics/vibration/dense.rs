@@ -17,7 +17,7 @@ const ORTHOGONAL: f64 = 1e-15;
 /// Largest number of passes over all pairs of columns. About twelve passes are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Largest remainder of a diagonal entry of the inertia that is due to rounding, as a fraction of the entry.
+/// Largest remainder that counts as zero after the elimination of other degrees of freedom, as a fraction of the diagonal entry of the inertia.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes all pairs of an eigenvalue and a shape of a small scene with inertia, in decreasing order of the eigenvalues.

@@ -28,8 +28,7 @@ pub(super) struct RefinedPair {
 }
 
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
-/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
-/// The removed components are included in the residual.
+/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them. The residual includes these components.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -93,7 +92,7 @@ struct OtherPairs<'a> {
 }
 
 impl OtherPairs<'_> {
-    /// Squared frequencies of a strip, computed from the eigenvalues; zero for unused lanes.
+    /// Squared frequencies of the four vectors of the strip with index `at`, computed from the eigenvalues; zero for unused vectors.
     fn squares(&self, at: usize) -> FourVectors {
         std::array::from_fn(|lane| {
             let value = self.values.get(STRIP_WIDTH * at + lane).copied();

@@ -58,7 +58,8 @@ fn text_of(shell: &Shell, name: &str) -> Option<String> {
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Help topic for a name: the member of the type of a variable, or an imported library function.
+/// Help topic for a name. For a member of a variable, the topic contains the type of the variable, as in `Beam.length`.
+/// For an imported function, the topic is the full name of the function.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')

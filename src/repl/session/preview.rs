@@ -7,7 +7,7 @@ use crate::script::state::watchdog::Watchdog;
 
 /// Control of the repeated evaluation of an input. Each evaluation starts from the same variables.
 pub trait Rounds {
-    /// Prepares the next evaluation. Returns `false` to stop.
+    /// Prepares the next evaluation. Returns `false` if the input is not evaluated again.
     fn begin(&mut self) -> bool;
     /// Receives the value of an evaluation after its end.
     fn end(&mut self, value: Dynamic);

@@ -91,7 +91,7 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// Checks a name that appears in tables and that users type.
+/// Checks a name that users type, for example the name of a column or of a parameter.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),

@@ -1,4 +1,4 @@
-//! Catalog of the language: all tables, in which messages, help and completion search names.
+//! Catalog of the script language: all binding tables. Messages, help and completion search names in them.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;
@@ -6,7 +6,7 @@ use super::kind::Type;
 use super::returns::ValueKind;
 use super::table::{BindingTable, CallSyntax, FunctionBinding};
 
-/// Catalog of the tables of a language.
+/// Catalog of all binding tables of the script language.
 #[derive(Clone)]
 pub struct Catalog {
     tables: Vec<&'static BindingTable>,
@@ -14,12 +14,12 @@ pub struct Catalog {
 }
 
 impl Catalog {
-    /// Creates a catalog of the given tables and of the functions of Rhai.
+    /// Creates a catalog of the given binding tables and of the functions of Rhai.
     pub fn of(tables: &[&'static BindingTable]) -> Self {
         Self { tables: tables.to_vec(), built_ins: builtins::TABLES }
     }
 
-    /// Adds a table.
+    /// Adds a binding table.
     #[must_use]
     pub fn and(mut self, table: &'static BindingTable) -> Self {
         self.tables.push(table);

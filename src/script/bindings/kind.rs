@@ -43,7 +43,7 @@ pub trait Scripted: Clone + 'static {
 /// Summary of a script value: labels and values, which are shown as aligned lines.
 pub type Details = Vec<(String, String)>;
 
-/// Descriptor of a [`Scripted`] type, for use in tables.
+/// Descriptor of a [`Scripted`] type, for use in binding tables.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,

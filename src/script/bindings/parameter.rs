@@ -58,7 +58,7 @@ pub const fn text(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Text)
 }
 
-/// Name parameter. The name is shown in tables.
+/// Parameter whose value is a name, for example the name of a scene or of a study.
 pub const fn name(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Name)
 }

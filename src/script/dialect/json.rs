@@ -12,7 +12,7 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Registers the method in place of the method of Rhai.
+/// Registers the method `to_json` of maps, which replaces the method of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",

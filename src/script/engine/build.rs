@@ -1,4 +1,4 @@
-//! Construction of the engine: limits, type names, syntax, tables, printing, and interruption.
+//! Construction of the script engine: limits, type names, syntax, bindings, printing, and interruption.
 
 use std::ops::{Range, RangeInclusive};
 

@@ -42,7 +42,7 @@ pub enum Halt {
 
 impl ScriptEngine {
     /// Creates the environment for the language of `catalog`, within the limits of the settings.
-    /// Imported files are searched in the folder of the settings.
+    /// Imported files are searched for in the folder `settings.folder`.
     ///
     /// # Errors
     /// Fails only because of internal errors.

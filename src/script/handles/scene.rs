@@ -268,7 +268,7 @@ impl SceneHandle {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }
 
-    /// Station of a handle that must belong to this scene.
+    /// Station of a handle. Fails if the handle belongs to another scene.
     pub fn own_station(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)

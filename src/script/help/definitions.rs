@@ -22,7 +22,7 @@ pub struct DefinitionFile {
     pub text: String,
 }
 
-/// Definition files of a language: one file for all types, and one file for each table.
+/// Definition files of the script language: one file for all types, and one file for each table of bindings or of functions of Rhai.
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];

@@ -1,7 +1,7 @@
 //! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
-//! In other domains, a curve is a parameter `object("axis", geometry::CURVE)`, read by `call.get::<Rc<Curve>>("axis")`.
-//! Knots are parameters [`KNOTS`] with the native type `Rc<KnotVector>`. Curves and knots are immutable.
+//! Bindings of other domains declare a curve as a parameter `object("axis", geometry::CURVE)`, and read it by `call.get::<Rc<Curve>>("axis")`.
+//! They declare a knot vector in the same way by [`KNOTS`]; its native type is `Rc<KnotVector>`. Curves and knot vectors are immutable.
 
 pub mod curves;
 pub mod knots;

@@ -1,4 +1,4 @@
-//! Tests of all tables: bindings are documented, names valid, and examples run.
+//! Tests of all binding tables: every binding is documented, its name is valid, and its example runs.
 
 use std::collections::HashSet;
 

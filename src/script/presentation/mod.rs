@@ -1,4 +1,4 @@
-//! Presentation of values at the prompt and in charts, pictures and colours.
+//! Presentation of values as text at the prompt, and in charts and coloured pictures.
 
 pub(crate) mod along;
 pub(crate) mod arrays;

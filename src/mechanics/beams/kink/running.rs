@@ -1,4 +1,4 @@
-//! Kinetic energy of a moving kink that a mesh does not represent.
+//! Correction of the kinetic energy of a moving kink, because the mesh represents this energy only approximately.
 
 use super::SplineString;
 use crate::beams::Mesh;
@@ -8,7 +8,7 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor of the kinetic energy of a moving kink that the mesh does not represent [-].
+    /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
     /// The factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
     pub fn inertia(
         &self,

@@ -4,7 +4,7 @@ use super::dual::{ALL_SLOPES, ContactDuals, Dual, DualVector};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 
-/// Quantities of a kink that depend on the path of the slave, in an iterate.
+/// Quantities of a kink in an iterate. They depend on the path of the slave.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub length: Dual<SLOPES>,
     pub difference: Dual<SLOPES>,

@@ -59,7 +59,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the static contact forces on the control points of the master.
-    /// For each control point, returns a factor for the force, a factor for the couple, and a vector for the sliding increment.
+    /// For each control point, returns three derivatives: with respect to the contact force (a multiple of the identity), the couple (zero), and the sliding increment (a vector).
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -24,7 +24,7 @@ const HIDDEN_SHARE: f64 = 0.05;
 /// Phase of a vibration per step, above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
-/// Smallest kinetic energy of a body that is considered, as a fraction of the total kinetic energy.
+/// Smallest kinetic energy of the damped beams that are checked, as a fraction of the total kinetic energy.
 const NOTHING: f64 = 1e-8;
 
 /// Energy drift above which a warning is given. Rounding errors of about ten thousand steps remain below it, for any stiffness.

@@ -34,7 +34,7 @@ pub struct Numbering {
 
 impl Numbering {
     /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes.
-    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
+    /// The contact unknowns are numbered between the unknowns and the supported degrees of freedom. Their number is `border`.
     /// Joints and drives in the list `released` have no effect.
     pub fn new(
         scene: &Scene,

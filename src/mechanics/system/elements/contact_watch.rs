@@ -9,7 +9,7 @@ const TURNED: f64 = 0.5;
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring that is too short to be resolved by the steps.
+/// Bounce on a spring, with a contact that is too short to be resolved by the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
     /// Number of steps during the contact [-]. Steps at whose start or end the spring is slack are included.

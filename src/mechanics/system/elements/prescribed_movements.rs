@@ -35,7 +35,7 @@ struct PresentMotion {
     /// Largest kink in all earlier steps. The kink in the present step is in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
-    /// Check for rates that change within a step; `None` for rates whose mean is exact.
+    /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.
     check: Option<ScheduleCheck>,
     /// Reaction [force, force·length]. A moment is conjugate to the angle.
     reaction: StepMean<f64>,

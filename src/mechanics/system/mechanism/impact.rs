@@ -17,7 +17,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Smallest ratio of the velocity response to an impulse with the included deformations to the velocity response with all deformations.
+/// Smallest ratio of two velocity responses to the same impulse: the response with only the included deformations, and the response with all deformations.
 /// Bodies with a smaller ratio count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
@@ -307,7 +307,7 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Computes the velocity responses to unit impulses with the given deformations.
+    /// Computes the velocity responses to unit impulses. The argument `deformation` selects the deformations that the bodies can have in the impact.
     /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
     ///
     /// # Errors
@@ -393,7 +393,7 @@ impl System {
             own.for_each(|(sum, passed)| *sum += impulse * passed);
         }
         change.extend(jumps.iter().skip(change.len()));
-        // The remaining momentum change at supports is the impulse of the supports.
+        // At supports, the momentum change minus the impulses of the contacts is the impulse of the supports.
         self.add_inertia(1.0, &change, &mut residual);
         self.links.transmit(&self.bodies, &change, &mut residual);
         for (unknown, roller) in self.links.rollers() {

@@ -15,7 +15,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of two sliders from the ends of their masters that counts as simultaneous arrival. Its unit is the parameter range.
+/// Largest distance of a second slider from the end of its master that counts as simultaneous arrival, as a fraction of the parameter range of the master.
 const TOGETHER: f64 = 1e-12;
 
 /// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations count as rigid.

@@ -64,8 +64,8 @@ impl System {
         self.slider(slider).friction_force()
     }
 
-    /// Distance of the slave of a slider that only pushes from the axis of its master [length], positive on the side of the flight.
-    /// The distance is zero in contact, and `None` for a slider that never leaves its master.
+    /// Distance of a slave from the axis of its master, for a slider that only pushes [length]. The distance is positive on the side of the flight, and zero in contact.
+    /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())
     }

@@ -60,8 +60,8 @@ impl Scene {
     }
 
     /// Rounding error of strain energies [energy].
-    /// With beams, it is the machine precision times the sum of `EA L + EI/L` over the beams, with length `L` and stiffnesses `EA` and `EI`.
-    /// Without beams, it is the work of the initial forces on the rounding errors of positions.
+    /// For a scene with beams, the rounding error is the machine precision times the sum of `EA L + EI/L` over the beams, with length `L` and stiffnesses `EA` and `EI`.
+    /// For a scene without beams, the rounding error is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
             return f64::EPSILON * self.rounded_work();

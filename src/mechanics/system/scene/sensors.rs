@@ -11,7 +11,7 @@ use crate::system::sensors::quantities::{
 };
 use crate::system::{Quantity, Sensor, SensorSource, SystemError};
 
-/// Word for a sensor in messages about its name.
+/// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
 
 /// Location of an object with its quantities, as part of the names of sensors.

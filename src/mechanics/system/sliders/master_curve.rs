@@ -184,13 +184,13 @@ impl MasterCurve {
         (first - slack..=last + slack).contains(&parameter)
     }
 
-    /// Fraction of the length as drawn that lies before a parameter [-].
+    /// Arc length of the master as drawn up to a parameter of its mesh, as a fraction of the whole length [-].
     pub fn part_before(&self, parameter: f64) -> f64 {
         let along = self.axis.length_to(self.drawn(parameter));
         along.map_or(f64::NAN, |along| along / self.axis.length())
     }
 
-    /// Length of the master as drawn per unit of the parameter [length].
+    /// Derivative of the arc length of the master as drawn with respect to the parameter of its mesh [length].
     pub fn stretch(&self, parameter: f64) -> f64 {
         let (start, end) = self.axis.domain();
         let (first, last) = self.domain;

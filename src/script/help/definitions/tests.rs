@@ -1,4 +1,4 @@
-//! Tests: definition files contain everything that the tables contain, in valid syntax.
+//! Tests: the definition files contain all bindings of the script language, in valid syntax.
 
 use super::types::{for_value, identifier};
 use super::{DefinitionFile, definitions};

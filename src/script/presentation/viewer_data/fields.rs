@@ -15,7 +15,7 @@ struct FieldKind {
 enum FieldSource {
     /// Speed of the axis, computed from the configurations of the previous and the next frame [length/time].
     AdjacentFrames,
-    /// Function of the axis in the configuration of a frame, with the dimension of its value.
+    /// Function of a point on the axis and of the control points in a frame. The text is the dimension of the value.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
     State,
 }

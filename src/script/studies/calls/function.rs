@@ -268,7 +268,7 @@ impl ParameterReading {
     }
 }
 
-/// Name that the following access reads from a map: `.mass`, `["mass"]`, or the start of a chain.
+/// Key that an access reads from a map. For example, `.mass`, `["mass"]` and `.mass.value` read the key `mass`.
 fn name_read(behind: &Expr) -> Option<String> {
     match behind {
         Expr::Property(property, _) => Some(property.2.to_string()),

@@ -1,4 +1,4 @@
-//! Values that can be sent to the engines of other threads: plain values, and native types that are data.
+//! Values that can be sent to the engines of other threads: plain values, script functions, and serialised values of the types in [`DataKind`].
 
 use std::rc::Rc;
 
@@ -32,7 +32,7 @@ pub enum Portable {
     Data(DataKind, Vec<u8>),
 }
 
-/// Native types that are data.
+/// Native types whose values can be serialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataKind {
     /// Constant or tapered section.

@@ -141,7 +141,7 @@ pub(super) struct PointFriction {
 /// Normal force that limits a friction force in an iterate, and the time in which both act.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NormalContact {
-    /// Normal force; negative in an iterate that pulls [force].
+    /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub(super) force: f64,
     /// Duration of the step [time].
     pub(super) duration: f64,

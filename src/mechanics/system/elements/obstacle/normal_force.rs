@@ -8,7 +8,7 @@ use crate::integrators::Stage;
 use crate::system::elements::coordinate::{Coordinate, rounding_error};
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
-/// Stiffness relative to the impedance of the body, up to which a contact is linearised at the present iterate.
+/// Largest ratio of the stiffness of a contact to the impedance of the body, for which the law of contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
 /// Law of the normal force.
@@ -144,7 +144,8 @@ impl NormalForce {
         }
     }
 
-    /// Target of a linearisation. A stiff contact intersects its law with the impedance of the body, in equilibria with a secant estimate of it.
+    /// Tension and stiffness for the linearised equations. For a stiff contact, the tension is that of the point at which the law of contact and the impedance of the body give equal forces.
+    /// In equilibria, the impedance is a secant estimate.
     pub fn linearisation_target(
         &mut self,
         law: &NormalLaw,

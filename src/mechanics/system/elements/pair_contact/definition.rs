@@ -145,7 +145,7 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
     }
 }
 
-/// For each contact point, the parts of its own axis that are farther along the axis than half a circle whose radius is the sum of both radii.
+/// For each contact point, the parts of its own axis that the point can touch. They are farther along the axis than half a circle whose radius is the sum of both radii.
 /// Without this distance, a beam that bends would touch itself at the next contact point.
 fn allowed_parts(
     basis: &Basis,

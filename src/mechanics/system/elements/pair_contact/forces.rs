@@ -18,6 +18,9 @@ use crate::system::elements::obstacle::{ContactTime, NormalLaw};
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{ContactState, Penetration, TrialState, WorkAndImpulse};
 
+/// Relative accuracy of the smallest gap between open bodies. Pairs that would reduce the gap by less are not evaluated.
+const GAP_ACCURACY: f64 = 1e-3;
+
 /// Shapes that can touch each other: the contact points of one shape touch the axis of the other one.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Partnership {
@@ -168,7 +171,7 @@ impl PairForces {
     fn approach(&mut self, index: PairIndex) {
         let (own, target) = (&self.shapes[index.shape], &self.shapes[index.target]);
         let (site, reach) = (&own.sites[index.site], own.radius + target.radius);
-        let limit = self.gap.max(0.0) + reach;
+        let limit = (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach;
         let position = site.place.interpolate(&own.start.points);
         if self.gap <= 0.0 || target.start.is_beyond(position, limit) {
             return;
@@ -289,7 +292,7 @@ impl InternalForce for PairForces {
             self.last_rate = rate;
         }
         self.shapes.iter_mut().for_each(Shape::end_step);
-        self.pairs.iter_mut().for_each(|pair| pair.begin_configuration(&self.shapes));
+        self.pairs.iter_mut().for_each(|pair| pair.end_step(&self.shapes));
         self.remove_open_pairs();
         self.update_gap();
         self.rate_history.end();

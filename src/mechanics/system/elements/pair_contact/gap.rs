@@ -1,7 +1,8 @@
 //! Change of the gap between a point and a moving curve in a step, and the directions of the contact force.
 //!
 //! ```text
-//! point x, nearest points c(ξ₀) and c(ξ₁) of the curve at the start and at the end of the step
+//! xₖ: contact point, and cₖ(ξ): curve, at the start (k = 0) and at the end (k = 1) of the step
+//! ξ₀, ξ₁: parameters of the nearest point of the curve at the start and at the end of the step
 //! aₖ = xₖ - cₖ(ξ₀)      bₖ = xₖ - cₖ(ξ₁)      ℓ₀ = |a₀|      ℓ₁ = |b₁|
 //! A₀ = |b₀|² - ℓ₀² ≥ 0     A₁ = |a₁|² - ℓ₁² ≥ 0     θ = A₀/(A₀ + A₁)
 //! force on c(ξ₀):  -F θ (a₀ + a₁)/(ℓ₀ + ℓ₁)      force on c(ξ₁):  -F (1 - θ) (b₀ + b₁)/(ℓ₀ + ℓ₁)
@@ -143,7 +144,7 @@ pub(super) struct GapMovement {
     pub(super) moved: [Vec2; 3],
     /// Vector from `c(ξ₀)` to `c(ξ₁)` at the start of the step [length].
     pub(super) slid: Vec2,
-    /// Rounding error of this vector is that of increments of this size [length].
+    /// Size of increments with the same rounding error as this vector [length].
     pub(super) increment: f64,
     /// Derivatives of the curve with respect to ξ at `c(ξ₁)`: the first at the start of the step, the first and the second at its end [length].
     pub(super) tangents: [Vec2; 3],
@@ -175,7 +176,8 @@ impl GapTrial {
         foot_slope: [0.0; LOCAL],
     };
 
-    /// Trial with forces that do the work of the change (`TangentScaled`), or that have the direction of the gap at the end of the step (`Angle`).
+    /// Computes the change of the gap and the directions of the forces. For `TangentScaled`, the work of the forces equals the tension times the change of the gap.
+    /// For `Angle`, the force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,
@@ -204,7 +206,7 @@ impl GapTrial {
         let (at_start, at_end) = match rotations {
             RotationIncrement::TangentScaled => {
                 let sum = first + last;
-                let share = match sum.value > SAME_FOOT * start.apart.norm_squared() {
+                let share = match sum.value.abs() > SAME_FOOT * start.apart.norm_squared() {
                     true => first / sum,
                     false => Dual::constant(0.5),
                 };

@@ -84,8 +84,13 @@ impl ContactPair {
         shapes[self.index.shape].radius + shapes[self.index.target].radius
     }
 
-    /// Uses the foot at the end of the last step, so that the gap is continuous.
+    /// Uses the foot at the end of the last accepted step, so that the gap is continuous.
     pub(super) fn begin_configuration(&mut self, shapes: &[Shape]) {
+        self.use_foot(shapes, self.start.foot);
+    }
+
+    /// Makes the foot of the accepted step the one at the start of the next step.
+    pub(super) fn end_step(&mut self, shapes: &[Shape]) {
         self.use_foot(shapes, self.foot);
     }
 
@@ -101,7 +106,7 @@ impl ContactPair {
         self.normal.gap = Coordinate::from(self.start.apart.norm() - self.reach(shapes));
     }
 
-    /// Search for the foot that starts at the present foot.
+    /// Search for the nearest point of the axis, starting at the present nearest point.
     fn search(&self, shapes: &[Shape], position: Vec2) -> NearestSearch {
         let PairIndex { shape, site, target } = self.index;
         let allowed = if shape == target { shapes[shape].sites[site].allowed } else { WHOLE_AXIS };
@@ -204,7 +209,7 @@ impl ContactPair {
         ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the force with its difference from the law condensed out to `out`.
+    /// Adds the contact force to `out`, after elimination of the law of contact.
     /// Returns the derivatives of the local forces with respect to the local coordinates.
     pub(super) fn add_linearised(
         &mut self,
@@ -419,8 +424,9 @@ impl ContactPair {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         let PairIndex { shape, site, target } = self.index;
-        state.extend([shape, site, target, self.foot.span].map(|index| index as f64));
-        state.push(self.foot.xi);
+        let Foot { xi, span, .. } = self.start.foot;
+        state.extend([shape, site, target, span].map(|index| index as f64));
+        state.push(xi);
         self.normal.save(state);
     }
 }
@@ -454,7 +460,7 @@ fn dot(a: &[f64; LOCAL], b: &[f64; LOCAL]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Vector from one foot to another in a configuration, and the increment that its rounding error belongs to.
+/// Vector from one foot to another in a configuration, and the increment that determines its rounding error.
 /// On the same span, the vector is the Taylor polynomial at the first foot.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;

@@ -415,7 +415,8 @@ impl SpanSearch<'_> {
         if squared < nearest { (squared, xi) } else { (nearest, sample(best)) }
     }
 
-    /// Zero of the derivative of the distance in a bracket, by Newton's method with bisection; an end of the bracket without a zero.
+    /// Parameter between `low` and `high` at which the derivative of the distance is zero, computed by Newton's method with bisection.
+    /// Returns `low` or `high` if the derivative has no zero between them.
     fn stationary(&self, mut low: f64, mut xi: f64, mut high: f64) -> f64 {
         for _ in 0..MOST_ITERATIONS {
             let [apart, slope, bend] = self.at(xi);

@@ -25,7 +25,7 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Finds the first drive whose position under a fraction of the load differs from the value of its function just after a time.
+    /// Finds the first drive whose static position under the load differs from its prescribed position just after `time`. The load is multiplied by `load_factor`.
     /// Returns the name of the drive and both positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {

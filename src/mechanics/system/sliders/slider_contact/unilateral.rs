@@ -224,8 +224,8 @@ impl SliderContact {
         END_TOLERANCE * self.size
     }
 
-    /// Distance of a slave in flight behind the axis at the end of the attempted step, as a fraction of the size of the contact [-].
-    /// The value is `None` unless the slider lands in the step.
+    /// Depth of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
+    /// Returns `None` unless the slider lands in the step.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let NearestPoint { gap, is_inside, .. } = contact.nearest;
@@ -233,8 +233,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance of a slave in flight behind the axis at the end of the attempted step [-]. Unit: size of the contact. Negative in front of the axis.
-    /// Returns `None` if the slave is on the axis within rounding.
+    /// Depth of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
+    /// The depth is negative on the side of the flight. Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
