@@ -19,6 +19,7 @@ pub const TRACKS: &[ExerciseTrack] = &[
     ExerciseTrack { name: "splines", title: "Splines and knot vectors" },
     ExerciseTrack { name: "integrators", title: "Integrators and invariants" },
     ExerciseTrack { name: "sliding", title: "Joints and sliding" },
+    ExerciseTrack { name: "contact", title: "Friction and contact" },
     ExerciseTrack { name: "studies", title: "Sweeps and fits" },
 ];
 
@@ -69,6 +70,11 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("sliding", "bead_clock"),
     exercise!("sliding", "launch"),
     exercise!("sliding", "sliding_rule"),
+    exercise!("contact", "friction_angle"),
+    exercise!("contact", "bounce_heights"),
+    exercise!("contact", "belt"),
+    exercise!("contact", "jam"),
+    exercise!("contact", "take_off"),
     exercise!("studies", "best_angle"),
     exercise!("studies", "whose_stiffness"),
 ];

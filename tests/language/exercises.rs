@@ -125,6 +125,17 @@ const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
         "((2 * n - 1) * length - x) / speed",
     ),
     ("launch", "behind / sqrt(2 * height / 9.81)", "behind * sqrt(9.81 / 2 / height)"),
+    ("friction_angle", "atan(friction)", "asin(friction / sqrt(1 + friction^2))"),
+    ("friction_angle", "atan(friction)", "radians(degrees(atan(friction)))"),
+    ("bounce_heights", "drop * restitution^(2 * n)", "drop * (restitution^n)^2"),
+    ("belt", "exp(friction * angle)", "(1 + friction * angle / 1e6)^1e6"),
+    ("jam", "spacing / (2 * friction)", "0.5 * spacing / friction"),
+    ("take_off", "\"above\"", "\"left\""),
+    (
+        "take_off",
+        "2 * radius / 3 + speed^2 / (3 * gravity)",
+        "(2 * gravity * radius + speed^2) / (3 * gravity)",
+    ),
     ("best_angle", "linspace(20, 60, 41)", "linspace(15, 65, 101)"),
     ("whose_stiffness", "let EI = 24.7;", "let EI = found.parameters.EI;"),
 ];

@@ -114,7 +114,7 @@ fn keys_answer_while_an_attempt_runs_for_ever_and_saving_begins_anew() {
     student.saves(&EXERCISES[0], EXERCISES[0].solution);
     student.sees("Passed. (run 2)");
     student.saves(&EXERCISES[1], "loop { try { loop { } } catch { } }");
-    student.sees("Exercise 2 of 23");
+    student.sees("Exercise 2 of 28");
     student.sees("Running, 1 s.");
     student.presses("q");
     student.has_left();
@@ -147,19 +147,19 @@ fn limits_stop_what_eats_memory() {
 #[test]
 fn the_list_opens_another_exercise_and_previous_goes_back() {
     let mut student = Student::watches("rows 24 cols 80", "");
-    student.sees("Exercise 1 of 23");
+    student.sees("Exercise 1 of 28");
     student.presses("l");
-    student.sees("All 23 exercises");
+    student.sees("All 28 exercises");
     student.presses("7");
     student.sees(">         7  kink");
     student.presses("\r");
-    student.sees("Exercise 7 of 23");
+    student.sees("Exercise 7 of 28");
     student.presses("p");
-    student.sees("Exercise 6 of 23");
+    student.sees("Exercise 6 of 28");
     student.presses("n");
     student.sees("n again skips it");
     student.presses("n");
-    student.sees("Exercise 7 of 23");
+    student.sees("Exercise 7 of 28");
     student.presses("\u{3}");
     student.has_left();
 }

@@ -1,8 +1,8 @@
 //! Converts the state to the lines of the screen, without side effects. Example of a screen:
 //!
 //! ```text
-//! Exercise 2 of 23: title                 the header does not scroll
-//! [##----------------] 1 of 23 passed
+//! Exercise 2 of 28: title                 the header does not scroll
+//! [##----------------] 1 of 28 passed
 //! Edit beams/rectangle.rhai
 //! ───────────────────────────────────
 //! task, result, hints                     this part scrolls if it is longer than the screen

@@ -58,8 +58,8 @@ fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to
         let shown = lines(&at(1), size);
         let all = without_blanks(&shown.join("\n"));
         for part in [
-            "Exercise 1 of 23: Change one number and see what it does",
-            "0 of 23 passed",
+            "Exercise 1 of 28: Change one number and see what it does",
+            "0 of 28 passed",
             "Edit withy-exercises/beams/change_one_number.rhai",
             "A strip of length 1 is clamped at its left end.",
             "To do: choose EI such that the tip sinks by no less than 0.08 and no more than 0.1.",
@@ -171,7 +171,7 @@ fn passing_says_so_and_what_comes_next() {
     let all = text(&judged(1, AttemptOutcome::Passed, &[]), (80, 24));
     for part in [
         "Passed.",
-        "1 of 23 passed",
+        "1 of 28 passed",
         "n continues with beams/rectangle",
         "s shows a solution",
         "s solution",
@@ -184,8 +184,8 @@ fn passing_says_so_and_what_comes_next() {
         state.progress.record(exercise, true);
     }
     let all = text(&state, (80, 24));
-    assert!(all.contains("All 23 exercises are passed. Congratulations!"), "{all}");
-    assert!(all.contains(&format!("[{}] 23 of 23 passed", "#".repeat(BAR))), "{all}");
+    assert!(all.contains("All 28 exercises are passed. Congratulations!"), "{all}");
+    assert!(all.contains(&format!("[{}] 28 of 28 passed", "#".repeat(BAR))), "{all}");
 }
 
 #[test]
