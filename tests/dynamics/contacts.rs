@@ -237,6 +237,9 @@ fn a_step_does_not_jump_through_a_beam() {
     }
 }
 
+/// Order of the bodies, and map of their positions and velocities.
+type Copy<'a> = (&'a [usize], &'a dyn Fn(Vec2) -> Vec2);
+
 /// Turned and mirrored copies move alike, as does a copy with the bodies in another order.
 #[test]
 fn turned_mirrored_and_reordered_copies_agree() {
@@ -271,7 +274,7 @@ fn turned_mirrored_and_reordered_copies_agree() {
         let mirror = |p: Vec2| at(-p.x, p.y);
         let (reference, force) = build(&[0, 1, 2, 3], &same);
         assert!(force.iter().any(|force| *force > 0.0));
-        let copies: [(&[usize], &dyn Fn(Vec2) -> Vec2); 3] =
+        let copies: [Copy<'_>; 3] =
             [(&[0, 1, 2, 3], &turn), (&[0, 1, 2, 3], &mirror), (&[2, 0, 3, 1], &same)];
         for (number, (order, map)) in copies.into_iter().enumerate() {
             let (found, _) = build(order, map);

@@ -115,6 +115,8 @@ pub(super) struct ContactSite {
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
     spans: Vec<Bounds>,
+    /// Samples of all spans, one span after the other.
+    samples: Vec<Vec2>,
     /// Box around all spans.
     bounds: Bounds,
 }
@@ -133,8 +135,38 @@ impl Configuration {
 /// Axis of a body: a curve, or a single point.
 #[derive(Debug, Clone)]
 enum Axis {
-    Curve { basis: Basis, spans: Vec<Span>, growth: f64 },
-    Point(Foot),
+    Curve(SampledCurve),
+    Point(Box<Foot>),
+}
+
+/// Curve with the weights of its samples.
+#[derive(Debug, Clone)]
+struct SampledCurve {
+    basis: Basis,
+    spans: Vec<Span>,
+    /// Weights of the control points of a span, for each sample of each span.
+    weights: Vec<f64>,
+    /// Size by which the box around the control points of a span is enlarged, as a fraction of the box [-].
+    growth: f64,
+}
+
+impl SampledCurve {
+    fn new(basis: &Basis) -> Self {
+        // B-splines lie in the convex hull of their control points. Lagrange polynomials overshoot.
+        let growth = if matches!(basis, Basis::BSpline(_)) { 0.0 } else { 1.0 };
+        let spans = basis.spans();
+        let values = |span: &Span| {
+            let places = (0..=SAMPLES).map(|at| sample(span.start, span.end, at));
+            places.map(|xi| basis.evaluate_in(span, xi)).collect::<Vec<_>>()
+        };
+        let weights = spans.iter().flat_map(values).flat_map(|at| at.values().to_vec()).collect();
+        Self { basis: basis.clone(), spans, weights, growth }
+    }
+}
+
+/// Parameter of a sample between two parameters.
+fn sample(low: f64, high: f64, at: usize) -> f64 {
+    low + (high - low) * (at as f64 / SAMPLES as f64)
 }
 
 /// Body in contact.
@@ -163,16 +195,13 @@ impl Shape {
         radius: f64,
         sites: Vec<ContactSite>,
     ) -> Self {
-        // B-splines lie in the convex hull of their control points. Lagrange polynomials overshoot.
-        let growth = if matches!(basis, Basis::BSpline(_)) { 0.0 } else { 1.0 };
-        let axis = Axis::Curve { basis: basis.clone(), spans: basis.spans(), growth };
-        Self::new(body, radius, axis, sites)
+        Self::new(body, radius, Axis::Curve(SampledCurve::new(basis)), sites)
     }
 
     pub(super) fn of_point(radius: f64, site: ContactSite) -> Self {
         let BodyPoint { body, first, .. } = site.place;
         let foot = Foot { xi: 0.0, span: 0, values: BasisValues::constant(first), is_free: false };
-        Self::new(body, radius, Axis::Point(foot), vec![site])
+        Self::new(body, radius, Axis::Point(Box::new(foot)), vec![site])
     }
 
     fn new(body: usize, radius: f64, axis: Axis, sites: Vec<ContactSite>) -> Self {
@@ -238,8 +267,8 @@ impl Shape {
     /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
     pub(super) fn foot_in(&self, span: usize, xi: f64) -> Option<Foot> {
         match &self.axis {
-            Axis::Point(foot) => (span == 0).then_some(*foot),
-            Axis::Curve { basis, spans, .. } => {
+            Axis::Point(foot) => (span == 0).then_some(**foot),
+            Axis::Curve(SampledCurve { basis, spans, .. }) => {
                 let at = spans.get(span).filter(|at| (at.start..=at.end).contains(&xi))?;
                 let values = basis.evaluate_in(at, xi);
                 Some(Foot { xi, span, values, is_free: false })
@@ -251,10 +280,10 @@ impl Shape {
     pub(super) fn nearest(&self, at: &Configuration, search: &NearestSearch) -> Option<Foot> {
         let NearestSearch { position, allowed, limit, hint } = *search;
         let (basis, spans) = match &self.axis {
-            Axis::Curve { basis, spans, .. } => (basis, spans),
+            Axis::Curve(SampledCurve { basis, spans, .. }) => (basis, spans),
             Axis::Point(foot) => {
                 let is_near = (foot.combine(0, &at.points) - position).norm() < limit;
-                return is_near.then_some(*foot);
+                return is_near.then_some(**foot);
             }
         };
         let mut best: (f64, Option<(usize, f64)>) = (square(limit), None);
@@ -265,7 +294,7 @@ impl Shape {
             }
             let within = |&(low, high): &(f64, f64)| (span.start.max(low), span.end.min(high));
             for (low, high) in allowed.iter().map(within).filter(|(low, high)| low < high) {
-                let search = SpanSearch { basis, span, points: &at.points, position };
+                let search = SpanSearch { basis, span, at, index, position };
                 let (squared, xi) = search.nearest_in(low, high);
                 let is_end_of_part = allowed.iter().any(|(low, high)| xi == *low || xi == *high);
                 if squared < best.0 && !is_end_of_part {
@@ -286,7 +315,7 @@ impl Shape {
     pub(super) fn is_crossed(&self, path: &CrossingPath) -> bool {
         let CrossingPath { from, to, allowed, radius } = *path;
         let (basis, spans) = match &self.axis {
-            Axis::Curve { basis, spans, .. } => (basis, spans),
+            Axis::Curve(SampledCurve { basis, spans, .. }) => (basis, spans),
             Axis::Point(foot) => {
                 let [before, after] = [(&self.start, from), (&self.end, to)]
                     .map(|(at, position)| position - foot.combine(0, &at.points));
@@ -324,12 +353,10 @@ impl Shape {
         let changes_side = before.is_free
             && after.is_free
             && side(&before, &self.start, from) * side(&after, &self.end, to) < 0.0;
-        let passes_chord = |(_, span): (usize, &Span)| {
+        let passes_chord = |(index, _): (usize, &Span)| {
             let vertex = |at: usize| {
-                let xi = span.start + (span.end - span.start) * (at as f64 / SAMPLES as f64);
-                let values = basis.evaluate_in(span, xi);
-                let [start, end] = [&self.start, &self.end].map(|at| values.combine(0, &at.points));
-                [from - start, to - end]
+                let sample = index * (SAMPLES + 1) + at;
+                [from - self.start.samples[sample], to - self.end.samples[sample]]
             };
             (0..SAMPLES).any(|at| passes_between(vertex(at), vertex(at + 1)))
         };
@@ -363,16 +390,22 @@ pub(super) struct NearestSearch {
 impl Axis {
     /// Computes the boxes of a configuration from its control points.
     fn bound(&self, at: &mut Configuration) {
-        let Configuration { points, spans: bounds, bounds: all } = at;
+        let Configuration { points, spans: bounds, samples, bounds: all } = at;
         bounds.clear();
+        samples.clear();
         match self {
             Self::Point(foot) => bounds.push(Bounds::of([points[foot.values.first]].into_iter())),
-            Self::Curve { basis, spans, growth } => {
+            Self::Curve(SampledCurve { basis, spans, weights, growth }) => {
                 let order = basis.degree() + 1;
                 bounds.extend(spans.iter().map(|span| {
                     let own = points[span.first..span.first + order].iter().copied();
                     Bounds::of(own).grown(*growth)
                 }));
+                for (index, weights) in weights.chunks_exact(order).enumerate() {
+                    let first = spans[index / (SAMPLES + 1)].first;
+                    let own = points[first..first + order].iter().zip(weights);
+                    samples.push(own.fold(Vec2::zeros(), |sum, (at, by)| sum + at * *by));
+                }
             }
         }
         *all = bounds.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span));
@@ -383,7 +416,9 @@ impl Axis {
 struct SpanSearch<'a> {
     basis: &'a Basis,
     span: &'a Span,
-    points: &'a [Vec2],
+    /// Configuration of the axis, and the index of the span.
+    at: &'a Configuration,
+    index: usize,
     position: Vec2,
 }
 
@@ -391,14 +426,20 @@ impl SpanSearch<'_> {
     /// Vector from the position to the axis, and the first two derivatives of the axis.
     fn at(&self, xi: f64) -> [Vec2; 3] {
         let values = self.basis.evaluate_in(self.span, xi);
-        let [place, slope, bend] = [0, 1, 2].map(|order| values.combine(order, self.points));
+        let [place, slope, bend] = [0, 1, 2].map(|order| values.combine(order, &self.at.points));
         [place - self.position, slope, bend]
     }
 
     /// Squared distance and parameter of the nearest point between two parameters.
     fn nearest_in(&self, low: f64, high: f64) -> (f64, f64) {
-        let sample = |at: usize| low + (high - low) * (at as f64 / SAMPLES as f64);
-        let squared = |at: usize| self.at(sample(at))[0].norm_squared();
+        let is_whole = (low, high) == (self.span.start, self.span.end);
+        let squared = |at: usize| match is_whole {
+            true => {
+                let sample = self.at.samples[self.index * (SAMPLES + 1) + at];
+                (sample - self.position).norm_squared()
+            }
+            false => self.at(sample(low, high, at))[0].norm_squared(),
+        };
         let (mut best, mut nearest) = (0, squared(0));
         for at in 1..=SAMPLES {
             let here = squared(at);
@@ -407,12 +448,12 @@ impl SpanSearch<'_> {
             }
         }
         let xi = self.stationary(
-            sample(best.saturating_sub(1)),
-            sample(best),
-            sample((best + 1).min(SAMPLES)),
+            sample(low, high, best.saturating_sub(1)),
+            sample(low, high, best),
+            sample(low, high, (best + 1).min(SAMPLES)),
         );
         let squared = self.at(xi)[0].norm_squared();
-        if squared < nearest { (squared, xi) } else { (nearest, sample(best)) }
+        if squared < nearest { (squared, xi) } else { (nearest, sample(low, high, best)) }
     }
 
     /// Parameter between `low` and `high` at which the derivative of the distance is zero, computed by Newton's method with bisection.
