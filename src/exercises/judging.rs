@@ -179,7 +179,7 @@ impl JudgingContext {
     }
 }
 
-/// Makes a function of the attempt callable by the judge. The function can call other functions of its own file, but it cannot access the judge.
+/// Makes a function of the attempt callable by the judge. The function can call other functions of the same file, but it cannot access the judge.
 fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let definition = functions.iter_functions().find(|known| known.name == function.fn_name());

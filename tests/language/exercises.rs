@@ -1,5 +1,4 @@
-//! The exercises themselves: start files are told what is missing, solutions and other right answers pass, plausible
-//! mistakes are explained, and nobody passes by a trick.
+//! Exercises: start files and plausible mistakes have the expected findings, solutions and other right answers pass, and cheats fail.
 
 #![allow(clippy::unwrap_used)]
 
@@ -40,7 +39,7 @@ fn told(exercise: &Exercise, text: &str) -> String {
     }
 }
 
-/// A wrong but plausible attempt, headed by what it and the start file are told.
+/// A plausible mistake. Its first two lines contain parts of the findings for the start file and for this attempt.
 fn attempt(exercise: &Exercise) -> String {
     fs::read_to_string(root().join("tests/attempts").join(exercise.file())).unwrap()
 }
@@ -53,7 +52,7 @@ fn expected<'a>(attempt: &'a str, who: &str) -> &'a str {
 fn every_start_file_is_told_what_is_missing() {
     for exercise in EXERCISES {
         let (said, attempt) = (told(exercise, exercise.start), attempt(exercise));
-        let phrase = expected(&attempt, "// The start file is told:");
+        let phrase = expected(&attempt, "// Finding for the start file:");
         assert!(said.contains(phrase), "{}: {said}", exercise.id());
     }
 }
@@ -80,12 +79,12 @@ fn every_plausible_mistake_is_explained() {
     for exercise in EXERCISES {
         let attempt = attempt(exercise);
         let (said, phrase) =
-            (told(exercise, &attempt), expected(&attempt, "// This attempt is told:"));
+            (told(exercise, &attempt), expected(&attempt, "// Finding for this attempt:"));
         assert!(said.contains(phrase), "{}: {said}", exercise.id());
     }
 }
 
-/// Solutions with another right answer in them: what stands there, and what a student might write.
+/// Other right answers: the exercise, a text of its solution, and the text that a student might write instead.
 const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
     ("change_one_number", "const EI = 28;", "const EI = 27.0;"),
     ("rectangle", "width * height^3 / 12", "width * height * height^2 / 12"),

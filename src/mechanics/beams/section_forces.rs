@@ -176,7 +176,7 @@ impl SectionPoints {
     }
 
     /// Positions along the whole beam with their parameters: the knots, and `within` positions in each span.
-    /// Where two runs of smoothly joined spans meet, there are two positions. The first position belongs to the run that ends there, the second position to the run that starts there.
+    /// A knot between two runs of smoothly joined spans has two positions: the end of the first run and the start of the second run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

@@ -67,7 +67,7 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
 /// Returns two chords beyond an end, which continue the rotation of the last two chords.
 /// The NURBS Book uses the chord `2 near - far`.
 /// This function first scales `far` to the length of `near`, which changes nothing for equally spaced points.
-/// For unequally spaced points, the scaling prevents curves that start in the backward direction.
+/// Without the scaling, a curve through unequally spaced points could start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);

@@ -219,7 +219,7 @@ pub struct Solution<'a> {
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// Event of a constraint because of which a step is not accepted, such as a limit that was passed within the step.
+/// Constraint event within a step, such as a passed limit. The step is rejected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
     /// Index of the event among the events of all constraints.

@@ -25,9 +25,9 @@ pub struct TrackBeam {
 /// Direction of a track along one of its beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackDirection {
-    /// From the start of the beam to its end.
+    /// The track leads from the start of the beam to its end.
     Forward,
-    /// From the end of the beam to its start.
+    /// The track leads from the end of the beam to its start.
     Backward,
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::forces::{PairForces, Partnership};
+use super::forces::{CandidatePair, PairForces};
 use super::shape::{AllowedParts, ContactSite, Shape, WHOLE_AXIS};
 use crate::beams::BodyIndex;
 use crate::geometry::{Basis, Vec2};
@@ -61,7 +61,7 @@ impl PairContact {
     }
 
     /// Pairs of members that can touch. Two beams are paired in both directions, with half of the stiffness each.
-    fn partnerships(&self, scene: &dyn SceneChecks) -> Vec<Partnership> {
+    fn candidates(&self, scene: &dyn SceneChecks) -> Vec<CandidatePair> {
         let count = self.members.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
         let is_paired = |&(a, b): &(usize, usize)| match (self.is_beam(a), self.is_beam(b)) {
@@ -72,14 +72,14 @@ impl PairContact {
             (false, false) => a < b,
         };
         let damping = damping_factor(self.restitution);
-        let partnership = |(own, other): (usize, usize)| {
+        let candidate = |(own, other): (usize, usize)| {
             let share = if self.is_beam(own) { 0.5 } else { 1.0 };
             let stiffness = share * self.stiffness;
             let radius = self.members[own].radius + self.members[other].radius;
             let elastic = ContactLaw::Disc { stiffness, radius };
-            Partnership { own, other, law: NormalLaw { elastic, damping } }
+            CandidatePair { shape: own, target: other, law: NormalLaw { elastic, damping } }
         };
-        pairs.filter(is_paired).map(partnership).collect()
+        pairs.filter(is_paired).map(candidate).collect()
     }
 }
 
@@ -114,10 +114,10 @@ impl ElementDef for PairContact {
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
-        let partnerships = self.partnerships(site.scene());
+        let candidates = self.candidates(site.scene());
         let shape = |member: &ContactMember| shape(site, member);
         let shapes = self.members.iter().map(shape).collect::<Result<_, _>>()?;
-        let forces = PairForces::new(self.name.clone(), shapes, partnerships);
+        let forces = PairForces::new(self.name.clone(), shapes, candidates);
         Ok(BuiltElement::Resistance(Box::new(forces)))
     }
 }
@@ -145,8 +145,8 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
     }
 }
 
-/// For each contact point, the parts of its own axis that the point can touch. They are farther along the axis than half a circle whose radius is the sum of both radii.
-/// Without this distance, a beam that bends would touch itself at the next contact point.
+/// Parts of the axis that each contact point of the same beam can touch.
+/// Axis points that are nearer along the axis than half a circle of twice the radius are left out. Otherwise a bent beam would touch itself at the next contact point.
 fn allowed_parts(
     basis: &Basis,
     controls: &[Vec2],

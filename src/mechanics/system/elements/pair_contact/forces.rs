@@ -5,7 +5,7 @@
 //! Boxes around bodies and spans exclude bodies that are far from each other.
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
-use super::shape::{Bounds, ContactSite, CrossingPath, Foot, NearestSearch, Shape, WHOLE_AXIS};
+use super::shape::{Bounds, CrossingPath, Foot, NearestSearch, Shape};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
@@ -21,19 +21,19 @@ use crate::system::elements::{ContactState, Penetration, TrialState, WorkAndImpu
 /// Relative accuracy of the smallest gap between open bodies. Pairs that would reduce the gap by less are not evaluated.
 const GAP_ACCURACY: f64 = 1e-3;
 
-/// Shapes that can touch each other: the contact points of one shape touch the axis of the other one.
+/// Pair of shapes that can touch: the contact points of `shape` touch the axis of `target`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Partnership {
-    pub(super) own: usize,
-    pub(super) other: usize,
+pub(super) struct CandidatePair {
+    pub(super) shape: usize,
+    pub(super) target: usize,
     pub(super) law: NormalLaw,
 }
 
-/// Bodies that can touch each other, and all pairs that touch at present.
+/// Contact forces between bodies: the bodies, and all pairs that touch at present.
 pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
-    partnerships: Vec<Partnership>,
+    candidates: Vec<CandidatePair>,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
     /// Stage of the last evaluation, and its weight.
@@ -50,11 +50,11 @@ pub(super) struct PairForces {
 }
 
 impl PairForces {
-    pub(super) fn new(name: String, shapes: Vec<Shape>, partnerships: Vec<Partnership>) -> Self {
+    pub(super) fn new(name: String, shapes: Vec<Shape>, candidates: Vec<CandidatePair>) -> Self {
         Self {
             name,
             shapes,
-            partnerships,
+            candidates,
             pairs: Vec::new(),
             rate_history: RateHistory::default(),
             stage: (Stage::Midpoint, 1.0),
@@ -98,16 +98,16 @@ impl PairForces {
 
     /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
-        for &Partnership { own, other, law } in &self.partnerships {
-            let reach = self.shapes[own].radius + self.shapes[other].radius;
-            let bounds = self.shapes[other].end.bounds();
-            if self.shapes[own].end.bounds().squared_distance(&bounds) >= square(reach) {
+        for &CandidatePair { shape, target, law } in &self.candidates {
+            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
+            let apart = own.end.bounds().squared_distance(&other.end.bounds());
+            if apart >= square(own.radius + other.radius) {
                 continue;
             }
-            for site in 0..self.shapes[own].sites.len() {
-                let index = PairIndex { shape: own, site, target: other };
-                if let Some(foot) = self.touched_foot(index, reach) {
-                    self.shapes[own].sites[site].touched.push(other);
+            for site in 0..own.sites.len() {
+                let index = PairIndex { shape, site, target };
+                if let Some(foot) = self.touched_foot(index) {
+                    self.shapes[shape].sites[site].touched.push(target);
                     self.pairs.push(ContactPair::new(index, law, &self.shapes, foot));
                 }
             }
@@ -115,22 +115,19 @@ impl PairForces {
     }
 
     /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
-    fn touched_foot(
-        &self,
-        PairIndex { shape, site, target }: PairIndex,
-        reach: f64,
-    ) -> Option<Foot> {
+    fn touched_foot(&self, index: PairIndex) -> Option<Foot> {
+        let PairIndex { shape, site, target } = index;
         let (own, other) = (&self.shapes[shape], &self.shapes[target]);
-        let ContactSite { place, allowed, touched, .. } = &own.sites[site];
-        if touched.contains(&target) {
+        if own.sites[site].touched.contains(&target) {
             return None;
         }
-        let position = place.interpolate(&own.end.points);
-        if other.end.is_beyond(position, reach) {
+        let position = index.place(&self.shapes).interpolate(&own.end.points);
+        let limit = index.reach(&self.shapes);
+        if other.end.is_beyond(position, limit) {
             return None;
         }
-        let allowed = if shape == target { *allowed } else { WHOLE_AXIS };
-        let search = NearestSearch { position, allowed, limit: reach, hint: 0 };
+        let search =
+            NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint: 0 };
         other.nearest(&other.end, &search)
     }
 
@@ -157,27 +154,27 @@ impl PairForces {
         self.gap = accumulated.fold(size, f64::min);
         // The pair that was the closest one excludes most of the others.
         if let Some(closest) = self.closest {
-            self.approach(closest);
+            self.reduce_gap(closest);
         }
-        for at in 0..self.partnerships.len() {
-            let Partnership { own, other, .. } = self.partnerships[at];
-            for site in 0..self.shapes[own].sites.len() {
-                self.approach(PairIndex { shape: own, site, target: other });
+        for at in 0..self.candidates.len() {
+            let CandidatePair { shape, target, .. } = self.candidates[at];
+            for site in 0..self.shapes[shape].sites.len() {
+                self.reduce_gap(PairIndex { shape, site, target });
             }
         }
     }
 
     /// Reduces the smallest gap to that of a pair.
-    fn approach(&mut self, index: PairIndex) {
+    fn reduce_gap(&mut self, index: PairIndex) {
         let (own, target) = (&self.shapes[index.shape], &self.shapes[index.target]);
-        let (site, reach) = (&own.sites[index.site], own.radius + target.radius);
+        let reach = index.reach(&self.shapes);
         let limit = (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach;
-        let position = site.place.interpolate(&own.start.points);
+        let position = index.place(&self.shapes).interpolate(&own.start.points);
         if self.gap <= 0.0 || target.start.is_beyond(position, limit) {
             return;
         }
-        let allowed = if index.shape == index.target { site.allowed } else { WHOLE_AXIS };
-        let search = NearestSearch { position, allowed, limit, hint: 0 };
+        let search =
+            NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint: 0 };
         if let Some(foot) = target.nearest(&target.start, &search) {
             let apart = position - foot.combine(0, &target.start.points);
             self.gap = (apart.norm() - reach).max(0.0);
@@ -325,20 +322,20 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
-        let mut partnerships = self.partnerships.iter();
-        partnerships.any(|&Partnership { own, other, .. }| {
-            let is_same = own == other;
-            let (own, other) = (&self.shapes[own], &self.shapes[other]);
-            let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
-            let reach = if other.is_disc() { own.radius + other.radius } else { 0.0 };
+    fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
+        let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
+        self.candidates.iter().any(|&CandidatePair { shape, target, .. }| {
+            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
+            let radius = own.radius + other.radius;
+            let reach = if other.is_disc() { radius } else { 0.0 };
             let is_near = swept(own).squared_distance(&swept(other)) <= square(reach);
             is_near
-                && own.sites.iter().any(|site| {
-                    let from = site.place.interpolate(&own.start.points);
-                    let [x, y, _] = bodies[own.body].at(&site.place, increments);
-                    let allowed = if is_same { site.allowed } else { WHOLE_AXIS };
-                    let (to, radius) = (from + Vec2::new(x, y), own.radius + other.radius);
+                && (0..own.sites.len()).any(|site| {
+                    let index = PairIndex { shape, site, target };
+                    let place = index.place(&self.shapes);
+                    let from = place.interpolate(&own.start.points);
+                    let to = from + place.interpolate(&own.movements);
+                    let allowed = index.allowed(&self.shapes);
                     other.is_crossed(&CrossingPath { from, to, allowed, radius })
                 })
         })
@@ -349,7 +346,10 @@ impl InternalForce for PairForces {
     }
 
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        let rate = |body: usize, at: usize| Vec2::new(rates[body][at][0], rates[body][at][1]);
+        let rate = |shape: usize, at: usize| {
+            let [x, y, _] = rates[self.shapes[shape].body][at];
+            Vec2::new(x, y)
+        };
         for pair in self.closed() {
             let velocity = pair.relative(&self.shapes, rate);
             pair.add_force_at_start(&self.shapes, velocity, bodies, out);
@@ -358,7 +358,8 @@ impl InternalForce for PairForces {
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         for pair in self.closed().filter(|pair| pair.law.damping > 0.0) {
-            let rate = |body: usize, at: usize| bodies[body].vector_at(at, rates);
+            let rate =
+                |shape: usize, at: usize| bodies[self.shapes[shape].body].vector_at(at, rates);
             let (damping, rate) = pair.damped_rate(pair.relative(&self.shapes, rate));
             take(damping, rate);
         }
@@ -400,7 +401,7 @@ impl InternalForce for PairForces {
         self.pairs.clear();
         self.set_configuration(bodies);
         for _ in 0..next()? as usize {
-            self.pairs.push(ContactPair::restored(&self.shapes, &self.partnerships, next)?);
+            self.pairs.push(ContactPair::restored(&self.shapes, &self.candidates, next)?);
         }
         self.remove_open_pairs();
         Some(())
@@ -412,8 +413,8 @@ impl InternalForce for PairForces {
             count => format!("{count} bodies"),
         };
         let points = crate::system::errors::plural(self.closed().count(), "point");
-        let is_damped = |one: &Partnership| one.law.damping > 0.0;
-        let damped = if self.partnerships.iter().any(is_damped) { ", damped" } else { "" };
+        let is_damped = |one: &CandidatePair| one.law.damping > 0.0;
+        let damped = if self.candidates.iter().any(is_damped) { ", damped" } else { "" };
         format!(
             "contact of {bodies}{damped}, at {points} at present; the contact forces are additional unknowns"
         )

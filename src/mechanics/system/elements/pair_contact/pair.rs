@@ -2,9 +2,9 @@
 
 use std::array::from_fn;
 
-use super::forces::Partnership;
+use super::forces::CandidatePair;
 use super::gap::{GapMovement, GapStart, GapTrial, LOCAL};
-use super::shape::{Foot, NearestSearch, Shape, WHOLE_AXIS};
+use super::shape::{AllowedParts, Foot, NearestSearch, Shape, WHOLE_AXIS};
 use crate::beams::{BodyPoint, ForceSummary, SpanStiffness};
 use crate::geometry::{MAX_DEGREE, Vec2};
 use crate::integrators::Stage;
@@ -20,6 +20,23 @@ pub(super) struct PairIndex {
     pub(super) shape: usize,
     pub(super) site: usize,
     pub(super) target: usize,
+}
+
+impl PairIndex {
+    pub(super) fn place(self, shapes: &[Shape]) -> &BodyPoint {
+        &shapes[self.shape].sites[self.site].place
+    }
+
+    /// Distance between point and axis at which the contact closes [length].
+    pub(super) fn reach(self, shapes: &[Shape]) -> f64 {
+        shapes[self.shape].radius + shapes[self.target].radius
+    }
+
+    /// Parts of the axis that the point can touch.
+    pub(super) fn allowed(self, shapes: &[Shape]) -> AllowedParts {
+        let is_own_axis = self.shape == self.target;
+        if is_own_axis { shapes[self.shape].sites[self.site].allowed } else { WHOLE_AXIS }
+    }
 }
 
 /// Rows and columns of the tangent of a contact.
@@ -76,12 +93,7 @@ impl ContactPair {
     }
 
     fn place<'s>(&self, shapes: &'s [Shape]) -> &'s BodyPoint {
-        &shapes[self.index.shape].sites[self.index.site].place
-    }
-
-    /// Distance between point and axis at which the contact closes [length].
-    fn reach(&self, shapes: &[Shape]) -> f64 {
-        shapes[self.index.shape].radius + shapes[self.index.target].radius
+        self.index.place(shapes)
     }
 
     /// Uses the foot at the end of the last accepted step, so that the gap is continuous.
@@ -103,14 +115,13 @@ impl ContactPair {
 
     /// Sets the gap to the distance in the start configuration.
     pub(super) fn measure_gap(&mut self, shapes: &[Shape]) {
-        self.normal.gap = Coordinate::from(self.start.apart.norm() - self.reach(shapes));
+        self.normal.gap = Coordinate::from(self.start.apart.norm() - self.index.reach(shapes));
     }
 
     /// Search for the nearest point of the axis, starting at the present nearest point.
     fn search(&self, shapes: &[Shape], position: Vec2) -> NearestSearch {
-        let PairIndex { shape, site, target } = self.index;
-        let allowed = if shape == target { shapes[shape].sites[site].allowed } else { WHOLE_AXIS };
-        NearestSearch { position, allowed, limit: f64::INFINITY, hint: self.foot.span }
+        let (allowed, hint) = (self.index.allowed(shapes), self.foot.span);
+        NearestSearch { position, allowed, limit: f64::INFINITY, hint }
     }
 
     /// Prepares a step that starts with the present configuration.
@@ -132,19 +143,20 @@ impl ContactPair {
     }
 
     fn relative_velocity(&self, shapes: &[Shape]) -> Vec2 {
-        let [own, other] = [self.index.shape, self.index.target].map(|at| &shapes[at]);
-        if own.velocities.is_empty() {
-            return Vec2::zeros();
-        }
-        self.place(shapes).interpolate(&own.velocities)
-            - self.start.foot.combine(0, &other.velocities)
+        self.relative(shapes, |shape, at| {
+            shapes[shape].velocities.get(at).copied().unwrap_or_default()
+        })
     }
 
-    /// Velocity of the point relative to its foot, from values at the control points of the bodies.
-    pub(super) fn relative(&self, shapes: &[Shape], value: impl Fn(usize, usize) -> Vec2) -> Vec2 {
-        let (own, other) = (shapes[self.index.shape].body, shapes[self.index.target].body);
-        let at_point = self.place(shapes).weights().map(|(at, share)| value(own, at) * share);
-        let at_foot = self.start.foot.weights(0).map(|(at, share)| value(other, at) * share);
+    /// Velocity of the point relative to its foot, from the velocities of the control points of each shape.
+    pub(super) fn relative(
+        &self,
+        shapes: &[Shape],
+        velocity: impl Fn(usize, usize) -> Vec2,
+    ) -> Vec2 {
+        let PairIndex { shape, target, .. } = self.index;
+        let at_point = self.place(shapes).weights().map(|(at, share)| velocity(shape, at) * share);
+        let at_foot = self.start.foot.weights(0).map(|(at, share)| velocity(target, at) * share);
         at_point.sum::<Vec2>() - at_foot.sum::<Vec2>()
     }
 
@@ -326,11 +338,7 @@ impl ContactPair {
     pub(super) fn advance(&mut self, shapes: &[Shape], time: ContactTime) -> f64 {
         self.evaluate(shapes, time.stage);
         let GapTrial { change, moved, .. } = self.trial;
-        let lost = self.normal.advance(&self.law, time, GapChange { value: change, moved });
-        let [own, other] = [self.index.shape, self.index.target].map(|at| &shapes[at].end.points);
-        let apart = self.place(shapes).interpolate(own) - self.foot.combine(0, other);
-        self.start = GapStart { apart, foot: self.foot };
-        lost
+        self.normal.advance(&self.law, time, GapChange { value: change, moved })
     }
 
     /// Elastic energy at the start of the step [energy].
@@ -401,13 +409,13 @@ impl ContactPair {
     /// Pair of a saved state; `None` if the state is not one of these shapes.
     pub(super) fn restored(
         shapes: &[Shape],
-        partnerships: &[Partnership],
+        candidates: &[CandidatePair],
         next: &mut dyn FnMut() -> Option<f64>,
     ) -> Option<Self> {
         let mut index = || Some(next()? as usize);
         let index = PairIndex { shape: index()?, site: index()?, target: index()? };
-        let is_own = |one: &&Partnership| (one.own, one.other) == (index.shape, index.target);
-        let law = partnerships.iter().find(is_own)?.law;
+        let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
+        let law = candidates.iter().find(is_own)?.law;
         shapes[index.shape].sites.get(index.site)?;
         let (span, xi) = (next()? as usize, next()?);
         let foot = shapes[index.target].foot_in(span, xi)?;

@@ -69,7 +69,8 @@ impl Bounds {
     }
 }
 
-/// Point of a body as a combination of its control points, with its derivatives along the axis.
+/// Foot of the perpendicular from a contact point: the nearest point of an axis, as a combination of control points.
+/// The foot of a disc is its centre.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Foot {
     pub(super) xi: f64,
@@ -104,7 +105,7 @@ pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
     /// Quadrature weight [length]; 1 for a point.
     pub(super) weight: f64,
-    /// Parts of the axis of its own beam that it can touch. Points that are too near along the axis are left out.
+    /// Parts of the axis of the same beam that the point can touch. Points that are too near along the axis are left out.
     pub(super) allowed: AllowedParts,
     /// Bodies that the point touches at present, by their index in the element.
     pub(super) touched: Vec<usize>,
@@ -388,7 +389,7 @@ pub(super) struct NearestSearch {
 }
 
 impl Axis {
-    /// Computes the boxes of a configuration from its control points.
+    /// Computes the boxes and samples of a configuration from its control points.
     fn bound(&self, at: &mut Configuration) {
         let Configuration { points, spans: bounds, samples, bounds: all } = at;
         bounds.clear();
