@@ -1,4 +1,4 @@
-//! Contact among bodies: closed forms of impacts, balances at any step size and stiffness, and self-contact.
+//! Contact between bodies: closed forms of impacts, balances at any step size and stiffness, and self-contact.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{Random, at, run, scenes, simulate};
@@ -320,7 +320,7 @@ fn a_heap_of_discs_keeps_its_balances() {
     assert!(work.newton_iterations < 6 * work.steps);
 }
 
-/// The bodies of a scene without contact among them do not depend on this element: bodies that never touch move with the same bits.
+/// Bodies that can touch but never do move with the same bits as without contact.
 #[test]
 fn bodies_that_never_touch_move_as_without_contact() {
     let build = |with_contact: bool| {
@@ -337,9 +337,7 @@ fn bodies_that_never_touch_move_as_without_contact() {
     };
     let ((with, more), (without, fewer)) = (build(true), build(false));
     assert_eq!(more, fewer);
-    for (with, without) in with.iter().flatten().zip(without.iter().flatten()) {
-        assert!((with - without).norm() < 1e-13);
-    }
+    assert!(with == without);
 }
 
 #[test]

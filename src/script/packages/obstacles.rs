@@ -23,7 +23,7 @@ use crate::system::{
 pub const TABLE: BindingTable = BindingTable {
     name: "obstacles",
     doc: "Walls and discs that are fixed to the ground, the contact of beams, particles and \
-        points of rigid bodies with them, and contact among bodies. The contact is compliant: its force follows from a \
+        points of rigid bodies with them, and contact between bodies. The contact is compliant: its force follows from a \
         potential of the penetration. E - W + D and both momenta stay constant to rounding with \
         energy_momentum() and fourth_order(), at any step size and stiffness. The history has \
         the columns NAME.force, NAME.force_x, NAME.force_y (the force on the bodies, mean of the \

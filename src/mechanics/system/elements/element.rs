@@ -30,7 +30,7 @@ pub enum Element {
     Drag(Drag),
     /// Obstacle fixed to the ground.
     Obstacle(Obstacle),
-    /// Contact among bodies.
+    /// Contact between bodies.
     Contact(PairContact),
 }
 

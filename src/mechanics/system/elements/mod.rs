@@ -2,6 +2,7 @@
 
 mod all;
 mod branch;
+mod contact;
 mod contact_watch;
 mod coordinate;
 mod damping_law;
@@ -21,8 +22,6 @@ mod load_vector;
 mod material_damping;
 mod mixed_force;
 mod motion_curvature;
-mod obstacle;
-mod pair_contact;
 mod point_damper;
 mod point_mass;
 mod prescribed_movements;
@@ -40,6 +39,9 @@ mod zero_length_spring;
 
 pub use all::Elements;
 pub use branch::{Along, Branch};
+pub use contact::{
+    ContactMember, ContactState, ContactTarget, Obstacle, ObstacleShape, PairContact, Penetration,
+};
 pub use contact_watch::ShortBounce;
 pub use damping_law::DampingLaw;
 pub use drag::{Drag, Dragged};
@@ -51,8 +53,6 @@ pub use internal_force::{InternalForce, SpringTrialState};
 pub use law_range::{LawArgument, OutsideLaw};
 pub use material_damping::MaterialDamping;
 pub use motion_curvature::MotionCurvature;
-pub use obstacle::{ContactState, ContactTarget, Obstacle, ObstacleShape, Penetration};
-pub use pair_contact::{ContactMember, PairContact};
 pub use point_mass::PointMass;
 pub use prescribed_movements::{DriveState, PrescribedMovement, PrescribedMovements};
 pub use schedule_check::{ScheduleCheck, UnsampledChange};

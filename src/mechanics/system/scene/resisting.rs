@@ -61,14 +61,14 @@ impl Scene {
         })
     }
 
-    /// Type and name of an obstacle or a contact among bodies with the given name.
+    /// Type and name of an obstacle or a contact between bodies with the given name.
     pub fn contact_object(&self, name: &str) -> Option<String> {
         let obstacle = self.obstacles().find(|one| one.name == name).map(Obstacle::object);
         let contact = || self.contacts().find(|one| one.name == name).map(PairContact::object);
         obstacle.or_else(contact)
     }
 
-    /// Adds contact among bodies.
+    /// Adds contact between bodies.
     ///
     /// # Errors
     /// Fails if the name is taken, a number is out of range, or a body does not exist or is listed twice.

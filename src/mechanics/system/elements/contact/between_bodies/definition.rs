@@ -7,10 +7,10 @@ use super::shape::{AllowedParts, ContactSite, Shape, WHOLE_AXIS};
 use crate::beams::BodyIndex;
 use crate::geometry::{Basis, Vec2};
 use crate::system::SystemError;
-use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
-use crate::system::elements::obstacle::{
+use crate::system::elements::contact::{
     ContactLaw, ContactTarget, LEAST_RESTITUTION, NormalLaw, contact_parameters, damping_factor,
 };
+use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 
 /// Largest distance of the ends of a closed axis, as a fraction of its length.
 const CLOSED: f64 = 1e-9;
@@ -24,7 +24,7 @@ pub struct ContactMember {
     pub radius: f64,
 }
 
-/// Contact among bodies. Its contact force is a function of the gap between them.
+/// Contact between bodies. Its contact force is a function of the gap between them.
 ///
 /// Bodies that share a joint or a slider do not touch each other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

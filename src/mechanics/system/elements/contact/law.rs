@@ -85,6 +85,9 @@ fn distance(radius: f64, gap: f64) -> f64 {
     (radius + gap).max(LEAST_DISTANCE * radius)
 }
 
+/// Smallest coefficient of restitution. Smaller coefficients need a damping that steps cannot resolve.
+pub const LEAST_RESTITUTION: f64 = 0.05;
+
 /// Factor `x` of the contact damping for a coefficient of restitution `e`: `(1 + e) x = ln((1 + x)/(1 - e x))`; zero for `e = 1`.
 ///
 /// A linear contact with the force `F (1 + x ġ/v)` rebounds with `e` times its approach speed `v`, for any mass and stiffness.

@@ -3,26 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::forces::{ObstacleForces, TouchingBody};
-use super::law::{ContactLaw, damping_factor};
-use super::normal_force::NormalLaw;
 use super::point::{ContactPoint, Surface};
-use crate::beams::{Mesh, Station};
+use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::system::SystemError;
+use crate::system::elements::contact::{
+    ContactLaw, ContactTarget, LEAST_RESTITUTION, NormalLaw, contact_parameters, damping_factor,
+};
 use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use crate::system::errors::finite;
-
-/// Points of the Gauss–Lobatto rule on `[-1, 1]` with their weights (Abramowitz & Stegun 25.4.32). The ends of a beam are contact points.
-const LOBATTO: [(f64, f64); 3] = [
-    (-1.0, 1.0 / 6.0),
-    (-0.447_213_595_499_957_9, 5.0 / 6.0),
-    (0.447_213_595_499_957_9, 5.0 / 6.0),
-];
-
-const LAST: f64 = 1.0 / 6.0;
-
-/// Smallest coefficient of restitution. Smaller coefficients need a damping that steps cannot resolve.
-pub const LEAST_RESTITUTION: f64 = 0.05;
 
 /// Shape of an obstacle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -43,15 +32,6 @@ pub enum ObstacleShape {
     },
 }
 
-/// Body, or point of a body, that can touch an obstacle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum ContactTarget {
-    /// A beam along its whole length, by its index.
-    Beam(usize),
-    /// A particle, or a station of a beam or a rigid body.
-    Point(Station),
-}
-
 /// Obstacle that is fixed to the ground. Its contact force is a function of the gap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
@@ -70,25 +50,6 @@ pub struct Obstacle {
     /// Coefficient of friction [-].
     #[serde(default)]
     pub friction: f64,
-}
-
-impl ContactTarget {
-    /// Type and name for messages.
-    pub fn describe(&self, scene: &dyn SceneChecks) -> String {
-        let described = scene.describe(&self.station());
-        match self {
-            Self::Beam(_) => described.trim_start_matches("the start of ").to_owned(),
-            Self::Point(_) => described,
-        }
-    }
-
-    /// Station of the body; the start of a beam.
-    pub fn station(&self) -> Station {
-        match self {
-            Self::Beam(beam) => Station::on_beam(*beam, 0.0),
-            Self::Point(station) => *station,
-        }
-    }
 }
 
 impl Obstacle {
@@ -201,23 +162,4 @@ fn points_of_beam(
     let parameters = contact_parameters(site.mesh(beam), site.body(beam).control_points());
     let point = |(xi, weight)| Ok(ContactPoint::new(site.place_at(beam, xi)?, weight));
     parameters.into_iter().map(point).collect()
-}
-
-/// Parameters and quadrature weights [length] of the contact points of a beam: the points of a Gauss–Lobatto rule with four points per span.
-pub fn contact_parameters(mesh: &Mesh, controls: &[Vec2]) -> Vec<(f64, f64)> {
-    let basis = mesh.basis();
-    let (mut points, mut at_end) = (Vec::new(), 0.0);
-    let spans = basis.spans();
-    for span in &spans {
-        let (middle, half) = (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
-        let speed = |xi: f64| basis.evaluate_in(span, xi).combine(1, controls).norm();
-        for (at, (x, weight)) in LOBATTO.into_iter().enumerate() {
-            let xi = if at == 0 { span.start } else { middle + half * x };
-            let before = if at == 0 { at_end } else { 0.0 };
-            points.push((xi, before + half * weight * speed(xi)));
-        }
-        at_end = half * LAST * speed(span.end);
-    }
-    points.extend(spans.last().map(|last| (last.end, at_end)));
-    points
 }

@@ -5,43 +5,17 @@
 //! Its search intersects the law with the impedance of the mass at the point, so the number of iterations does not depend on the stiffness.
 
 use super::definition::ObstacleShape;
-use super::normal_force::ContactTime;
 use super::point::{ClosedContact, ContactPoint, Surface};
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
+use crate::system::elements::contact::{ContactState, ContactTime, Penetration};
 use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
 use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
-
-/// State of the contact with an obstacle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ContactState {
-    /// Force on the bodies, averaged over the last step [force].
-    pub force: Vec2,
-    /// Friction force on the bodies along the surface, averaged over the last step and positive to the right of the normal [force].
-    pub friction: f64,
-    /// Smallest gap at present; negative for a penetration [length].
-    pub gap: f64,
-    /// Number of contact points with a negative gap.
-    pub closed: usize,
-}
-
-/// Body whose contact points lie inside an obstacle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Penetration {
-    /// Index of the body in the model.
-    pub body: usize,
-    /// Largest penetration of a contact point [length].
-    pub depth: f64,
-    /// Sum of the elastic contact forces on the body [force].
-    pub force: f64,
-    /// Energy that is stored in the contacts of the body [energy].
-    pub energy: f64,
-}
 
 /// Contact points of one body.
 pub(super) struct TouchingBody {
@@ -135,12 +109,6 @@ impl ObstacleForces {
         }
     }
 
-    fn time(&self, (stage, weight): (Stage, f64)) -> ContactTime {
-        let duration = self.rate_history.duration();
-        let rates = self.rate_history.at(stage, weight).filter(|_| duration.is_finite());
-        ContactTime { stage, weight, rates, duration }
-    }
-
     fn points(&self) -> impl Iterator<Item = &ContactPoint> {
         self.bodies.iter().flat_map(|body| &body.points)
     }
@@ -186,7 +154,7 @@ impl InternalForce for ObstacleForces {
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
-        let time = self.time((at.stage, at.weight));
+        let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
         self.stage = (at.stage, at.weight);
         let mut summary = ForceSummary::default();
         for own in &mut self.bodies {
@@ -209,7 +177,7 @@ impl InternalForce for ObstacleForces {
         unknowns: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let time = self.time((at.stage, at.weight));
+        let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
         for own in &mut self.bodies {
             let body = &at.bodies[own.body];
             if own.cannot_touch(&self.surface, body, at.increments) {
@@ -247,7 +215,7 @@ impl InternalForce for ObstacleForces {
     }
 
     fn advance(&mut self, bodies: &[Body]) {
-        let time = self.time(self.stage);
+        let time = ContactTime::new(&self.rate_history, self.stage);
         self.last_force = Vec2::zeros();
         for own in &mut self.bodies {
             let was_open = !own.points.iter().any(ContactPoint::is_closed);

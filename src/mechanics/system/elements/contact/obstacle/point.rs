@@ -2,48 +2,16 @@
 
 use super::definition::ObstacleShape;
 use super::friction::{NormalContact, PointFriction, sticking_damping};
-use super::normal_force::{ContactTime, GapChange, NormalForce, NormalLaw};
 use crate::beams::{BodyPoint, ForceSummary, Movement, RotationIncrement};
 use crate::elementary::square;
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
+use crate::system::elements::contact::{ContactTime, DiscPath, GapChange, NormalForce, NormalLaw};
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::ForceTarget;
-
-/// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
-const LONGEST_PATH: f64 = 1e3;
-
-/// Straight path of a point relative to a disc in a step.
-pub struct DiscPath {
-    /// Vector from the centre to the point at the start [length].
-    pub start: Vec2,
-    /// Displacement of the point relative to the centre [length].
-    pub movement: Vec2,
-    /// Radius of the disc, plus that of the body around the point [length].
-    pub radius: f64,
-    /// True if the point touches the disc at the start.
-    pub is_closed: bool,
-}
-
-impl DiscPath {
-    /// Returns true if the path leads through the disc: from outside to outside, or around its centre by more than 60°.
-    /// A chord that is longer than the distance of its ends from the centre subtends more than 60°.
-    pub fn passes_through(&self) -> bool {
-        let Self { start, movement, radius, is_closed } = *self;
-        let length = movement.norm();
-        let fraction = -start.dot(&movement) / square(length);
-        let is_within = fraction > 0.0 && fraction < 1.0;
-        let deepest = start + movement * fraction;
-        let nearest_end = start.norm().min((start + movement).norm());
-        let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
-        let is_open = nearest_end >= radius && !is_closed;
-        let allowed = if is_open { length / LONGEST_PATH } else { nearest_end };
-        is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
-    }
-}
 
 /// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]

@@ -7,6 +7,7 @@ use crate::geometry::larger;
 use crate::integrators::Stage;
 use crate::system::elements::coordinate::{Coordinate, rounding_error};
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
+use crate::system::elements::rate_history::RateHistory;
 
 /// Largest ratio of the stiffness of a contact to the impedance of the body, for which the law of contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
@@ -33,6 +34,13 @@ pub struct ContactTime {
 }
 
 impl ContactTime {
+    /// Stage of a step with its weight, in the step of the rate history. An increment of zero duration is not damped.
+    pub fn new(rate_history: &RateHistory, (stage, weight): (Stage, f64)) -> Self {
+        let duration = rate_history.duration();
+        let rates = rate_history.at(stage, weight).filter(|_| duration.is_finite());
+        Self { stage, weight, rates, duration }
+    }
+
     /// Share of the damping force in the tension. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }

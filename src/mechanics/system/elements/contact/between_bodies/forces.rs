@@ -12,11 +12,11 @@ use crate::geometry::{Vec2, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
+use crate::system::elements::contact::{ContactState, ContactTime, NormalLaw, Penetration};
 use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
 use crate::system::elements::internal_force::InternalForce;
-use crate::system::elements::obstacle::{ContactTime, NormalLaw};
 use crate::system::elements::rate_history::RateHistory;
-use crate::system::elements::{ContactState, Penetration, TrialState, WorkAndImpulse};
+use crate::system::elements::{TrialState, WorkAndImpulse};
 
 /// Relative accuracy of the smallest gap between open bodies. Pairs that would reduce the gap by less are not evaluated.
 const GAP_ACCURACY: f64 = 1e-3;
@@ -66,12 +66,6 @@ impl PairForces {
             last_rate: 0.0,
             rows: LocalRows::default(),
         }
-    }
-
-    fn time(&self, (stage, weight): (Stage, f64)) -> ContactTime {
-        let duration = self.rate_history.duration();
-        let rates = self.rate_history.at(stage, weight).filter(|_| duration.is_finite());
-        ContactTime { stage, weight, rates, duration }
     }
 
     fn set_configuration(&mut self, bodies: &[Body]) {
@@ -217,7 +211,7 @@ impl InternalForce for PairForces {
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
-        let time = self.time((at.stage, at.weight));
+        let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
         self.stage = (at.stage, at.weight);
         self.move_to(at.bodies, at.increments);
         let mut summary = ForceSummary::default();
@@ -234,7 +228,7 @@ impl InternalForce for PairForces {
         unknowns: usize,
         tangent: &mut BandedMatrix,
     ) {
-        let time = self.time((at.stage, at.weight));
+        let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
         self.move_to(at.bodies, at.increments);
         let Self { pairs, shapes, rows, .. } = self;
         for pair in pairs {
@@ -260,7 +254,7 @@ impl InternalForce for PairForces {
     }
 
     fn advance(&mut self, bodies: &[Body]) {
-        let time = self.time(self.stage);
+        let time = ContactTime::new(&self.rate_history, self.stage);
         for shape in &mut self.shapes {
             let moved = bodies[shape.body].moved();
             shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));

@@ -5,7 +5,7 @@ use std::iter::once;
 use crate::beams::BodyPoint;
 use crate::elementary::square;
 use crate::geometry::{Basis, BasisValues, Span, Vec2, cross};
-use crate::system::elements::obstacle::DiscPath;
+use crate::system::elements::contact::DiscPath;
 
 /// Number of samples per span in the search for the nearest point, minus one.
 const SAMPLES: usize = 4;

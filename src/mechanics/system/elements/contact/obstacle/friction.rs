@@ -4,11 +4,11 @@
 //! The force is the mean over the exact path, so it never exceeds the limit, and a contact that sticks does not creep.
 //! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
-use super::normal_force::SOFT;
 use super::point::{ClosedContact, GapTrial};
 use crate::beams::Movement;
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger, perpendicular};
+use crate::system::elements::contact::SOFT;
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 

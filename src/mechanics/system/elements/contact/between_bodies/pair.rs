@@ -10,9 +10,9 @@ use crate::geometry::{MAX_DEGREE, Vec2};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
+use crate::system::elements::contact::{ContactTime, GapChange, NormalForce, NormalLaw};
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::mixed_force::ForceTarget;
-use crate::system::elements::obstacle::{ContactTime, GapChange, NormalForce, NormalLaw};
 
 /// Indices of a contact point and of the body that it touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
