@@ -24,7 +24,7 @@ pub fn touching(targets: &[ContactTarget], stiffness: f64, radius: f64) -> PairC
     }
 }
 
-/// Particles of mass 1 on a line, which touch each other, with their start velocities.
+/// Particles of mass 1 in mutual contact, with start velocities.
 fn particles(places: &[(Vec2, Vec2)], stiffness: f64, radius: f64) -> Scene {
     let mut scene = Scene::new("particles");
     let targets: Vec<_> = places
@@ -118,7 +118,7 @@ fn ring(scene: &mut Scene, centre: Vec2, velocity: Vec2) -> usize {
     beam
 }
 
-/// Two rings meet off centre, a rod hits another rod with its tip, and a particle falls on a rod.
+/// Collisions of two rings off centre, of a rod with the tip of another rod, and of a particle with a rod.
 fn collisions(stiffness: f64, restitution: f64) -> [Scene; 3] {
     let mut rings = Scene::new("rings");
     let first = ring(&mut rings, at(0.0, 0.0), at(1.0, 0.0));
@@ -214,7 +214,7 @@ fn a_ring_that_is_pressed_together_touches_itself() {
     }
 }
 
-/// A fast bullet does not jump through a thin beam, at any step size.
+/// A fast particle does not pass through a thin beam, at any step size.
 #[test]
 fn a_step_does_not_jump_through_a_beam() {
     for dt in [0.01, 0.05, 0.2] {
@@ -320,7 +320,7 @@ fn a_heap_of_discs_keeps_its_balances() {
     assert!(work.newton_iterations < 6 * work.steps);
 }
 
-/// The bodies of a scene without contact among them do not depend on this element: bodies that never touch move with the same bits.
+/// Bodies that never touch move with the same bits as without contact between them.
 #[test]
 fn bodies_that_never_touch_move_as_without_contact() {
     let build = |with_contact: bool| {

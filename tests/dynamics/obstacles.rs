@@ -266,7 +266,7 @@ fn a_box_keeps_its_particles() {
         }
         let simulation = simulate(scene, Method::EnergyMomentum, dt, 200.0 * dt);
         assert_balanced(&simulation, 1e-10);
-        // The potential energy at the lowest place of the box is the zero of the energy.
+        // The potential energy is zero at the lowest point of the box.
         let mass: f64 = (0..5).map(|number| 0.5 + f64::from(number)).sum();
         let energy = simulation.history().samples()[0].measures.energy.total() + mass * 3.0 * 1.5;
         let deepest = (2.0 * energy / stiffness).sqrt();
@@ -305,7 +305,7 @@ fn contacts_go_back_and_are_saved() {
     }
 }
 
-/// Beam that spins freely between discs: both momenta change only by the impulses of the obstacles, which the balance contains.
+/// Free rotating beam between discs: both momenta change only by the impulses of the obstacles, which the balance contains.
 #[test]
 fn a_spinning_rod_between_pegs_is_balanced() {
     let mut scene = falling_rod(disc(at(0.0, 0.0), 0.2, 1e6, 1.0));
