@@ -152,7 +152,7 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
     };
     refused(&["a", "b"], "of the 3 parts of the study 'flights' these are missing: 2");
     refused(&["nowhere"], "no part of the study 'flights'");
-    // The part is truncated in the middle, as by a kill, and then continued.
+    // The part is truncated in the middle, as by a kill, then refused, then continued.
     let second = part(2, "c").output().unwrap();
     assert_eq!(second.status.code(), Some(0), "{}", said(&second));
     let kept = file.with_file_name("c").join("flights.2-of-3.part");
