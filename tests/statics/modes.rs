@@ -95,7 +95,7 @@ fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
 fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
-            // Two quadrature points per cubic C1 span integrate one strain too few: two hourglass modes (design, section 1.2).
+            // Two quadrature points per cubic C1 span integrate one strain too few: two hourglass modes (docs/theory.md, section 4).
             let hourglass = if name == "cubic C1, 2 points" { 2 } else { 0 };
             let rigid = match case.support.as_str() {
                 "free-free" => 3,
