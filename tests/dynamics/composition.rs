@@ -26,7 +26,7 @@ fn under_way(scene: &Scene, method: Method, steps: u32) -> (System, Box<dyn Inte
     (model, integrator)
 }
 
-/// Energies, sums and momenta.
+/// Energies, work, momenta and impulses.
 fn numbers(measures: &Measures) -> [f64; 9] {
     [
         measures.energy.kinetic,

@@ -1,4 +1,4 @@
-//! Kelvin–Voigt damping against closed forms, at any relaxation time, with every integrator.
+//! Kelvin–Voigt damping compared with closed forms, at any relaxation time, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;

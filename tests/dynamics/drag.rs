@@ -1,4 +1,4 @@
-//! Drag against closed forms, with every integrator.
+//! Drag compared with closed forms, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, orders, scenes, simulate};

@@ -1,4 +1,4 @@
-//! Warnings about springs and dampers that leave the range of their laws.
+//! Warnings about springs and dampers beyond the range of their laws.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, simulate};

@@ -130,7 +130,7 @@ fn soft() -> Section {
     }
 }
 
-/// A rod that falls obliquely on an obstacle.
+/// Inclined rod that falls on an obstacle.
 fn falling_rod(obstacle: Obstacle) -> Scene {
     let mut scene = Scene::new("falling rod");
     scene.gravity = at(0.0, -9.81);
@@ -141,7 +141,7 @@ fn falling_rod(obstacle: Obstacle) -> Scene {
     scene
 }
 
-/// Energy and momenta stay at rounding for stiffnesses of twelve decades at a fixed step, and the iterations per step do not grow with the stiffness.
+/// The drifts of energy and momenta stay at rounding over twelve decades of stiffness at a fixed step, and the iterations per step do not increase.
 #[test]
 fn the_energy_balance_holds_at_any_stiffness() {
     for (restitution, friction) in [(1.0, 0.0), (0.5, 0.0), (1.0, 0.3), (0.5, 0.8)] {
@@ -193,7 +193,7 @@ fn every_method_keeps_what_it_claims() {
     }
 }
 
-/// A contact point far from all obstacles changes no bit, and a turned, mirrored, shifted and rescaled copy of a scene moves alike.
+/// A contact point far from all obstacles changes no bit, and a rotated, mirrored, translated and scaled copy of a scene has the same motion.
 #[test]
 fn far_obstacles_change_no_bit() {
     let run = |obstacle: Option<Obstacle>| {
@@ -278,7 +278,7 @@ fn a_box_keeps_its_particles() {
     }
 }
 
-/// Saved and restored runs, and runs that go back, keep every bit.
+/// Restored runs, and runs that go back and continue, are equal bit for bit.
 #[test]
 fn contacts_go_back_and_are_saved() {
     let start = || {

@@ -386,7 +386,7 @@ fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
     [bead, driven, scene].into_iter().for_each(goes_back_and_on);
 }
 
-/// Stores a run, goes back, forks it, and compares all columns.
+/// Saves a run, rewinds and forks it, and compares all columns.
 fn goes_back_and_on(scene: Scene) {
     let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();
     simulation.enable_snapshots(1 << 24);

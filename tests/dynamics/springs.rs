@@ -1,4 +1,4 @@
-//! Springs, dampers and tendons against closed forms, at any stiffness, with every integrator.
+//! Springs, dampers and tendons compared with closed forms, at any stiffness, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;

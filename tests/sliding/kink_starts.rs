@@ -206,7 +206,7 @@ fn beads_that_bounce_keep_energy_and_momenta_with_loaded_kinks() {
     }
 }
 
-/// Flexible beam that flies, turned by an angle. A heavy bead with a given speed reaches its end and bounces there. A light bead slides on it.
+/// Free flexible beam, rotated by an angle. A heavy bead with a given speed reaches its end and bounces there. A light bead slides on it.
 fn turned_beam(rotation: f64, speed: f64) -> Scene {
     let (sine, cosine) = rotation.sin_cos();
     let turned = |x: f64, y: f64| at(cosine * x - sine * y, sine * x + cosine * y);
@@ -233,7 +233,7 @@ fn turned_beam(rotation: f64, speed: f64) -> Scene {
     scene
 }
 
-/// Rounding moves a slider at an end by a few units in the last place, in some frames out of the range of the axis.
+/// Rounding changes the position of a slider at an end by a few units in the last place, in some frames beyond the end of the axis.
 #[test]
 fn kinks_after_bounces_are_alike_in_turned_frames() {
     let places = |rotation: f64, speed: f64| {
