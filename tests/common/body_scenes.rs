@@ -42,8 +42,7 @@ fn soft() -> Section {
     Section { bending_stiffness: 30.0, rotary_inertia: 0.3, ..spaghetti_section(2e3, 30.0) }
 }
 
-/// Physical pendulum: a rigid body on a hinge at the distance `arm` from its centre of mass, initially rotated by an angle, with a second point beyond the
-/// centre.
+/// Physical pendulum: a rigid body on a hinge at the distance `arm` from its centre of mass, rotated by an angle, with a point beyond its centre.
 pub fn pendulum(inertia: f64, arm: f64, angle: f64) -> Scene {
     let mut scene = Scene::new("rigid pendulum");
     let direction = at(angle.sin(), -angle.cos());
@@ -75,8 +74,8 @@ pub fn double_pendulum() -> Scene {
     scene
 }
 
-/// Free beam with rigid bodies at both ends, one hinged and one joined rigidly off its centre, with a point mass, a spring between points and a torsion
-/// spring.
+/// Free beam with a hinged rigid body at one end and a rigidly joined one, off its centre, at the other. A point mass, a spring between points and a torsion
+/// spring are attached.
 pub fn dumbbell(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying dumbbell");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, soft());

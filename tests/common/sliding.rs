@@ -109,8 +109,7 @@ pub fn smoothly_pushed_mass(meshes: [&Mesh; 2], support: Support, rule: SlidingR
     scene
 }
 
-/// Particle that slides on the hinged beam AB of the paper, from 19/20 of its length inwards with a relative speed of 5, while both rotate about A (references
-/// `P7`).
+/// Particle that slides on the hinged beam AB of the paper, from 19/20 of its length inwards at the speed 5, while both rotate about A (references `P7`).
 pub fn sliding_particle(mesh: &Mesh, spin: f64, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("sliding particle");
     let b = at(3.0, 1.0);

@@ -69,8 +69,7 @@ pub fn arm(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Trolley: a rigid body with a controlled speed. A beam is hinged to it off its centre, carries another rigid body off its centre, and is loaded by a
-/// controlled moment.
+/// Trolley: a rigid body with a controlled speed. A beam hinged to it off its centre carries another rigid body and is loaded by a controlled moment.
 pub fn trolley(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("steered trolley");
     let beam = add_beam(&mut scene, line(at(0.2, -0.1), at(0.5, -1.6)), mesh, rod());

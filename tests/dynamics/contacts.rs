@@ -176,7 +176,6 @@ fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
     }
 }
 
-/// The number of iterations does not increase with the stiffness.
 #[test]
 fn iterations_do_not_depend_on_the_stiffness() {
     for stiffness in [1e2, 1e5, 1e8] {
@@ -320,7 +319,6 @@ fn a_heap_of_discs_keeps_its_balances() {
     assert!(work.newton_iterations < 6 * work.steps);
 }
 
-/// Bodies that never touch move with the same bits as without contact between them.
 #[test]
 fn bodies_that_never_touch_move_as_without_contact() {
     let build = |with_contact: bool| {

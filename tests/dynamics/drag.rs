@@ -85,8 +85,7 @@ fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
     }
 }
 
-/// Drag coefficients from nearly zero to nearly rigid, with and without wind: no step fails, no invariant drifts, and the position is that of the midpoint
-/// rule.
+/// Drag coefficients from nearly zero to nearly rigid, with and without wind: no step fails, invariants hold, and the position is that of the midpoint rule.
 #[test]
 fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
     let (mass, dt, steps) = (0.5, 0.01, 100);

@@ -138,8 +138,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let off = (change - force).norm() / size;
                 worst[0] = worst[0].max(off);
                 assert!(off < 2e-11, "{label}, step {step}: {change} {force}");
-                // The substeps of a composed step have different midpoints, and the displacement of a driven point differs from its mean velocity times the
-                // step.
+                // Substeps have different midpoints, and the displacement of a driven point differs from its mean velocity times the step.
                 if entry.claims.angular_momentum
                     && entry.method != Method::FourthOrder
                     && !is_driven
@@ -155,7 +154,6 @@ fn mean_reactions_and_loads_change_the_momenta() {
     }
 }
 
-/// The means of a very short step are the present reactions, also between rigid bodies.
 #[test]
 fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
     let short = 1e-6;
@@ -199,8 +197,7 @@ fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
     assert!(joints > 50, "{joints}");
 }
 
-/// The velocities of points of rigid bodies are of second order at the ends of steps, and a change of the step size disturbs them. This test uses constant
-/// steps.
+/// Velocities of points of rigid bodies are of second order at the ends of steps. Changes of the step size would disturb them, so steps are constant.
 #[test]
 fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
     for scene in [body_scenes::pendulum(0.2, 0.6, 0.8), body_scenes::double_pendulum()] {

@@ -175,7 +175,6 @@ fn the_energy_balance_holds_at_any_stiffness() {
     }
 }
 
-/// The claims of every method hold with contact.
 #[test]
 fn every_method_keeps_what_it_claims() {
     for entry in INTEGRATORS {

@@ -1,5 +1,4 @@
-//! Releases during a run: positions and velocities are continuous, the balances close, and the later motion equals that of a scene without the released
-//! object.
+//! Releases during a run: continuous positions and velocities, closed balances, and the later motion of a scene without the released object.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::FRAC_PI_2;

@@ -1,5 +1,4 @@
-//! Reproducibility: pinned states of scenes of every kind are equal for every C library, vector instruction set and machine, and repeated runs write equal
-//! files.
+//! Reproducibility: pinned states of scenes of every kind are equal on every machine and with every C library, and repeated runs write equal files.
 //!
 //! `WITHY_UPDATE=1 cargo test --test dynamics same_bits` records intended changes.
 #![allow(clippy::unwrap_used)]

@@ -1,5 +1,4 @@
-//! Loads and speeds that change within a step: exact impulses and positions for built-in schedules, and warnings about functions that the steps do not
-//! resolve.
+//! Loads and speeds that change within a step: exact impulses and positions for built-in schedules, and warnings about functions that are not resolved.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};

@@ -169,8 +169,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             }
             for what in 0..3 {
                 let exact = |by: f64| places(&simulate(scaled(&scene, what, by), method, DT, END));
-                // Central differences with two increments and Richardson extrapolation, of fourth order. The increments are small because of piecewise linear
-                // laws.
+                // Central differences with two small increments and Richardson extrapolation, of fourth order.
                 let at = |h: f64| -> Vec<f64> {
                     let pairs = exact(h).into_iter().zip(exact(-h));
                     pairs.map(|(plus, minus)| (plus - minus) / (2.0 * h)).collect()

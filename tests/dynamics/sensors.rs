@@ -171,8 +171,7 @@ fn a_clamp_gives_the_moment_that_the_section_transmits() {
         ["clamp1.moment", "beam1.start.M"].map(|name| simulation.history().column(name).unwrap());
     let largest = given.iter().fold(0.0_f64, |largest, moment| largest.max(moment.abs()));
     for (row, (given, section)) in given.iter().zip(&section).enumerate().skip(100) {
-        // The section force is the action on the part before the section, and the reaction of the clamp is the action on the beam after it, so the signs are
-        // opposite.
+        // The section moment acts on the part before the section, and the reaction of the clamp on the beam after it, so the signs are opposite.
         assert!((given + section).abs() < 5e-3 * largest, "{row}: {given} {section}");
     }
 }

@@ -1,5 +1,4 @@
-//! Standard library seen from outside: precedence over files of the same name, positions of failed checks, imports from other files and at the prompt, and
-//! help.
+//! Standard library from outside: precedence over files of the same name, positions of failed checks, imports in files and at the prompt, and help.
 
 #![allow(clippy::unwrap_used)]
 

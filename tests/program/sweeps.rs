@@ -174,7 +174,6 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
     refused(&["a", "b", "c"], "is not a part of this study");
 }
 
-/// Other kinds of studies are also divided into parts and joined.
 #[test]
 fn parts_of_maps_and_orders_are_joined_to_the_bytes_of_one_machine() {
     let text = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
@@ -288,7 +287,6 @@ fn runs_that_all_fail_leave_nothing_behind() {
     assert!(!file.with_file_name("out").join("written.csv").exists());
 }
 
-/// The sensitivity analysis leaves failed rows out and reports their number.
 #[test]
 fn sensitivity_tells_how_many_rows_it_leaves_out() {
     let (_folder, file) = script(

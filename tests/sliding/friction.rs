@@ -118,7 +118,6 @@ fn a_block_on_an_incline_turns_back_or_stays() {
     }
 }
 
-/// A sticking block keeps its position up to rounding, for any number of steps.
 #[test]
 fn a_block_that_sticks_does_not_creep() {
     let mut simulation = Simulation::start(incline(15.0, 0.3), settings(METHOD, 0.05)).unwrap();

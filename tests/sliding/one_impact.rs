@@ -1,5 +1,4 @@
-//! Sliders that reach seams and ends at the same time share one impact: comparison with a rigid frame, symmetry, independence of the order, and reported
-//! impulses.
+//! Simultaneous arrivals at seams and ends are one impact: comparison with a rigid frame, symmetry, independence of the order, and reported impulses.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead as on_rail, clamped_rail};

@@ -164,8 +164,7 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
 
 #[test]
 fn whatever_happens_in_one_step_keeps_everything() {
-    // In the step from 0.3 on, a bead strikes an end, another one is released at the other end, a third one reverses, a load jumps, and the foot of the beam
-    // is released.
+    // In the step from 0.3 on, one bead strikes an end, one is released at an end, one reverses, a load jumps, and the foot of the beam is released.
     for method in METHODS {
         for dt in [0.3, 0.1, 0.02] {
             let mut scene = clamped_rail(&Mesh::bspline(5, 3, 2).unwrap(), at(1.0, 0.0));

@@ -217,7 +217,6 @@ fn a_flexible_beam_keeps_its_ledger_through_many_landings() {
     }
 }
 
-/// A free beam and a bead collide repeatedly, and both momenta are conserved.
 #[test]
 fn a_free_beam_and_a_bead_keep_their_momenta() {
     for restitution in [0.0, 0.7] {
@@ -397,7 +396,6 @@ fn saved_runs_are_repeated_through_landings() {
     }
 }
 
-/// A run with derivatives has the take-offs and landings of a run without them.
 #[test]
 fn runs_with_derivatives_take_off_as_others() {
     let scene = || sphere(0.3);

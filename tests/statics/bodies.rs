@@ -151,8 +151,7 @@ fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equati
             let (below, above) = (omega * (1.0 - 2e-6), omega * (1.0 + 2e-6));
             assert!(f(below) * f(above) < 0.0, "{mass}, {inertia}, {offset}: {omega} is no root");
         }
-        // The body adds no degrees of freedom to those of the beam end: the four displacements of body and second point are fixed by the four forces of the
-        // rigid links.
+        // The body adds no degrees of freedom: its four displacements are fixed by the four forces of its rigid links.
         let finite = model.unknowns() - 8;
         assert!(Modes::of(&model, finite + 1, &mut || true).is_err());
     }
