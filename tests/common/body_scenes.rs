@@ -1,4 +1,4 @@
-//! Scenes with rigid bodies whose points rigid links hold.
+//! Scenes with rigid bodies whose points are connected by rigid links.
 
 use std::f64::consts::FRAC_PI_3;
 
@@ -12,7 +12,7 @@ use withy::system::{
     Anchor, PointMass, RigidBodyDefinition, Scene, SpringKind, SpringLaw, StartMotion,
 };
 
-/// A rigid body with some points, called a, b, c, …, at rest.
+/// Rigid body at rest with the points a, b, c, ….
 pub fn add_body(
     scene: &mut Scene,
     position: Vec2,
@@ -28,7 +28,7 @@ pub fn add_body(
     scene.add_rigid_body(body, mass, inertia).unwrap()
 }
 
-/// The station of a rigid body at its point of that number, or at its centre.
+/// Station at the point of a rigid body with this number, or at its centre.
 pub fn point(body: usize, number: usize) -> Station {
     Station::on_rigid_body(body, number)
 }
@@ -42,7 +42,7 @@ fn soft() -> Section {
     Section { bending_stiffness: 30.0, rotary_inertia: 0.3, ..spaghetti_section(2e3, 30.0) }
 }
 
-/// A rigid body on a hinge: its centre of mass `arm` from there, hanging and turned by an angle, with a second point beyond it.
+/// Physical pendulum: a rigid body on a hinge at the distance `arm` from its centre of mass, rotated by an angle, with a point beyond its centre.
 pub fn pendulum(inertia: f64, arm: f64, angle: f64) -> Scene {
     let mut scene = Scene::new("rigid pendulum");
     let direction = at(angle.sin(), -angle.cos());
@@ -53,11 +53,11 @@ pub fn pendulum(inertia: f64, arm: f64, angle: f64) -> Scene {
     scene
 }
 
-/// Two rigid bodies, one hanging on the other beside its axis, pushed by a force on a point and one that turns with the body.
+/// Double pendulum of two rigid bodies hinged off the axis, with a dead force and a follower force.
 pub fn double_pendulum() -> Scene {
     let mut scene = Scene::new("rigid double pendulum");
     let one = add_body(&mut scene, at(0.5, 0.0), 0.0, (1.0, 0.1), &[at(-0.5, 0.0), at(0.5, 0.1)]);
-    // Its frame is turned by 60°.
+    // The frame of the body is rotated by 60°.
     let place = at(1.0, 0.1) - at(FRAC_PI_3.cos(), FRAC_PI_3.sin()) * 0.6;
     let points = [at(0.6, 0.0), at(0.6, -0.2)];
     let other = add_body(&mut scene, place, FRAC_PI_3, (2.0, 0.2), &points);
@@ -74,8 +74,8 @@ pub fn double_pendulum() -> Scene {
     scene
 }
 
-/// A flying beam with rigid bodies at both ends, one on a hinge and one joined rigidly beside its centre, with a mass, a spring between points and one that
-/// turns.
+/// Free beam with a hinged rigid body at one end and a rigidly joined one, off its centre, at the other. A point mass, a spring between points and a torsion
+/// spring are attached.
 pub fn dumbbell(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying dumbbell");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, soft());
@@ -100,7 +100,7 @@ pub fn dumbbell(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A crank without mass, driven by a moment, a flexible coupler and a rocker without inertia: a four-bar linkage.
+/// Four-bar linkage: a massless crank driven by a moment, a flexible coupler and a rocker without rotary inertia.
 pub fn crank_rocker(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("crank and rocker");
     let crank = add_body(&mut scene, at(0.0, 0.0), 0.0, (0.0, 0.3), &[at(0.0, 0.5)]);
@@ -119,7 +119,7 @@ pub fn crank_rocker(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A carriage, a rigid body whose two wheels slide along a hinged beam, with a load that hangs on it on a hinge.
+/// Carriage: a rigid body with two wheels that slide along a hinged beam, and a load that is hinged to it.
 pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("carriage");
     let section = spaghetti_section(1e4, 100.0);
@@ -153,7 +153,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A chain of rigid bodies that hangs on one end and falls.
+/// Chain of rigid bodies that is hinged at one end and falls under gravity.
 pub fn chain(bodies: usize) -> Scene {
     let mut scene = Scene::new("rigid chain");
     let ends = [at(-0.5, 0.0), at(0.5, 0.0)];
@@ -167,7 +167,7 @@ pub fn chain(bodies: usize) -> Scene {
     scene
 }
 
-/// Every scene without sliders on a mesh, and one with laws that have corners.
+/// All scenes without sliders on a mesh, including one with piecewise linear laws.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
         pendulum(0.2, 0.8, 2.0),

@@ -1,18 +1,18 @@
-//! Inputs to break the language with: the project's own scripts and examples, cut, spliced and twisted by a seed.
+//! Fuzzing inputs for the language: the scripts and examples of the project, cut, spliced and mutated by a seed.
 
 use std::fs;
 use std::path::Path;
 
 use withy::script::packages::TABLES;
 
-/// What mutations draw from.
+/// Source of the mutations.
 pub struct Corpus {
     snippets: Vec<String>,
-    /// All different tokens of the snippets.
+    /// Distinct tokens of the snippets.
     words: Vec<String>,
 }
 
-/// Numbers at the ends of what numbers can be, and counts that nobody can mean.
+/// Numbers at the limits of their types, and absurdly large counts.
 const EXTREMES: &[&str] = &[
     "0",
     "-1",
@@ -48,7 +48,7 @@ const EXTREMES: &[&str] = &[
     "[[]]",
 ];
 
-/// Pieces of the grammar, whole and broken.
+/// Fragments of the grammar, valid and invalid.
 const PIECES: &[&str] = &[
     "let a = ",
     "const B = ",
@@ -143,7 +143,7 @@ const PIECES: &[&str] = &[
 ];
 
 impl Corpus {
-    /// The scripts, the sections of the suite, and the examples of all rows.
+    /// Loads the scripts, the sections of the suite, and the examples of all rows of the reference.
     pub fn load() -> Self {
         let home = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mut snippets = Vec::new();
@@ -170,7 +170,7 @@ impl Corpus {
         Self { snippets, words }
     }
 
-    /// The input of a seed: always the same.
+    /// Returns the input of a seed, which is deterministic.
     pub fn input(&self, seed: u64) -> String {
         let mut dice = Dice(seed);
         match dice.below(10) {
@@ -195,7 +195,7 @@ impl Corpus {
         (0..dice.below(60)).map(|_| word(dice)).collect()
     }
 
-    /// A script in which numbers and names are others: it mostly still parses.
+    /// Returns a script with replaced numbers and names. Most results still parse.
     fn twisted(&self, dice: &mut Dice) -> String {
         let mut tokens = split(self.snippet(dice));
         let is_name = |token: &String| token.starts_with(|c: char| c.is_alphabetic());
@@ -255,7 +255,7 @@ impl Corpus {
     }
 }
 
-/// Puts an extreme in the place of a number, or of any token where there is none.
+/// Replaces a number by an extreme value, or any token if the script has no number.
 fn extreme_number(tokens: &mut [String], dice: &mut Dice) {
     let is_number = |token: &String| token.starts_with(|c: char| c.is_ascii_digit());
     let numbers: Vec<_> = (0..tokens.len()).filter(|at| is_number(&tokens[*at])).collect();
@@ -265,7 +265,7 @@ fn extreme_number(tokens: &mut [String], dice: &mut Dice) {
     }
 }
 
-/// Characters from all over Unicode, or bytes that are no text at all.
+/// Random Unicode characters, or invalid UTF-8.
 fn noise(dice: &mut Dice) -> String {
     let length = dice.below(80);
     if dice.below(2) == 0 {
@@ -277,7 +277,7 @@ fn noise(dice: &mut Dice) -> String {
     (0..length).map(|_| letter(dice)).collect()
 }
 
-/// Brackets in brackets, closed or not.
+/// Nested brackets, balanced or not.
 fn nested(dice: &mut Dice) -> String {
     let (open, close) = *dice.pick(&[
         ("(", ")"),
@@ -307,7 +307,7 @@ fn nested(dice: &mut Dice) -> String {
     format!("{}1{}", open.repeat(depth), close.repeat(closed))
 }
 
-/// Words, numbers, texts, blanks and signs of a script; together they are the script again.
+/// Splits a script into words, numbers, strings, white space and operators. The concatenation is the script.
 fn split(text: &str) -> Vec<String> {
     let kind = |letter: char| match letter {
         letter if letter.is_alphanumeric() || letter == '_' => 0,
@@ -331,7 +331,7 @@ fn split(text: &str) -> Vec<String> {
     tokens
 }
 
-/// Random numbers from a seed (SplitMix64), the same everywhere and for ever.
+/// Random numbers from a seed (SplitMix64), equal on all platforms.
 pub struct Dice(pub u64);
 
 impl Dice {
@@ -342,12 +342,12 @@ impl Dice {
         mixed ^ (mixed >> 31)
     }
 
-    /// A whole number below `end`, or 0.
+    /// Integer below `end`, or 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.next() % end.max(1) as u64) as usize
     }
 
-    /// One of these.
+    /// Random element of a slice.
     pub fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
         &from[self.below(from.len())]
     }

@@ -1,5 +1,5 @@
-//! A step of a model with one slider whose way `Δξ` is prescribed: what is left of its sliding equation says whether the
-//! step has a solution, whatever Newton's method finds.
+//! Step of a model with one slider for a prescribed increment `Δξ`. The residual of the sliding equation shows whether the step has a solution, independently
+//! of Newton's method.
 
 use withy::integrators::{
     Accelerated, Checkpoint, Constraints, EnergyMomentum, Forces, Inertia, Integrator, Interval,
@@ -10,15 +10,15 @@ use withy::linalg::{BandedMatrix, Border, BorderShape, BorderedMatrix};
 use withy::newton::Tolerance;
 use withy::system::System;
 
-/// The model, with the last equation of its slider replaced by `Δξ = way`. For laws whose last equation has no derivative by
-/// movements: the relaxed one.
+/// Model in which the last equation of the slider is replaced by `Δξ = way`. It applies to laws whose last equation does not depend on the displacement
+/// increments, such as the relaxed rule.
 pub struct FixedWay<'a> {
     model: &'a mut System,
     way: f64,
-    /// Of the last solution: where the next search begins.
+    /// Initial guess of the next solve, from the last solution.
     mean_rates: Vec<f64>,
     contact: Vec<f64>,
-    /// What was left of the sliding equation.
+    /// Residual of the sliding equation.
     left: f64,
     scratch: BorderedMatrix,
 }
@@ -39,7 +39,7 @@ impl<'a> FixedWay<'a> {
         }
     }
 
-    /// What is left of the sliding equation [force] when the step is solved with that way; none when it cannot be.
+    /// Residual of the sliding equation [force] in a step with the increment `way`. Returns `None` if the step has no solution.
     pub fn left(&mut self, interval: Interval, way: f64) -> Option<f64> {
         self.way = way;
         let mut integrator = EnergyMomentum::new(self, Tolerance::default());

@@ -1,4 +1,4 @@
-//! Scenes of what machines are made of besides: bushings, motors, moments.
+//! Scenes with further machine elements: bushings, motors and moments.
 
 use super::at;
 use super::scenes::{add_beam, end_of, line, rod, spring, start_of};
@@ -9,9 +9,9 @@ use withy::system::{
     Anchor, Drag, Dragged, Drive, DriveKind, Origin, Scene, SpeedLaw, Spring, SpringKind, SpringLaw,
 };
 
-/// Two beams in bushings, springs without length at ease with dampers: the first is held by one at the ground, the second by one at the end of the first, and by
-/// a damper alone. A motor turns the end of the first by an angle, another one the end of the second at a speed, and a moment with a name acts inside of it; the
-/// wind blows at its end.
+/// Two beams in bushings, which are springs of zero length with dampers. The first beam is supported by a bushing at the ground, the second one by a bushing
+/// at the end of the first and by a damper at the ground. A motor prescribes the angle at the end of the first beam, another one the speed at the end of the second.
+/// A named moment acts inside the first beam, and wind acts on its end.
 pub fn bushed(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("bushed");
     let one = add_beam(&mut scene, line(at(0.2, 0.1), at(2.0, 0.9)), mesh, rod());

@@ -1,4 +1,4 @@
-//! What several test files need: scenes, meshes, reference tables, random numbers.
+//! Shared helpers of the tests: scenes, meshes, reference tables and random numbers.
 #![allow(dead_code, clippy::unwrap_used)]
 
 pub mod body_scenes;
@@ -43,7 +43,7 @@ pub fn simulate(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64)
     simulation
 }
 
-/// Runs to a time; where controllers steer, they are asked before every step.
+/// Runs to a time. Controllers, if any, are evaluated before every step.
 pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError> {
     let is_steered = steered_scenes::is_steered(simulation.scene());
     loop {
@@ -57,19 +57,19 @@ pub fn run(simulation: &mut Simulation, end: f64) -> Result<(), SimulationError>
     }
 }
 
-/// Whether a beam of a scene is of a damped material: where steps do not resolve how it relaxes, a very short step sees rates that alternate, and what is told
-/// of the present does not.
+/// Returns true if a beam of the scene has a damped material. If steps do not resolve the relaxation, the rates of a very short step alternate, but the
+/// present section forces do not.
 pub fn is_damped(scene: &Scene) -> bool {
     scene.elements.iter().any(|element| matches!(element, Element::Damping(_)))
 }
 
-/// Takes a step of fixed size, which controllers steer if there are some.
+/// Takes a step of fixed size. Controllers, if any, are evaluated before it.
 pub fn step(simulation: &mut Simulation) -> Result<(), SimulationError> {
     steered_scenes::steer(simulation);
     simulation.step(&mut NoMonitor)
 }
 
-/// Stops a run after every step until a time.
+/// Interrupts a run after every step until a time.
 struct Pause {
     until: f64,
     is_paused: bool,
@@ -88,7 +88,7 @@ pub fn energies(history: &History) -> Vec<f64> {
     rows.map(|row| row.measures.energy.total() - row.measures.work).collect()
 }
 
-/// Beyond rounding, in no step.
+/// Asserts that the energy increases in no step by more than rounding.
 pub fn assert_energy_never_grows(label: &str, history: &History) {
     let sizes = history.samples().iter().map(|row| {
         let (energy, work) = (row.measures.energy, row.measures.work);
@@ -101,13 +101,13 @@ pub fn assert_energy_never_grows(label: &str, history: &History) {
     }
 }
 
-/// Where the first beam starts and ends.
+/// Positions of the ends of the first beam.
 pub fn ends(simulation: &Simulation) -> [Vec2; 2] {
     let points = simulation.model().control_points().next().unwrap();
     [points[0], points[points.len() - 1]]
 }
 
-/// One mesh of every kind, with its name; `spans` spans of the smooth ones, fewer of the others.
+/// One mesh of every kind, with its name. Smooth meshes have `spans` spans, the others fewer.
 pub fn meshes(spans: usize) -> Vec<(&'static str, Mesh)> {
     let bspline = |spans, degree, continuity| Mesh::bspline(spans, degree, continuity).unwrap();
     let lagrange = |elements, degree| Mesh::lagrange(elements, degree).unwrap();
@@ -130,11 +130,11 @@ pub fn points(mesh: Mesh, number: usize) -> Mesh {
     mesh.with_quadrature(Quadrature::Points(number)).unwrap()
 }
 
-/// Splitmix64 (Steele, Lea & Flood 2014): small, seeded, the same everywhere.
+/// Random numbers from a seed (SplitMix64: Steele, Lea & Flood 2014), equal on all platforms.
 pub struct Random(pub u64);
 
 impl Random {
-    /// Uniform in [-1, 1].
+    /// Uniform random number in [-1, 1].
     pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
@@ -148,12 +148,12 @@ impl Random {
     }
 }
 
-/// The slopes of errors whose step is halved from one to the next.
+/// Observed orders of convergence of errors with step sizes that are halved from one to the next.
 pub fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| (pair[0] / pair[1]).log2()).collect()
 }
 
-/// Small numbers in a row of a printed table.
+/// Row of a printed table in scientific notation.
 pub fn sci(values: &[f64]) -> String {
     values.iter().map(|value| format!("{value:8.1e}")).collect::<Vec<_>>().join(" ")
 }

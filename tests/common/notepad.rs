@@ -1,14 +1,14 @@
-//! Something to write on, whose writing can be read while the other hand still holds it.
+//! Shared output buffer that can be read while a script or session still writes to it.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
 
-/// What a script or a session prints, or tells the user.
+/// Output of a script or a session, or messages to the user.
 #[derive(Clone, Default)]
 pub struct Notepad(Arc<Mutex<Vec<u8>>>);
 
 impl Notepad {
-    /// All that was written since it was last taken.
+    /// Returns the text that was written since the last call.
     pub fn take(&self) -> String {
         let written = std::mem::take(&mut *self.0.lock().unwrap());
         String::from_utf8_lossy(&written).into_owned()

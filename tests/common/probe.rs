@@ -1,4 +1,4 @@
-//! Looking at a mechanism through its public interface only.
+//! Access to a mechanism through its public interface only.
 
 use nalgebra::{DMatrix, DVector};
 use withy::geometry::{Vec2, cross, perpendicular};
@@ -8,7 +8,7 @@ use withy::system::System;
 
 pub const STEP: Interval = Interval::between(0.3, 0.35);
 
-/// What an unknown moves.
+/// Kind of motion that an unknown describes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unknown {
     X(Vec2),
@@ -20,7 +20,7 @@ fn positions(model: &System) -> Vec<Vec2> {
     model.control_points().flatten().copied().collect()
 }
 
-/// Advances by increments of a stage, the rates as they are.
+/// Advances a model by increments of a stage, with unchanged rates.
 pub fn advance(model: &mut System, stage: Stage, increments: &[f64]) {
     model.begin_step(STEP, &Stage::ALL).unwrap();
     let mut residual = vec![0.0; model.degrees_of_freedom()];
@@ -36,7 +36,7 @@ pub fn advance(model: &mut System, stage: Stage, increments: &[f64]) {
     model.advance(&solution);
 }
 
-/// Moves every unknown by itself and watches what happens.
+/// Classifies the unknowns by the effect of moving each one alone.
 pub fn unknowns(model: &mut System) -> Vec<Unknown> {
     let (state, before) = (model.state(), positions(model));
     let mut increments = vec![0.0; model.unknowns()];
@@ -57,7 +57,7 @@ pub fn unknowns(model: &mut System) -> Vec<Unknown> {
         .collect()
 }
 
-/// Increments of a rotation about a point and a shift, as a stage understands them.
+/// Increments of a rotation about a point and a translation, in the convention of a stage.
 pub fn rigid(model: &mut System, stage: Stage, angle: f64, about: Vec2, shift: Vec2) -> Vec<f64> {
     let omega = match stage {
         Stage::Midpoint | Stage::DampedMidpoint(_) => 2.0 * (0.5 * angle).tan(),
@@ -75,7 +75,7 @@ pub fn rigid(model: &mut System, stage: Stage, angle: f64, about: Vec2, shift: V
     unknowns(model).into_iter().map(increment).collect()
 }
 
-/// Forces of a stage with section forces that belong to the increments.
+/// Forces of a stage with section forces that are consistent with the increments.
 pub fn condensed(model: &mut System, stage: Stage, increments: &[f64]) -> Vec<f64> {
     let mut forces = vec![0.0; model.degrees_of_freedom()];
     let mut tangent = BandedMatrix::zeros(model.unknowns(), model.half_bandwidth());
@@ -83,7 +83,7 @@ pub fn condensed(model: &mut System, stage: Stage, increments: &[f64]) -> Vec<f6
     forces
 }
 
-/// Lets the section forces agree with the increments.
+/// Makes the section forces consistent with the increments.
 pub fn settle(model: &mut System, stage: Stage, increments: &[f64]) {
     condensed(model, stage, increments);
     model.correct_section_forces(&vec![0.0; increments.len()]);
@@ -106,7 +106,7 @@ fn dense(matrix: &BandedMatrix) -> DMatrix<f64> {
     DMatrix::from_fn(matrix.size(), matrix.size(), |i, j| matrix.get(i, j))
 }
 
-/// Columns of differences of fourth order, `(8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h`.
+/// Jacobian by central differences of fourth order, `(8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h`.
 pub fn differences(point: &[f64], h: f64, f: &mut dyn FnMut(&[f64]) -> Vec<f64>) -> DMatrix<f64> {
     let columns = (0..point.len()).map(|column| {
         let mut at = |offset: f64| {
@@ -119,7 +119,7 @@ pub fn differences(point: &[f64], h: f64, f: &mut dyn FnMut(&[f64]) -> Vec<f64>)
     DMatrix::from_columns(&columns.collect::<Vec<_>>())
 }
 
-/// The moment about the origin of forces on the unknowns.
+/// Moment of generalised forces about the origin.
 pub fn torque(model: &mut System, forces: &[f64]) -> f64 {
     let arm = |(unknown, force): (Unknown, &f64)| match unknown {
         Unknown::X(point) => cross(point, Vec2::new(*force, 0.0)),

@@ -8,7 +8,7 @@ use withy::geometry::Vec2;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule};
 use withy::system::{Scene, StationVelocity};
 
-/// A beam from the origin along a direction, of length 1, with a section stiff enough to be a rail.
+/// Nearly rigid straight beam of length 1 from the origin in a direction.
 pub fn rail(mesh: &Mesh, direction: Vec2) -> Scene {
     let mut scene = Scene::new("rail");
     add_beam(&mut scene, line(Vec2::zeros(), direction.normalize()), mesh, stiff());
@@ -19,7 +19,7 @@ pub fn stiff() -> Section {
     Section { mass_per_length: 1.0, rotary_inertia: 0.01, ..paper_section(1e4) }
 }
 
-/// The same with both ends clamped: it takes the impulses of axial bounces to the ground and stays at rest.
+/// The same rail with both ends clamped, which transmit axial impulses to the ground.
 pub fn clamped_rail(mesh: &Mesh, direction: Vec2) -> Scene {
     let mut scene = rail(mesh, direction);
     let ends = [scene.station(0, 0.0).unwrap(), end_of(&mut scene, 0)];
@@ -29,7 +29,7 @@ pub fn clamped_rail(mesh: &Mesh, direction: Vec2) -> Scene {
     scene
 }
 
-/// Puts a bead on the rail; returns the index of its slider.
+/// Adds a bead to the rail. Returns the index of its slider.
 pub fn bead(scene: &mut Scene, along: f64, mass: f64, velocity: Vec2, ends: EndAction) -> usize {
     let axis = &scene.beams[0].axis;
     let (length, place) = (axis.length(), axis.point(along).unwrap());
@@ -40,7 +40,7 @@ pub fn bead(scene: &mut Scene, along: f64, mass: f64, velocity: Vec2, ends: EndA
     scene.add_slider(Slider { name, ends, ..slider }).unwrap()
 }
 
-/// A bead that bounces between both ends of a free beam that turns and flies.
+/// Bead that bounces between both ends of a free beam that translates and rotates.
 pub fn bouncing_bead(mesh: &Mesh, mass: f64) -> Scene {
     let mut scene = rail(mesh, at(3.0, 1.0));
     let motion = &mut scene.beams[0].motion;

@@ -1,4 +1,4 @@
-//! The reference solutions in `scripts/studies/reference`: see their header lines.
+//! Reference solutions of `scripts/studies/reference`. The header lines of the files describe them.
 
 use std::path::Path;
 
@@ -6,7 +6,7 @@ use super::{at, ends};
 use withy::geometry::Vec2;
 use withy::simulation::Simulation;
 
-/// A table of numbers with named columns.
+/// Table of numbers with named columns.
 pub struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -17,7 +17,7 @@ pub fn text(file: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Numbers in JSON files of 30-digit arithmetic are strings.
+/// Number in a JSON file. Numbers from 30-digit arithmetic are stored as strings.
 pub fn number(value: &serde_json::Value) -> f64 {
     let text = || value.as_str().and_then(|text| text.parse().ok());
     value.as_f64().or_else(text).unwrap_or_else(|| panic!("{value} is not a number"))
@@ -32,25 +32,25 @@ impl Table {
         Self { columns, rows: lines.map(row).collect() }
     }
 
-    /// A column in the row of a time.
+    /// Value of a column at a time.
     pub fn at(&self, time: f64, column: &str) -> f64 {
         let row = self.rows.iter().find(|row| (row[0] - time).abs() < 1e-9).unwrap();
         row[self.columns.iter().position(|name| name == column).unwrap()]
     }
 
-    /// The times of the rows but the first, up to one.
+    /// Times of the rows up to `end`, without the first row.
     pub fn times(&self, end: f64) -> Vec<f64> {
         let times = self.rows[1..].iter().map(|row| row[0]);
         times.take_while(|time| *time < end + 1e-9).collect()
     }
 
-    /// Where the ends of the beam are.
+    /// Positions of the ends of the beam.
     pub fn ends(&self, time: f64) -> [Vec2; 2] {
         let point = |x: &str, y: &str| at(self.at(time, x), self.at(time, y));
         [point("x0", "y0"), point("xL", "yL")]
     }
 
-    /// The larger distance of the two ends of a beam from where they should be.
+    /// Larger one of the position errors of both ends of a beam.
     pub fn error(&self, simulation: &Simulation) -> f64 {
         distance(&ends(simulation), &self.ends(simulation.time()))
     }

@@ -1,4 +1,4 @@
-//! Scenes of which something lets go in the course of a run.
+//! Scenes with objects that are released during the run.
 
 use super::at;
 use super::body_scenes::{add_body, hinge, point};
@@ -11,13 +11,13 @@ use withy::joints::{
 use withy::loads::{PrescribedMotion, Schedule};
 use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw};
 
-/// Lets something go at a time.
+/// Releases an object at a time.
 pub fn release(scene: &mut Scene, hold: Releasable, time: f64) {
     scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap();
 }
 
-/// A chain that is turned at its foot, with a bead at its end on a spring: the motor, the rigid joint, the spring, the bead and the foot let go one after
-/// another, between points of the time grid and on them.
+/// Chain with a prescribed rotation at its foot and a bead on a spring at its end. The motor, the rigid joint, the spring, the bead and the foot are released
+/// one after another, both between points of the time grid and on them.
 pub fn chain(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("a chain that lets go");
     let one = add_beam(&mut scene, line(at(0.0, 0.0), at(1.0, 0.5)), mesh, rod());
@@ -48,7 +48,7 @@ pub fn chain(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A wheel on a bracket: the bracket lets go of the ground, then the wheel of the bracket.
+/// Wheel on a bracket. The bracket is released from the ground, then the wheel from the bracket.
 pub fn bracket(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("a bracket that lets go");
     let points = [at(-0.5, 0.0), at(0.5, 0.2)];
@@ -64,7 +64,7 @@ pub fn bracket(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A bead that slides on a falling rod whose hinge lets go, and which the bead leaves in its middle.
+/// Bead that slides on a falling rod. The hinge of the rod is released, and the bead is released in the middle of the rod.
 pub fn bead(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("a bead that lets go");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 0.0)), mesh, rod());
@@ -92,7 +92,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// All of them.
+/// All scenes with releases.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![chain(mesh), bracket(mesh), bead(mesh)]
 }

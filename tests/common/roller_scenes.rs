@@ -10,7 +10,7 @@ use withy::joints::{JointKind, Partner, Releasable};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw, StationVelocity};
 
-/// A unit vector at an angle to the first axis.
+/// Unit vector at an angle to the first axis.
 pub fn unit(angle: f64) -> Vec2 {
     at(angle.cos(), angle.sin())
 }
@@ -19,8 +19,8 @@ pub fn roller(scene: &mut Scene, station: Station, angle: f64) {
     scene.join(JointKind::InclinedRoller(unit(angle)), station, Partner::Ground).unwrap();
 }
 
-/// A rigid body that stands with a point beside its centre on an inclined roller, a beam between another point of it and an inclined guide, and a bead that
-/// runs down a line and hangs on the beam by a spring; a force turns with the body, and the roller of the body lets go.
+/// Rigid body on an inclined roller at a point off its centre, a beam between another point of the body and an inclined guide, and a bead on an inclined guide
+/// that is connected to the beam by a spring. A follower force acts on the body, and its roller is released.
 pub fn on_rollers(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("on inclined rollers");
     let points = [at(-0.5, -0.2), at(0.6, 0.1)];

@@ -1,4 +1,4 @@
-//! Scenes that exercise every kind of beam, joint, mass and load.
+//! Scenes with every kind of beam, joint, mass and load.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -13,7 +13,7 @@ use withy::system::{
     RigidBodyDefinition, Scene, SpeedLaw, Spring, SpringKind, SpringLaw, StartMotion,
 };
 
-/// The section of the flying spaghetti with `EA = GA` and `EI` as given.
+/// Section of the flying spaghetti with the given `EA = GA` and `EI`.
 pub fn spaghetti_section(stiffness: f64, bending: f64) -> Section {
     Section {
         axial_stiffness: stiffness,
@@ -73,7 +73,7 @@ fn hold(time: f64) -> Schedule {
     Schedule::hold_for(time).unwrap()
 }
 
-/// Flying spaghetti (Simo & Vu-Quoc 1986, II) from (0, 8) + `shift` to (6, 0) + `shift`, thrown by a schedule.
+/// Flying spaghetti (Simo & Vu-Quoc 1986, II) from (0, 8) + `shift` to (6, 0) + `shift`, with a schedule of the loads.
 pub fn thrown(mesh: &Mesh, section: Section, schedule: Schedule, shift: Vec2) -> Scene {
     let mut scene = Scene::new("flying spaghetti");
     let axis = line(at(0.0, 8.0) + shift, at(6.0, 0.0) + shift);
@@ -95,14 +95,14 @@ pub fn smooth_spaghetti(mesh: &Mesh, bending: f64) -> Scene {
     thrown(mesh, spaghetti_section(1e4, bending), pulse, Vec2::zeros())
 }
 
-/// A free beam of length 10 along the first axis.
+/// Free beam of length 10 along the first axis.
 pub fn free_beam(mesh: &Mesh, section: Section) -> Scene {
     let mut scene = Scene::new("free beam");
     add_beam(&mut scene, line(Vec2::zeros(), at(10.0, 0.0)), mesh, section);
     scene
 }
 
-/// The same, clamped at its start.
+/// The same beam, clamped at its start.
 pub fn cantilever(mesh: &Mesh, section: Section) -> Scene {
     let mut scene = free_beam(mesh, section);
     let start = start_of(&mut scene, 0);
@@ -110,7 +110,7 @@ pub fn cantilever(mesh: &Mesh, section: Section) -> Scene {
     scene
 }
 
-/// A quarter arc, hinged to the ground, swings under gravity with a mass at its end.
+/// Quarter arc that is hinged to the ground and swings under gravity with a mass at its end.
 pub fn curved_pendulum(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("curved pendulum");
     let axis = Curve::arc(at(0.5, 1.0), 2.0, 0.0, -FRAC_PI_2).unwrap();
@@ -123,7 +123,7 @@ pub fn curved_pendulum(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A clamped beam under a follower force at 0.6 of its length, a follower line load and a dead line load.
+/// Clamped beam under a follower force at 0.6 of its length, a follower line load and a dead line load.
 pub fn blown_cantilever(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("blown cantilever");
     let beam = add_beam(&mut scene, line(at(1.0, 0.0), at(2.5, 2.0)), mesh, rod());
@@ -139,7 +139,7 @@ pub fn blown_cantilever(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Four bars hinged to a rhombus fly and turn; a moment drives one of them.
+/// Free rhombus of four hinged bars, one of which is driven by a moment.
 pub fn flying_loop(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying four-bar loop");
     let corners = [at(0.0, 0.0), at(2.0, 0.5), at(3.0, 2.2), at(1.0, 1.7)];
@@ -158,7 +158,7 @@ pub fn flying_loop(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A four-bar linkage hinged to the ground at both ends, driven by a moment, under gravity.
+/// Four-bar linkage hinged to the ground at both ends, driven by a moment, under gravity.
 pub fn four_bar_linkage(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("four-bar linkage");
     let corners = [at(0.0, 0.0), at(0.3, 1.0), at(2.4, 1.6), at(2.2, 0.0)];
@@ -178,7 +178,7 @@ pub fn four_bar_linkage(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A curved and a straight beam, rigidly joined inside the first, and a third one hinged on: free, with a load on.
+/// Free structure of a curved beam, a straight beam joined rigidly to its interior, and a hinged third beam, with a load.
 pub fn flying_tree(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flying tree");
     let arc = Curve::arc(at(0.0, 0.0), 2.0, 0.2, 1.4).unwrap();
@@ -202,7 +202,7 @@ pub fn flying_tree(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A circle whose ends are joined rigidly, pushed by a follower force.
+/// Circular beam with rigidly joined ends under a follower force.
 pub fn hoop(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("hoop");
     let circle = Curve::arc(at(1.0, 1.0), 1.5, 0.3, 0.3 + TAU).unwrap();
@@ -214,7 +214,7 @@ pub fn hoop(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A free beam with a steady force: what is left when a scene has no joint.
+/// Free beam with a constant force, as a scene without joints.
 pub fn towed(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("towed beam");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
@@ -224,7 +224,7 @@ pub fn towed(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A spring, with a damper beside it.
+/// Adds a spring with a parallel damper.
 pub fn spring(scene: &mut Scene, kind: SpringKind, law: SpringLaw, damping: f64) {
     let (name, law) = (scene.free_name("spring"), Some(law));
     scene
@@ -236,7 +236,7 @@ fn linear(stiffness: f64, natural: f64) -> SpringLaw {
     SpringLaw::Linear { stiffness, natural }
 }
 
-/// Two beams that fly apart, held together by a spring inside of both, a torsion spring and a tendon over four places, all at ease.
+/// Two beams that move apart, connected by a spring between interior points, a torsion spring and a tendon over four points. All are initially unstrained.
 pub fn sprung(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("sprung");
     let one = add_beam(&mut scene, line(at(2.0, 0.4), at(0.3, 2.0)), mesh, rod());
@@ -261,7 +261,7 @@ pub fn sprung(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A beam and a particle on springs and dampers that stand on the ground, under a load and their weight.
+/// Beam and particle on springs and dampers to the ground, under a load and their weight.
 pub fn mounted(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("mounted");
     let beam = add_beam(&mut scene, line(at(0.5, 1.0), at(3.0, 1.4)), mesh, rod());
@@ -286,7 +286,7 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Gives components of a station motions.
+/// Prescribes the motion of components of a station.
 pub fn drive(scene: &mut Scene, station: Station, given: &[(Component, PrescribedMotion)]) {
     let mut motions = [None, None, None];
     for (component, motion) in given {
@@ -300,7 +300,7 @@ fn sine(amplitude: f64, rate: f64) -> Schedule {
     Schedule::Sine { amplitude, rate, phase: 0.0 }
 }
 
-/// Two beams joined by a hinge: the foot of the first is shaken and turned, the second stands on a roller; a load with a name acts besides.
+/// Two hinged beams. The foot of the first has a prescribed translation and rotation, the second is supported by a roller, and a named load acts.
 pub fn driven(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("driven");
     let first = add_beam(&mut scene, line(at(0.3, 0.1), at(1.5, 1.0)), mesh, rod());
@@ -321,7 +321,7 @@ pub fn driven(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A bent beam of a Kelvin–Voigt material that flies, and a straight one joined to its end.
+/// Free bent beam of a Kelvin–Voigt material with a straight beam joined to its end.
 pub fn damped(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("damped");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
@@ -338,7 +338,7 @@ pub fn damped(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A bent beam in a wind, dragged across and along, and a bead on a spring at its end that is dragged as well.
+/// Bent beam in wind with transverse and axial drag, and a bead with drag on a spring at its end.
 pub fn dragged(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("dragged");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
@@ -362,7 +362,7 @@ pub fn dragged(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A bent beam and a bead inside a damped wall and a soft disc, which push them out. The contacts stay closed, so the forces are smooth.
+/// Bent beam and bead that penetrate a damped wall and a soft disc. The contacts stay closed, so the forces are smooth.
 pub fn pressed(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("pressed");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.4), at(2.0, 0.2), at(3.0, 1.0)]).unwrap();
@@ -383,7 +383,7 @@ pub fn pressed(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A bent beam, a straight beam and a bead that push each other apart by soft contact. The contacts stay closed, so the forces are smooth.
+/// Bent beam, straight beam and bead in soft mutual contact. The contacts stay closed, so the forces are smooth.
 pub fn crowded(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("crowded");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.1), at(2.0, 0.3), at(3.0, 0.8)]).unwrap();
@@ -400,13 +400,12 @@ pub fn crowded(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A law of damping as a table of rates and forces.
+/// Damping law from a table of rates and forces.
 pub fn absorber(points: &[(f64, f64)]) -> DampingLaw {
     DampingLaw::Curve(SpringLaw::Table { points: points.to_vec() })
 }
 
-/// A flying beam that a damper of rising force holds back to the ground, and another beam, which a saturated torsion damper and a spring with a damper of one direction
-/// join to it.
+/// Free beam with a progressive damper to the ground. A second beam is connected to it by a saturated torsion damper and by a spring with a one-way damper.
 pub fn absorbed(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("absorbed");
     let one = add_beam(&mut scene, line(at(0.2, 0.4), at(2.0, 1.0)), mesh, rod());
@@ -429,7 +428,7 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     add(turn, Some(linear(2.0, 0.1)), absorber(&[(-0.4, -0.3), (0.4, 0.3), (1.0, 0.3)]));
     let across = SpringKind::Length(vec![Anchor::Station(start), Anchor::Station(tip)]);
     add(across, Some(linear(6.0, 0.2)), absorber(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 1.5)]));
-    // Functions, which are polygons from here on.
+    // Functions, which are sampled as piecewise linear laws.
     let over = SpringKind::Length(vec![
         Anchor::Ground(at(2.0, 3.0)),
         Anchor::Station(end),
@@ -442,7 +441,7 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A flying beam with a flywheel on a hinge at one end, which a torsion spring turns, and a rigid body fixed to the other: both by their centres.
+/// Free beam with a flywheel hinged to one end, driven by a torsion spring, and a rigid body fixed to the other end. Both are attached at their centres.
 pub fn flywheels(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("flywheels");
     let beam = add_beam(&mut scene, line(at(0.0, 1.0), at(3.0, 2.0)), mesh, rod());
@@ -469,7 +468,7 @@ pub fn flywheels(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A curved beam that tapers, of a damped material, swings from a hinge with a force at its thin end.
+/// Tapered curved beam of a damped material that swings about a hinge with a force at its thin end.
 pub fn tapered(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("tapered");
     let axis = Curve::arc(at(0.5, 1.0), 2.0, 0.3, -1.2).unwrap();
@@ -485,7 +484,7 @@ pub fn tapered(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Every scene on a mesh whose forces are smooth, without rigid bodies off their centres and inclined rollers, which `body_scenes::all` has.
+/// All scenes on a mesh with smooth forces, except those of `body_scenes::all` with rigid bodies attached off their centres and inclined rollers.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![
         spaghetti(mesh, 1e4),

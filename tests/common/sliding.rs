@@ -8,14 +8,14 @@ use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVel
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity};
 
-/// How point A of the free sliding mass is held.
+/// Support of point A of the free sliding mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     Free,
     Hinged,
 }
 
-/// The section of the free sliding mass (paper, section 4.2), with another axial stiffness.
+/// Section of the free sliding mass (paper, section 4.2) with the given axial stiffness.
 pub fn paper_section(axial: f64) -> Section {
     Section {
         axial_stiffness: axial,
@@ -42,7 +42,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
     }
 }
 
-/// Section that hardly deforms.
+/// Nearly rigid section.
 pub const STIFF: Section = Section {
     axial_stiffness: 1e10,
     shear_stiffness: 1e10,
@@ -68,7 +68,7 @@ pub fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
     scene.add_particle(ParticleDefinition { name, position }, mass).unwrap()
 }
 
-/// The free sliding mass of the paper: CM slides with C on AB, a mass at M starts with (-10, -10), that node alone.
+/// Free sliding mass of the paper: CM slides with C on AB. Only the node of the mass at M has a start velocity, (-10, -10).
 pub fn free_sliding_mass(
     meshes: [&Mesh; 2],
     axial: f64,
@@ -81,7 +81,7 @@ pub fn free_sliding_mass(
     scene
 }
 
-/// The same at rest.
+/// The same beams at rest.
 pub fn two_beams(meshes: [&Mesh; 2], axial: f64, support: Support, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("free sliding mass");
     let (b, c) = (at(3.0, 1.0), at(3.0, 1.0) * 0.95);
@@ -98,7 +98,7 @@ pub fn two_beams(meshes: [&Mesh; 2], axial: f64, support: Support, rule: Sliding
     scene
 }
 
-/// The same with a smooth start: a pulse on M gives it the momentum (-10, -10), from rest (references `P8s`).
+/// The same beams at rest with a smooth force pulse on M of the impulse (-10, -10) (references `P8s`).
 pub fn smoothly_pushed_mass(meshes: [&Mesh; 2], support: Support, rule: SlidingRule) -> Scene {
     let mut scene = two_beams(meshes, 1e2, support, rule);
     let station = end_of(&mut scene, 1);
@@ -109,8 +109,7 @@ pub fn smoothly_pushed_mass(meshes: [&Mesh; 2], support: Support, rule: SlidingR
     scene
 }
 
-/// A particle slides on the hinged beam AB of the paper, from 19/20 of it inwards with a speed of 5 along it, while both
-/// turn about A (references `P7`).
+/// Particle that slides on the hinged beam AB of the paper, from 19/20 of its length inwards at the speed 5, while both rotate about A (references `P7`).
 pub fn sliding_particle(mesh: &Mesh, spin: f64, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("sliding particle");
     let b = at(3.0, 1.0);
@@ -127,7 +126,7 @@ pub fn sliding_particle(mesh: &Mesh, spin: f64, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// The same without rotation at the start: a smooth moment at A bends the beam (reference `P7d`).
+/// The same scene without initial rotation. A smooth moment at A bends the beam (reference `P7d`).
 pub fn kicked_sliding_particle(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = sliding_particle(mesh, 0.0, rule);
     let (station, duration) = (scene.station(0, 0.0).unwrap(), 0.2);
@@ -146,12 +145,12 @@ pub fn paper_meshes() -> Vec<(&'static str, [Mesh; 2])> {
 /// The time step of the paper.
 pub const PAPER_STEP: f64 = 0.01067;
 
-/// Cubic C² splines of so many spans.
+/// Cubic C² splines with the given number of spans.
 pub fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// The scene of a reference, with as many spans in every beam.
+/// Scene of a reference with the given number of spans in every beam.
 pub fn reference_scene(reference: &str, spans: usize, rule: SlidingRule) -> Scene {
     let mesh = smooth(spans);
     match reference {

@@ -1,4 +1,4 @@
-//! A scene for every way in which a slider may be part of a mechanism.
+//! Scenes that cover all uses of a slider in a mechanism.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ use withy::joints::{
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{PointMass, Scene, StartMotion, StationVelocity};
 
-/// Adds a slider with a name of its own that bounces at the ends, its start velocities projected.
+/// Adds a named slider that bounces at the ends, with projected start velocities.
 fn slide(scene: &mut Scene, slave: Station, master: usize, along: f64, rule: SlidingRule) {
     let arc_length = along * scene.beams[master].axis.length();
     let (ends, velocities) = (EndAction::Bounce, StartVelocities::Project);
@@ -24,7 +24,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, along: f64, rule: Sli
     scene.add_slider(slider).unwrap();
 }
 
-/// A particle on a beam, with a speed along it besides the velocity of the beam there.
+/// Adds a particle on a beam with a speed relative to the beam.
 fn bead(
     scene: &mut Scene,
     master: usize,
@@ -45,7 +45,7 @@ fn bead(
     station
 }
 
-/// Three beads of different mass on a free beam that turns; they pass each other.
+/// Three beads of different mass that pass each other on a free rotating beam.
 pub fn abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("abacus");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
@@ -57,7 +57,7 @@ pub fn abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// The same with beads that lose speed where they bounce, two of which reach the end at once.
+/// The same scene with beads of restitution below 1, two of which reach the end at the same time.
 pub fn losing_abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("abacus that loses");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
@@ -69,7 +69,7 @@ pub fn losing_abacus(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A beam slides on a hinged beam, and a bead on the sliding one, in a field of gravity.
+/// Beam that slides on a hinged beam, with a bead on the sliding beam, under gravity.
 pub fn sliding_beam_with_bead(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("bead on a sliding beam");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
@@ -84,7 +84,7 @@ pub fn sliding_beam_with_bead(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A hinged beam on which another one slides, whose end there carries a mass, a force and a moment.
+/// Beam that slides on a hinged beam, with a mass, a force and a moment at its sliding end.
 pub fn loaded_slave(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("loaded slave");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
@@ -103,7 +103,7 @@ pub fn loaded_slave(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A bead on half a circle that is hinged at one end and falls.
+/// Bead on a semicircle that is hinged at one end and falls.
 pub fn bead_on_an_arc(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("bead on an arc");
     let axis = Curve::arc(at(1.0, 0.0), 1.0, PI, 2.0 * PI).unwrap();
@@ -114,7 +114,7 @@ pub fn bead_on_an_arc(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A free beam that turns and passes through an eyelet, a point held by the ground.
+/// Free rotating beam that slides through an eyelet fixed to the ground.
 pub fn eyelet(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("eyelet");
     let rail = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), mesh, paper_section(300.0));
@@ -127,7 +127,7 @@ pub fn eyelet(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A pin through two crossing beams, one of them hinged, the other one free.
+/// Pin through two crossing beams, one hinged and one free.
 pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("pinned cross");
     let cross = at(1.2, 0.4);
@@ -144,7 +144,7 @@ pub fn pinned_cross(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// Eight sliders of all kinds, more than a border is for: beads, a pin through two beams, an eyelet, and an arm.
+/// Eight sliders of all kinds, more than the border of the matrix admits: beads, a pin through two beams, an eyelet, and an arm.
 pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("crowd");
     let end = at(3.0, 1.0);
@@ -174,8 +174,8 @@ pub fn crowd(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// Two beads on a closed track of three beams that flies and turns: one corner is stiff, one a hinge, one of the beams is drawn the other way round. Of
-/// rules that are for one beam the conserving one is taken.
+/// Two beads on a closed track of three beams that translates and rotates. One corner is rigid, one is hinged, and one beam has the opposite direction. Rules
+/// that support a single beam only are replaced by the conserving rule.
 pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
     let rule = match rule {
         SlidingRule::Kinked | SlidingRule::Relaxed => SlidingRule::Conserving,
@@ -206,7 +206,7 @@ pub fn triangle(mesh: &Mesh, rule: SlidingRule) -> Scene {
     scene
 }
 
-/// A rope that is drawn through as many points held by the ground, in a field of gravity.
+/// Rope through the given number of eyelets fixed to the ground, under gravity.
 pub fn eyelets(spans: usize, eyelets: usize) -> Scene {
     let mut scene = Scene::new("eyelets");
     let mesh = Mesh::bspline(spans, 3, 2).unwrap();
@@ -223,7 +223,7 @@ pub fn eyelets(spans: usize, eyelets: usize) -> Scene {
     scene
 }
 
-/// Links in zigzag, each of which hangs in a ring that slides on the link before it and on itself, in a field of gravity.
+/// Zigzag chain under gravity. Each link hangs in a ring that slides on the previous link and on itself.
 pub fn chain(links: usize) -> Scene {
     let mut scene = Scene::new("chain");
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
@@ -243,7 +243,7 @@ pub fn chain(links: usize) -> Scene {
     scene
 }
 
-/// A free beam that turns with so many beads, which pass each other.
+/// Free rotating beam with the given number of beads, which pass each other.
 pub fn necklace(spans: usize, beads: usize) -> Scene {
     let mut scene = Scene::new("necklace");
     let mesh = Mesh::bspline(spans, 3, 2).unwrap();
@@ -258,7 +258,7 @@ pub fn necklace(spans: usize, beads: usize) -> Scene {
     scene
 }
 
-/// Every scene, with a rule for all sliders.
+/// All scenes, with one rule for all sliders.
 pub fn all(mesh: &Mesh, rule: SlidingRule) -> Vec<Scene> {
     let mut scenes = vec![
         free_sliding_mass([mesh, mesh], 300.0, Support::Free, rule),

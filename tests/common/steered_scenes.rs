@@ -1,4 +1,4 @@
-//! Scenes that controllers steer: functions of time and state that are asked at the start of every step, and whose values hold for it.
+//! Scenes with controllers: functions of time and state that are evaluated at the start of every step and kept constant during it.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -12,14 +12,14 @@ use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::Simulation;
 use withy::system::{Drive, DriveKind, Scene};
 
-/// What a controller says before it is asked.
+/// Initial value of a controller.
 const START: f64 = 0.4;
 
 fn controller() -> Schedule {
     Schedule::Sampled(Rc::new(Cell::new(START)))
 }
 
-/// Tells every controller of a simulation what holds for the step that begins: a function of time and of where the first body ends.
+/// Sets the values of all controllers for the next step, as a function of the time and of the end position of the first body.
 pub fn steer(simulation: &Simulation) {
     let (time, points) = (simulation.time(), simulation.model().control_points().next());
     let end = points.and_then(<[_]>::last).copied().unwrap_or_default();
@@ -31,7 +31,7 @@ pub fn steer(simulation: &Simulation) {
     }
 }
 
-/// Gives every controller of a scene, whose copies share them, the value with which runs begin.
+/// Resets all controllers of a scene, which its copies share, to their initial values.
 pub fn reset(scene: &Scene) {
     for (_, schedule) in scene.schedules() {
         if let Schedule::Sampled(value) = schedule {
@@ -51,7 +51,7 @@ fn drive(scene: &mut Scene, kind: DriveKind, component: Component, station: with
     scene.add_drive(Drive { name, kind, station, motions }).unwrap();
 }
 
-/// An arm on a hinge under a controlled torque, with a forearm on it that a controlled motor turns, and a controlled thrust that turns with its end.
+/// Hinged arm under a controlled torque, with a forearm driven by a controlled motor and a controlled follower force at its end.
 pub fn arm(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("steered arm");
     let upper = add_beam(&mut scene, line(at(0.0, 0.0), at(1.5, 0.4)), mesh, rod());
@@ -69,8 +69,7 @@ pub fn arm(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// A trolley, a rigid body at a controlled speed, with a beam on a hinge beside its centre that carries a rigid body at its end, off its centre too,
-/// under a controlled moment.
+/// Trolley: a rigid body with a controlled speed. A beam hinged to it off its centre carries another rigid body and is loaded by a controlled moment.
 pub fn trolley(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("steered trolley");
     let beam = add_beam(&mut scene, line(at(0.2, -0.1), at(0.5, -1.6)), mesh, rod());

@@ -9,7 +9,7 @@ use withy::joints::{
 };
 use withy::system::{Scene, StationVelocity};
 
-/// A section of mass 1, as stiff in tension as in shear.
+/// Section of mass per length 1 with equal axial and shear stiffness.
 pub fn section(stiffness: f64, bending: f64) -> Section {
     Section {
         axial_stiffness: stiffness,
@@ -20,17 +20,17 @@ pub fn section(stiffness: f64, bending: f64) -> Section {
     }
 }
 
-/// Where a beam starts and ends.
+/// Stations at the ends of a beam.
 pub fn ends(scene: &mut Scene, beam: usize) -> [Station; 2] {
     [scene.station(beam, 0.0).unwrap(), end_of(scene, beam)]
 }
 
-/// Holds stations on the ground.
+/// Connects stations to the ground.
 pub fn hold(scene: &mut Scene, kind: JointKind, stations: &[Station]) {
     stations.iter().for_each(|at| scene.join(kind, *at, Partner::Ground).unwrap());
 }
 
-/// Makes a track of beams, each of which is joined to the next at the same place, whichever of its ends is there.
+/// Makes a track of beams. Each beam is joined to the next one at their common end point.
 pub fn track(scene: &mut Scene, beams: &[usize], course: TrackEnd) -> usize {
     let closing = (course == TrackEnd::Closed).then(|| [beams[beams.len() - 1], beams[0]]);
     let pairs: Vec<[usize; 2]> =
@@ -55,7 +55,7 @@ pub fn track(scene: &mut Scene, beams: &[usize], course: TrackEnd) -> usize {
     scene.add_track(scene.free_name("track"), beams, course).unwrap()
 }
 
-/// Puts a bead on a track, at an arc length along that; returns the index of its slider.
+/// Adds a bead to a track at an arc length along the track. Returns the index of its slider.
 pub fn bead(scene: &mut Scene, track: usize, along: f64, mass: f64, velocity: Vec2) -> usize {
     let (master, arc_length) = scene.place_on_track(track, along);
     let place = scene.drawn_at(&Station::on_beam(master, arc_length)).unwrap();

@@ -1,4 +1,4 @@
-//! Random scenes with sliders that bounce, from a seed: whatever may come to a user's mind, and what should not.
+//! Random scenes with bouncing sliders, including extreme parameters, from a seed.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
 use withy::system::{Scene, StartMotion, StationVelocity};
 
-/// What is wild about a scene.
+/// Kind of extreme parameters of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Temper {
     Tame,
@@ -26,12 +26,12 @@ impl Temper {
     pub const ALL: [Self; 6] =
         [Self::Tame, Self::Wild, Self::Soft, Self::Stiff, Self::Curved, Self::Chain];
 
-    /// The temper of the scene of a seed: one after the other.
+    /// Temper of the scene of a seed, in cyclic order.
     pub fn of(seed: u64) -> Self {
         Self::ALL[(seed % Self::ALL.len() as u64) as usize]
     }
 
-    /// The range of the axial stiffness, in powers of ten.
+    /// Range of the axial stiffness, as decimal exponents.
     fn stiffness(self) -> (f64, f64) {
         match self {
             Self::Tame | Self::Curved => (3.0, 5.0),
@@ -42,7 +42,7 @@ impl Temper {
         }
     }
 
-    /// How fast everything moves [length/time].
+    /// Typical speed of the motion [length/time].
     fn pace(self) -> f64 {
         match self {
             Self::Tame | Self::Stiff | Self::Curved => 2.0,
@@ -52,7 +52,7 @@ impl Temper {
     }
 }
 
-/// A draw of what a scene needs.
+/// Random draws of the parameters of a scene.
 struct Draw(Random);
 
 impl Draw {
@@ -94,7 +94,7 @@ impl Draw {
     }
 }
 
-/// The scene of a seed, with the method of its steps.
+/// Scene of a seed and its integration method.
 pub fn scene(seed: u64) -> (Scene, Method) {
     let (temper, mut draw) = (Temper::of(seed), Draw(Random(seed)));
     let mut scene = Scene::new(format!("{temper:?} {seed}"));
@@ -118,7 +118,7 @@ pub fn scene(seed: u64) -> (Scene, Method) {
     (scene, method)
 }
 
-/// A beam that turns and flies, held or not.
+/// Adds a translating and rotating beam, supported or free.
 fn rail(scene: &mut Scene, temper: Temper, draw: &mut Draw) {
     let from = draw.vector(1.0);
     let axis = match temper {
@@ -151,7 +151,7 @@ fn rail(scene: &mut Scene, temper: Temper, draw: &mut Draw) {
     scene.beams[beam].motion = motion;
 }
 
-/// Links, each of which hangs in a ring on the one before, or slides along it with its end.
+/// Adds links, each of which hangs in a ring on the previous link or slides along it with its end.
 fn chain(scene: &mut Scene, draw: &mut Draw) {
     let links = 2 + draw.below(4);
     for link in 0..links {
@@ -171,7 +171,7 @@ fn chain(scene: &mut Scene, draw: &mut Draw) {
     }
 }
 
-/// A particle on a beam, with a speed along it besides the velocity of the beam there.
+/// Adds a particle on a beam with a speed relative to the beam.
 fn bead(scene: &mut Scene, master: usize, temper: Temper, draw: &mut Draw) {
     let axis = &scene.beams[master].axis;
     let along = draw.between((0.05, 0.95));

@@ -1,4 +1,4 @@
-//! Steps as long as a tolerance allows: what they keep, how much they err, where they end, and how to come back.
+//! Adaptive steps: invariants, accuracy for a tolerance, ends of runs, and rewinding.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::distance;
@@ -26,10 +26,10 @@ fn adaptive(tolerance: f64) -> StepSize {
     StepControl::to(tolerance).into()
 }
 
-/// The beam is as long as this.
+/// Length of the beam.
 const LENGTH: f64 = 10.0;
 
-/// How far the ends are from where they should be, as a part of the length.
+/// Distance of the ends from their exact positions, relative to the length of the beam.
 fn error(simulation: &Simulation, exact: &[Vec2; 2]) -> f64 {
     distance(&ends(simulation), exact) / LENGTH
 }
@@ -39,7 +39,7 @@ fn errors_go_with_the_tolerance() {
     let scene = || scenes::smooth_spaghetti(&smooth(14), 100.0);
     let exact = ends(&simulate(scene(), Method::FourthOrder, 0.0125, 5.0));
     for entry in INTEGRATORS {
-        // Of first order, steps go with the tolerance itself.
+        // The error of a first-order method is proportional to the tolerance itself.
         let tolerances = match entry.claims.order {
             1 => [3e-2, 1e-2, 3e-3, 1e-3],
             _ => [1e-2, 1e-3, 1e-4, 1e-5],
@@ -119,7 +119,7 @@ fn every_method_keeps_what_it_claims_whatever_the_steps() {
             let run = simulate(scene, entry.method, adaptive(3e-2), end);
             for (worst, (invariant, is_claimed)) in worst.iter_mut().zip(claims(entry)) {
                 let drift = run.history().drift(invariant);
-                // Sliding contacts keep all only under a midpoint rule, as they do with fixed steps.
+                // Sliding contacts conserve all invariants only under a midpoint rule, as with fixed steps.
                 let is_claimed = is_claimed && (!has_sliders || entry.claims.angular_momentum);
                 if is_claimed {
                     assert!(drift < 1e-11, "{label}: {invariant:?} drifts by {drift:.1e}");
@@ -141,7 +141,7 @@ fn what_a_method_does_not_keep_small_errors_do_not_keep_either() {
     for entry in INTEGRATORS {
         let flight =
             simulate(scenes::spaghetti(&smooth(8), 1e4), entry.method, adaptive(1e-2), 7.5);
-        // The momentum is kept by all without supports, claimed or not.
+        // Every method conserves the momentum without supports, whether it claims so or not.
         let claims = claims(entry).into_iter().filter(|(of, _)| *of != Invariant::Momentum);
         for (invariant, is_claimed) in claims {
             let drift = flight.history().drift(invariant);
@@ -206,7 +206,7 @@ fn a_run_in_pieces_does_not_make_steps_small() {
     let mut pieces = Simulation::start(scene(), settings).unwrap();
     for piece in 1..=50 {
         let wish = pieces.dt();
-        // So near the end of the last step that a step as short must say nothing about the next one.
+        // The remaining step is so short that its size must not affect the next one.
         let time = pieces.time() + if piece % 2 == 0 { 1e-4 } else { 1.01 * wish };
         run(&mut pieces, time).unwrap();
         assert_eq!(pieces.time(), time);
@@ -218,7 +218,7 @@ fn a_run_in_pieces_does_not_make_steps_small() {
     assert!(flight.counts().steps >= 40);
 }
 
-/// All digits of a simulation, but for the time it took.
+/// Full-precision state of a simulation, without the elapsed time.
 fn fingerprint(simulation: &Simulation) -> String {
     let counts = WorkCounts { wall: Default::default(), ..*simulation.counts() };
     let (rows, dt) = (simulation.history().samples(), simulation.dt());
@@ -299,7 +299,7 @@ fn steps_that_cannot_be_solved_are_halved_down_to_the_smallest() {
     assert!(flight.time() == 0.5 && flight.counts().retries + flight.counts().rejected > 10);
 }
 
-/// What a beam does that starts at rest and is pushed from a time on, by stops whose rounding differs from that of the schedule.
+/// Run of a beam from rest under a load that starts at a given time. The stop times differ from the schedule by rounding.
 fn run_over_stops_that_round(first: Option<f64>, start: f64) -> Simulation {
     let schedule = match start {
         0.0 => Schedule::hold_for(0.3),
@@ -356,7 +356,7 @@ fn at_rest_steps_grow_no_further_than_the_largest() {
     }
 }
 
-/// A clamped bar of 5 spans with a tip that starts along its axis or across it.
+/// Clamped bar of 5 spans with an initial axial or transverse tip velocity.
 fn struck_bar(velocity: Vec2) -> Scene {
     let section = Section {
         axial_stiffness: 1e6,
@@ -372,7 +372,7 @@ fn struck_bar(velocity: Vec2) -> Scene {
     scene
 }
 
-/// A particle on a spring of stiffness 1 and length 0, as far from its anchor as the scene is long.
+/// Particle on a spring of stiffness 1 and length 0, at a distance from its anchor equal to the scene length.
 fn oscillator() -> Scene {
     let mut scene = Scene::new("oscillator");
     let mass = crate::common::sliding::particle(&mut scene, Vec2::new(1.0, 0.0), 1.0);

@@ -1,4 +1,4 @@
-//! Files of simulations: what comes back goes on bit for bit; what is no sound file is refused and harms nobody.
+//! Archives of simulations: a restored run continues bit for bit, and invalid files are refused without side effects.
 #![allow(clippy::unwrap_used)]
 
 use std::rc::Rc;
@@ -13,11 +13,11 @@ use withy::loads::{LoadKind, Operation, Schedule};
 use withy::simulation::{ArchiveError, Monitor, NoMonitor, Recording, Simulation};
 use withy::system::{Element, Scene, StartMotion};
 
-/// The bytes of a file, that of the time spent apart.
+/// Content of a saved simulation, without the elapsed time.
 fn content(simulation: &Simulation) -> Vec<u8> {
     let file = simulation.to_bytes("same").unwrap();
     let (_, again) = Simulation::from_bytes(&file).unwrap();
-    // All that a file holds but the scene, and the scene is what both were started with.
+    // Everything in the file except the scene, which both simulations share.
     let history = again.history();
     let columns: Vec<_> = history.columns().map(|(name, _)| history.column(name)).collect();
     let counts = withy::simulation::WorkCounts { wall: Default::default(), ..*again.counts() };
@@ -53,7 +53,7 @@ fn every_scene_comes_back_and_goes_on_bit_for_bit() {
         for (name, mesh) in meshes(4) {
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
             let all = all.chain([scenes::crowded(&mesh)]);
-            // Controllers are functions, which no file keeps.
+            // Controllers are functions, which files cannot store.
             for scene in all.filter(|scene| !is_steered(scene)) {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
                 assert_survives(&label, scene, (entry.method, Recording::default()), 0.05, 0.6);
@@ -75,7 +75,7 @@ fn spaghetti() -> Simulation {
     simulation
 }
 
-/// A scene with everything in it that a file may hold, and in the middle of its way.
+/// Simulation, stopped before its end, of a scene with every feature that a file can store.
 fn rich() -> Simulation {
     let mesh = Mesh::bspline(2, 3, 2).unwrap();
     let mut scene = sliding_scenes::loaded_slave(&mesh, SlidingRule::Conserving);
@@ -126,7 +126,7 @@ fn with_right_checksum(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// Stops a run that takes long.
+/// Stops a run that takes too long.
 struct Patience(usize);
 
 impl Monitor for Patience {
@@ -145,7 +145,7 @@ fn flipped_bytes_are_seen_by_the_checksum_and_without_it_never_lead_to_a_panic()
     for case in 0..6000 {
         let mut flipped = file.clone();
         for _ in 0..=choose(3) {
-            // Most of a file are numbers of the state and the history; the scene stands first.
+            // Most of the file is the state and the history. The scene comes first.
             let at = if case % 3 == 0 { choose(file.len()) } else { 20 + choose(1500) };
             flipped[at] =
                 if case % 2 == 0 { choose(256) as u8 } else { flipped[at] ^ (1 << choose(8)) };
@@ -156,7 +156,7 @@ fn flipped_bytes_are_seen_by_the_checksum_and_without_it_never_lead_to_a_panic()
         match Simulation::from_bytes(&with_right_checksum(flipped)) {
             Ok((_, mut simulation)) => {
                 accepted += 1;
-                // It may well fail: what it is made of is random.
+                // The step may fail, as the content is random.
                 let _ = simulation.step(&mut Patience(20));
             }
             Err(error) => {

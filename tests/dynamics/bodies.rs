@@ -1,4 +1,4 @@
-//! Rigid bodies against what is not withy: closed forms, an elliptic integral, a Runge–Kutta method, a benchmark.
+//! Rigid bodies against closed forms, an elliptic integral, a Runge–Kutta method and a benchmark.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -25,7 +25,7 @@ fn angle(simulation: &Simulation, body: usize) -> f64 {
     simulation.model().angle(simulation.scene(), &point(body, 0)).unwrap()
 }
 
-/// The complete elliptic integral of the first kind, by the arithmetic-geometric mean (Gauss).
+/// Complete elliptic integral of the first kind, by the arithmetic-geometric mean (Gauss).
 fn quarter_period(k: f64) -> f64 {
     let (mut a, mut b) = (1.0_f64, (1.0 - k * k).sqrt());
     while (a - b).abs() > 1e-15 {
@@ -38,7 +38,7 @@ fn quarter_period(k: f64) -> f64 {
 fn a_physical_pendulum_passes_its_lowest_point_when_the_elliptic_integral_says() {
     let (inertia, arm, start) = (0.2, 0.8, 2.0_f64);
     let frequency = (GRAVITY * arm / (inertia + arm * arm)).sqrt();
-    // The third time: after five quarters of a period.
+    // Third zero crossing, after five quarters of a period.
     let end = 5.0 * quarter_period((0.5 * start).sin()) / frequency;
     for entry in INTEGRATORS {
         let errors = [100.0, 200.0, 400.0].map(|steps| {
@@ -47,7 +47,7 @@ fn a_physical_pendulum_passes_its_lowest_point_when_the_elliptic_integral_says()
             angle(&simulation, 0).abs()
         });
         let expected = match entry.claims.energy {
-            // Of first order in strains, of which there are none here.
+            // This method is of first order in the strains, which are zero here.
             EnergyClaim::NonIncreasing => 2.0,
             _ => f64::from(entry.claims.order),
         };
@@ -57,7 +57,7 @@ fn a_physical_pendulum_passes_its_lowest_point_when_the_elliptic_integral_says()
     }
 }
 
-/// Accelerations of two bodies, the second hanging on the first, by turns and spins since the start (d'Alembert).
+/// Angular accelerations of a double pendulum as functions of the rotations and spins (d'Alembert).
 fn of_double_pendulum(state: [f64; 4]) -> [f64; 4] {
     let [turn, other, spin, other_spin] = state;
     let (one, two) = ((1.0, 0.1), (2.0, 0.2));
@@ -155,7 +155,7 @@ fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
             let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
             scene.add_spring(spring).unwrap();
             let simulation = simulate(scene, entry.method, dt, 2.5);
-            // The ground's angle less that of the body wants to be 0.3.
+            // The spring is unstrained if the angle of the ground minus that of the body is 0.3.
             let expected = -0.3 * (1.0 - (frequency * 2.5).cos());
             (angle(&simulation, body) - expected).abs()
         });
@@ -185,7 +185,7 @@ fn a_rod_let_go_gives_its_hinge_a_quarter_of_its_weight() {
     assert!((tip - at(0.0, -1.5 * GRAVITY)).norm() < 1e-12, "{tip}");
 }
 
-/// Two windows of rigid rods of 1 m and 1 kg (IFToMM's benchmark A02, "N four-bars"), upright, their tips at 1 m/s.
+/// Two four-bar linkages of rigid rods of 1 m and 1 kg (IFToMM benchmark A02, "N four-bars"), upright, with a tip velocity of 1 m/s.
 fn windows() -> Scene {
     let mut scene = Scene::new("two four-bars");
     let rod = |scene: &mut Scene, place: Vec2, along: Vec2, motion: StartMotion| {
@@ -219,7 +219,7 @@ fn windows() -> Scene {
 fn two_four_bars_in_a_row_are_where_the_benchmark_has_them() {
     let known =
         [(1.0, -0.195_020_30), (2.0, 0.057_815_80), (5.0, -0.811_310_46), (10.0, 0.328_458_11)];
-    // They pass through positions in which all rods lie in one line.
+    // The motion passes through singular positions in which all rods are collinear.
     for (method, dt, tolerance) in
         [(Method::FourthOrder, 0.01, 1e-7), (Method::EnergyMomentum, 0.005, 5e-4)]
     {
@@ -237,7 +237,7 @@ fn two_four_bars_in_a_row_are_where_the_benchmark_has_them() {
     }
 }
 
-/// A wheel that is turned by `0.3 t²`, and a body that hangs on its rim on a hinge with a torsion spring.
+/// Wheel with the prescribed angle `0.3 t²`, and a body hinged to its rim with a torsion spring.
 fn driven_wheel() -> Scene {
     let mut scene = Scene::new("driven wheel");
     let wheel = add_body(&mut scene, at(0.0, 0.0), 0.0, (2.0, 0.3), &[at(0.5, 0.0)]);
@@ -268,7 +268,7 @@ fn a_wheel_that_is_turned_carries_its_rim_and_what_hangs_there() {
         let place = simulation.place(&point(0, 1)).unwrap();
         let now = simulation.instant().unwrap();
         let acceleration = simulation.model().acceleration(&now, &place);
-        // `α J r - ω² r`, with ω = 0.6 t and α = 0.6, which the drive finds from differences of its function.
+        // `α J r - ω² r` with ω = 0.6 t and α = 0.6. The drive obtains both from differences of its function.
         let expected = across * 0.6 - along * 1.44;
         assert!((acceleration - expected).norm() < 1e-6, "{}: {acceleration}", entry.name);
         if entry.claims.energy == EnergyClaim::Conserved {
@@ -306,7 +306,7 @@ fn the_band_of_a_chain_does_not_grow_with_its_length_nor_the_work_of_a_body() {
     assert_eq!(work(200), ten);
 }
 
-/// A polygon of one's own is carried along by the body, whatever its points, and is in its file.
+/// A user-defined outline moves with the body and is stored in the file.
 #[test]
 fn an_outline_turns_with_its_body() {
     let mut scene = body_scenes::pendulum(0.2, 0.6, 0.8);

@@ -1,4 +1,4 @@
-//! Steps backwards in time, and steps made of parts.
+//! Backward steps, and steps composed of substeps.
 #![allow(clippy::unwrap_used)]
 
 use std::rc::Rc;
@@ -15,7 +15,7 @@ fn mesh() -> Mesh {
     Mesh::bspline(6, 3, 2).unwrap()
 }
 
-/// A scene with its integrator, after some steps of 0.05.
+/// Model and integrator after some steps of 0.05.
 fn under_way(scene: &Scene, method: Method, steps: u32) -> (System, Box<dyn Integrator>) {
     let mut model = System::assemble(scene).unwrap();
     let mut integrator = method.build(&mut model, Tolerance::default());
@@ -26,7 +26,7 @@ fn under_way(scene: &Scene, method: Method, steps: u32) -> (System, Box<dyn Inte
     (model, integrator)
 }
 
-/// Energies, sums and momenta.
+/// Energies, work, momenta and impulses.
 fn numbers(measures: &Measures) -> [f64; 9] {
     [
         measures.energy.kinetic,
@@ -68,7 +68,7 @@ fn a_step_back_in_time_undoes_the_step() {
 
 #[test]
 fn magnitudes_are_summed_up_as_without_parts() {
-    // A steady force: what it gives is known, and parts that go back must not count twice.
+    // The impulse of a constant force is known. Backward substeps must not be counted twice.
     let mut scene = scenes::free_beam(&mesh(), scenes::spaghetti_section(1e4, 100.0));
     scene.gravity = crate::common::at(0.0, -9.81);
     let (mut model, _) = under_way(&scene, Method::FourthOrder, 4);
@@ -78,7 +78,7 @@ fn magnitudes_are_summed_up_as_without_parts() {
     assert!((measures.impulse.norm() / expected - 1.0).abs() < 1e-13, "{measures:?}");
 }
 
-/// The towed scene, with a moment that is not a number in a window of time.
+/// Towed beam with a moment that is NaN in a time interval.
 fn gap_in_a_load(from: f64, to: f64) -> Scene {
     let mut scene = scenes::towed(&mesh());
     let station = scenes::end_of(&mut scene, 0);
@@ -90,7 +90,7 @@ fn gap_in_a_load(from: f64, to: f64) -> Scene {
 
 #[test]
 fn a_part_that_fails_fails_the_step_and_leaves_the_mechanism_at_its_start() {
-    // In the step from 0.25 to 0.3 the first part asks at 0.2509, the third at 0.2701 and the last one at 0.2991.
+    // Of the step from 0.25 to 0.3, the first substep evaluates the load at 0.2509, the third one at 0.2701 and the last one at 0.2991.
     for (from, to) in [(0.2502, 0.2535), (0.2695, 0.2707), (0.2985, 0.3)] {
         let (mut model, mut integrator) =
             under_way(&gap_in_a_load(from, to), Method::FourthOrder, 5);
@@ -105,7 +105,7 @@ fn a_part_that_fails_fails_the_step_and_leaves_the_mechanism_at_its_start() {
 
 #[test]
 fn iterations_of_parts_that_went_well_are_counted_where_a_later_one_fails() {
-    // The load sets in after the first part.
+    // The load starts after the first substep.
     let mut scene = scenes::free_beam(&mesh(), scenes::spaghetti_section(1e4, 100.0));
     scene.beams[0].motion.spin = 1.0;
     let station = scenes::end_of(&mut scene, 0);
@@ -123,7 +123,7 @@ fn iterations_of_parts_that_went_well_are_counted_where_a_later_one_fails() {
     assert_eq!(model.state(), before);
 }
 
-/// A slender cantilever, and what pushes its end across.
+/// Slender cantilever with an optional transverse tip load.
 fn cantilever(load: Option<Schedule>) -> Scene {
     let section = Section { rotary_inertia: 1e-4, ..scenes::spaghetti_section(1e6, 100.0) };
     let mut scene = scenes::cantilever(&mesh(), section);
@@ -136,8 +136,8 @@ fn cantilever(load: Option<Schedule>) -> Scene {
 
 #[test]
 fn slow_loads_do_not_shake_up_a_cantilever_much_faster_than_a_step() {
-    // What the lowest vibration turns by in a step is 2π or 4π and by 0.3 more or less, as much as the load: the parts of this
-    // method, then those of Suzuki (1990), under which the energy grows 25-fold.
+    // The phase angle of the lowest mode per step is 2π or 4π plus or minus the phase angle of the load, 0.3. The first frequencies are for the substeps of
+    // this method, the last ones for those of Suzuki (1990), for which the energy grows 25-fold.
     let model = System::assemble(&cantilever(None)).unwrap();
     let modes = Modes::of(&model, 1, &mut || true).unwrap();
     let lowest = modes.all()[0].angular_frequency();

@@ -1,4 +1,4 @@
-//! One checker for every mesh, joint, mass and load: forces, their derivatives, energies and inertia fit together.
+//! Consistency of forces, their derivatives, energies and inertia for every mesh, joint, mass and load.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::probe::{self, STEP, advance, condensed, differences, settle, tangent};
@@ -15,7 +15,7 @@ use withy::system::{
 
 const STAGES: [Stage; 3] = [Stage::Midpoint, Stage::DampedMidpoint(0.6), Stage::End];
 
-/// Every scene on every mesh, each at a random state of its own with random increments to go on by.
+/// Checks every scene on every mesh, each at a random state with random increments.
 fn for_all(mut check: impl FnMut(&str, &Scene, &mut System, &[f64])) {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
@@ -174,7 +174,7 @@ fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
     });
 }
 
-/// The work of the forces of a stage, and those forces.
+/// Work of the forces of a stage, and these forces.
 fn work(model: &mut System, stage: Stage, increments: &[f64]) -> (f64, Vec<f64>) {
     settle(model, stage, increments);
     let mut forces = vec![0.0; model.degrees_of_freedom()];
@@ -188,7 +188,7 @@ fn damped_forces_do_more_work_by_half_of_chi_times_the_square_of_the_change_of_s
     for_all(|name, _, model, increments| {
         let mut of = |stage| work(model, stage, increments).0;
         let damped = Stage::DampedMidpoint;
-        // With the strain of the end alone and with that of the start alone: the difference is ∫ ΔΓ·C ΔΓ + EI Δκ².
+        // The difference between the strain at the end alone and the strain at the start alone is ∫ ΔΓ·C ΔΓ + EI Δκ².
         let square = of(damped(1.0)) - of(damped(-1.0));
         assert!(square > 0.0, "{name}");
         for chi in [0.0, 0.1, 0.7, 3.0] {
@@ -218,7 +218,7 @@ fn a_damped_stretch_of_a_rod_loses_the_energy_of_the_formula() {
     };
     let once = stretch(&mut model, 0.02);
     advance(&mut model, Stage::Midpoint, &once);
-    // From a strain of 0.02 by another 0.03, in lengths of the rod as it is now.
+    // Increases the strain from 0.02 by 0.03. The increment refers to the current length of the rod.
     let again = stretch(&mut model, 0.03 / 1.02);
     model.begin_step(STEP, &Stage::ALL).unwrap();
     let (damped, _) = work(&mut model, Stage::DampedMidpoint(chi), &again);

@@ -1,4 +1,4 @@
-//! Sweeps and random scenes of obstacles with friction and sliders that only push: balances at rounding, and bounds of the number of runs that fail.
+//! Sweeps and random scenes of obstacles with friction and unilateral sliders: balances at rounding, and bounds of the number of failed runs.
 #![allow(clippy::unwrap_used)]
 
 use super::obstacles::{disc, wall};
@@ -49,7 +49,7 @@ impl Tally {
     }
 }
 
-/// Body with a mass of 1 above a floor, which it touches with a circle about a point.
+/// Body of mass 1 above a floor. Its contact surface is a circle about a point.
 fn wheel(radius: f64, inertia: f64, offset: Vec2, floor: Obstacle) -> Scene {
     let mut scene = Scene::new("wheel");
     scene.gravity = at(0.1, -1.0);
@@ -100,14 +100,14 @@ fn wheels_with_friction_run_at_any_stiffness_and_step() {
     assert!(tally.failures == 0 && tally.drift < 1e-9, "{tally:?}");
 }
 
-/// At a point beside the centre, the friction force changes the normal velocity. The runs that fail have a ratio of both above 1 (Painlevé).
+/// At a contact point off the centre, the friction force changes the normal velocity. The runs that fail have a ratio of both above 1 (Painlevé).
 #[test]
 fn bodies_with_friction_at_points_beside_their_centres_run_with_few_failures() {
     let tally = wheels(at(0.2, -0.1));
     assert!(100 * tally.failures <= tally.runs && tally.drift < 1e-8, "{tally:?}");
 }
 
-/// Draw of random numbers, with a turned or mirrored frame in which the scene is built.
+/// Draw of random numbers, with a rotated or mirrored frame of the scene.
 struct Draw {
     random: Random,
     angle: f64,
@@ -116,7 +116,7 @@ struct Draw {
 }
 
 impl Draw {
-    /// Draws of the same numbers for a scene and for turned and mirrored copies of it.
+    /// Draws of the same numbers for a scene and for its rotated and mirrored copies.
     fn copies(seed: u64) -> [Self; 3] {
         [(0.0, 1.0), (0.7, 1.0), (-2.1, -1.0)].map(|(angle, mirror)| Self {
             random: Random(seed),
@@ -129,7 +129,7 @@ impl Draw {
         low + (high - low) * 0.5 * (self.random.next() + 1.0)
     }
 
-    /// Number between powers of ten.
+    /// Random number between powers of ten, with logarithmic distribution.
     fn power(&mut self, low: f64, high: f64) -> f64 {
         10.0_f64.powf(self.between(low, high))
     }
@@ -153,7 +153,7 @@ fn flexible(draw: &mut Draw) -> Section {
     }
 }
 
-/// Flexible beam and a rigid body that move against a floor and a peg with friction. Distances scale with the step, so they meet within few steps.
+/// Flexible beam and a rigid body that move against a floor and a peg with friction. Distances scale with the step, so contact starts within a few steps.
 fn obstacles(draw: &mut Draw, dt: f64) -> Scene {
     let mut scene = Scene::new("obstacles");
     let speed = draw.between(0.5, 3.0);
@@ -197,7 +197,7 @@ fn obstacles(draw: &mut Draw, dt: f64) -> Scene {
     scene
 }
 
-/// Particles that fall on a hinged flexible beam, on one side of which they slide.
+/// Particles that fall on a hinged flexible beam, with unilateral sliders on one of its sides.
 fn unilateral_sliders(draw: &mut Draw) -> Scene {
     let mut scene = Scene::new("unilateral sliders");
     let section = flexible(draw);
@@ -240,7 +240,7 @@ fn random_scenes_with_frictional_obstacles_are_balanced() {
     assert!(100 * tally.failures <= tally.runs && tally.drift < 1e-8, "{tally:?}");
 }
 
-/// Two sliders on one beam could take off and land in turn without end.
+/// Two sliders on one beam must not take off and land alternately without end.
 #[test]
 fn random_scenes_with_unilateral_sliders_are_balanced() {
     let mut tally = Tally::default();

@@ -24,7 +24,7 @@ pub fn touching(targets: &[ContactTarget], stiffness: f64, radius: f64) -> PairC
     }
 }
 
-/// Particles of mass 1 on a line, which touch each other, with their start velocities.
+/// Particles of mass 1 in mutual contact, with start velocities.
 fn particles(places: &[(Vec2, Vec2)], stiffness: f64, radius: f64) -> Scene {
     let mut scene = Scene::new("particles");
     let targets: Vec<_> = places
@@ -41,7 +41,7 @@ fn particles(places: &[(Vec2, Vec2)], stiffness: f64, radius: f64) -> Scene {
     scene
 }
 
-/// Velocities at the end, from the displacements of the last step.
+/// Mean velocities over ten steps after `end`, from displacements.
 fn end_velocities(scene: Scene, dt: f64, end: f64) -> Vec<Vec2> {
     let mut simulation = simulate(scene, Method::EnergyMomentum, StepSize::Fixed(dt), end);
     let places = |simulation: &withy::simulation::Simulation| -> Vec<Vec2> {
@@ -54,7 +54,7 @@ fn end_velocities(scene: Scene, dt: f64, end: f64) -> Vec<Vec2> {
     after.iter().zip(before).map(|(after, before)| (after - before) / (10.0 * dt)).collect()
 }
 
-/// Newton's cradle of five masses with equal linear springs `k = 1e4`, hit at speed 1 (integrated with DOP853 at 1e-13).
+/// Newton's cradle of five masses with equal linear springs `k = 1e4`, struck at speed 1 (reference: integrated with DOP853 at 1e-13).
 #[test]
 fn a_cradle_of_discs_has_the_velocities_of_linear_springs() {
     let exact = [-0.132_279, -0.075_329, -0.031_011, 0.296_218, 0.942_402];
@@ -80,7 +80,7 @@ fn a_cradle_of_discs_has_the_velocities_of_linear_springs() {
 fn an_oblique_impact_of_discs_is_that_of_smooth_discs() {
     let (radius, offset) = (0.5, 0.6);
     let start = [(at(-1.0, offset), at(1.0, 0.0)), (at(0.0, 0.0), at(0.0, 0.0))];
-    // The line of centres at first touch; the penetration turns it slightly.
+    // The line of centres at first touch; the penetration rotates it slightly.
     let normal = at(-(1.0 - offset * offset).sqrt(), offset);
     let along = normal * normal.dot(&at(1.0, 0.0));
     let errors = [1e4, 1e6].map(|stiffness: f64| {
@@ -109,7 +109,7 @@ fn moving(scene: &mut Scene, axis: Curve, spans: usize, velocity: Vec2) -> usize
     beam
 }
 
-/// Ring whose ends are joined rigidly.
+/// Ring of a beam with rigidly joined ends.
 fn ring(scene: &mut Scene, centre: Vec2, velocity: Vec2) -> usize {
     let turn = 2.0 * std::f64::consts::PI;
     let beam = moving(scene, Curve::arc(centre, 0.5, 0.0, turn).unwrap(), 16, velocity);
@@ -118,7 +118,7 @@ fn ring(scene: &mut Scene, centre: Vec2, velocity: Vec2) -> usize {
     beam
 }
 
-/// Two rings meet off centre, a rod hits another rod with its tip, and a particle falls on a rod.
+/// Collisions of two rings off centre, of a rod with the tip of another rod, and of a particle with a rod.
 fn collisions(stiffness: f64, restitution: f64) -> [Scene; 3] {
     let mut rings = Scene::new("rings");
     let first = ring(&mut rings, at(0.0, 0.0), at(1.0, 0.0));
@@ -159,7 +159,7 @@ fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
                     let case = format!("{name}, {}, {stiffness:e}, {dt:?}", entry.name);
                     let drift = |invariant| simulation.history().drift(invariant);
                     let force = column(&simulation, "contact.force");
-                    // The recorded force of the fourth-order method is that of the last part of a step.
+                    // The recorded force of the fourth-order method is that of the last substep.
                     let is_touched = force.iter().any(|force| *force > 0.1);
                     assert!(
                         is_touched || entry.method == Method::FourthOrder,
@@ -176,7 +176,6 @@ fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
     }
 }
 
-/// The number of iterations does not increase with the stiffness.
 #[test]
 fn iterations_do_not_depend_on_the_stiffness() {
     for stiffness in [1e2, 1e5, 1e8] {
@@ -191,7 +190,7 @@ fn iterations_do_not_depend_on_the_stiffness() {
     }
 }
 
-/// A ring is pressed together until opposite sides touch. Neighbouring points of the bent axis do not count as contact.
+/// A ring is compressed until opposite sides touch. Neighbouring points of the bent axis do not count as contact.
 #[test]
 fn a_ring_that_is_pressed_together_touches_itself() {
     let mut scene = Scene::new("pressed ring");
@@ -214,7 +213,7 @@ fn a_ring_that_is_pressed_together_touches_itself() {
     }
 }
 
-/// A fast bullet does not jump through a thin beam, at any step size.
+/// A fast particle does not pass through a thin beam, at any step size.
 #[test]
 fn a_step_does_not_jump_through_a_beam() {
     for dt in [0.01, 0.05, 0.2] {
@@ -240,7 +239,7 @@ fn a_step_does_not_jump_through_a_beam() {
 /// Order of the bodies, and map of their positions and velocities.
 type Copy<'a> = (&'a [usize], &'a dyn Fn(Vec2) -> Vec2);
 
-/// Turned and mirrored copies move alike, as does a copy with the bodies in another order.
+/// Rotated and mirrored copies have the same motion, as does a copy with the bodies in another order.
 #[test]
 fn turned_mirrored_and_reordered_copies_agree() {
     let mut random = Random(77);
@@ -286,7 +285,7 @@ fn turned_mirrored_and_reordered_copies_agree() {
     }
 }
 
-/// Discs fall on each other and come to rest as far as the loss allows. The balances hold over many openings and closings.
+/// Discs fall on each other and lose energy in impacts. The balances hold over many openings and closings of contacts.
 #[test]
 fn a_heap_of_discs_keeps_its_balances() {
     let mut scene = Scene::new("heap");

@@ -1,4 +1,4 @@
-//! Large beams are worked on by several threads at once, with the bits of one.
+//! Large beams are divided between several threads, with the same bits as on one thread.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::sliding_scenes::abacus;
@@ -11,7 +11,7 @@ use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{NoMonitor, Simulation};
 use withy::system::{Scene, System, SystemState};
 
-/// Takes two steps with up to so many threads; the state at their end, and the iterations.
+/// Takes two steps with at most this number of threads. Returns the final state and the number of iterations.
 fn state(scene: &Scene, method: Method, threads: usize) -> (SystemState, usize) {
     let mut simulation = Simulation::start(scene.clone(), settings(method, 0.01)).unwrap();
     simulation.use_threads(threads);
@@ -21,7 +21,7 @@ fn state(scene: &Scene, method: Method, threads: usize) -> (SystemState, usize) 
     (simulation.model().state(), simulation.counts().newton_iterations)
 }
 
-/// How many threads work on a scene at most.
+/// Number of threads that a scene uses, at most `allowed`.
 fn threads(scene: &Scene, allowed: usize) -> usize {
     System::assemble(scene).unwrap().divide(allowed)
 }
@@ -49,7 +49,7 @@ fn any_number_of_threads_comes_to_the_same_bits() {
     }
 }
 
-/// A hundred beams of forty spans side by side or one behind the other, of which the last is pushed; hinges where one begins as another ends.
+/// A hundred beams of forty spans, in parallel or in series. The last beam is loaded. Hinges connect the ends of beams to the starts of others.
 fn hundred(step: Vec2) -> Scene {
     let mut scene = Scene::new("a hundred beams");
     let mesh = Mesh::bspline(40, 3, 2).unwrap();
@@ -93,6 +93,6 @@ fn small_beams_and_closed_ones_are_left_to_one_thread() {
     let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
     assert_eq!(threads(&scenes::spaghetti(&mesh(14), 1e4), 8), 1);
     assert_eq!(threads(&scenes::spaghetti(&mesh(7999), 1e4), 8), 1);
-    // The numbers of a ring go to and fro.
+    // The numbering of a closed beam alternates between both branches.
     assert_eq!(threads(&scenes::hoop(&mesh(9000)), 8), 1);
 }

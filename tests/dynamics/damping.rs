@@ -1,4 +1,4 @@
-//! Kelvin–Voigt damping against closed forms, at any relaxation time, with every integrator.
+//! Kelvin–Voigt damping compared with closed forms, at any relaxation time, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ fn alike(time: f64) -> Relaxation {
     Relaxation { axial: time, shear: time, bending: time }
 }
 
-/// A slender beam along x, of a material with one relaxation time.
+/// Slender beam along x of a material with a single relaxation time.
 fn slender(time: f64) -> Scene {
     let mut scene = Scene::new("slender");
     let section = Section {
@@ -43,12 +43,12 @@ fn push(scene: &mut Scene, along: f64, down: f64, until: f64) {
     scene.add_load(force, Schedule::hold_for(until).unwrap());
 }
 
-/// `ω` of a mode of a slender beam whose eigenvalue is `β L`.
+/// `ω` of a mode of a slender beam with the eigenvalue `β L`.
 fn frequency(beta: f64) -> f64 {
     beta * beta * (BENDING / 0.5_f64).sqrt() / (LENGTH * LENGTH)
 }
 
-/// The height of a place over that of others, after each step of a motion that begins at `from`, until `end`.
+/// Values of `height` at the control points after each step between two times.
 fn heights(scene: Scene, dt: f64, (from, end): (f64, f64), height: fn(&[Vec2]) -> f64) -> Vec<f64> {
     let mut simulation = simulate(scene, Method::EnergyMomentum, dt, from);
     let mut heights = Vec::new();
@@ -60,7 +60,7 @@ fn heights(scene: Scene, dt: f64, (from, end): (f64, f64), height: fn(&[Vec2]) -
     heights
 }
 
-/// The vertices of parabolas through the maxima.
+/// Local maxima, interpolated with parabolas.
 fn peaks(values: &[f64]) -> Vec<f64> {
     let vertex = |around: &[f64]| {
         let (slope, bend) =
@@ -91,7 +91,7 @@ fn a_cantilever_loses_in_each_swing_what_its_relaxation_time_says() {
     let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let told: Vec<f64> = modes.damping_ratios().collect();
     assert!((told[0] / ratio - 1.0).abs() < 1e-4, "{told:?}");
-    // The material damps what is six times as fast six times as much.
+    // The damping ratio is proportional to the frequency.
     assert!((told[1] / told[0] - 6.2669).abs() < 2e-3, "{told:?}");
     let tip = |points: &[Vec2]| points[points.len() - 1].y;
     let heights = heights(scene, period / 300.0, (3.0 * period, 9.0 * period), tip);
@@ -115,7 +115,7 @@ fn a_free_beam_vibrates_out_and_flies_on() {
     assert_decrement("free beam", &heights, ratio);
 }
 
-/// A bent beam that turns as it flies, bent further by a load that grows smoothly.
+/// Free rotating bent beam, loaded by a smoothly increasing force.
 fn tumbling(relaxation: Relaxation) -> Scene {
     let mut scene = Scene::new("tumbling");
     let axis = withy::geometry::Curve::arc(at(0.0, 0.0), 1.5, 0.2, 1.9).unwrap();
@@ -227,7 +227,7 @@ fn the_present_moment_knows_the_forces_of_rates() {
     }
 }
 
-/// What a damped section transmits is what its strains and their rates ask for: it balances the clamp, which knows of neither.
+/// The section moment follows from strains and strain rates, and is in equilibrium with the reaction of the clamp.
 #[test]
 fn sections_transmit_what_is_viscous_too() {
     let omega = frequency(1.875_104_068_711_961);
@@ -264,7 +264,7 @@ fn a_beam_that_turns_as_a_whole_has_no_viscous_forces() {
     scene.beams[0].motion = StartMotion { velocity: at(3.0, 1.0), spin: 2.0, centre: None };
     let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.0);
     for sample in simulation.section_forces_along(0).unwrap() {
-        // EA γ of a rate of rounding: 1e6 · 0.1 · 1e-16 · some.
+        // EA γ for a strain rate at rounding: 1e6 · 0.1 · 1e-16, times a small factor.
         let forces = sample.forces;
         let largest = forces.axial.abs().max(forces.shear.abs()).max(forces.moment.abs());
         assert!(largest < 1e-8, "{forces:?}");

@@ -1,4 +1,4 @@
-//! Dampers whose force is a law of the rate: a closed form with every integrator, and a ledger that closes.
+//! Dampers with nonlinear force laws: a closed form with every integrator, and the energy balance.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::absorber;
@@ -26,7 +26,7 @@ fn damped(law: DampingLaw, speed: f64) -> Scene {
     scene
 }
 
-/// `c |q̇| q̇` as a polygon of so many corners: off by `c h²/4` between them.
+/// `c |q̇| q̇` as a piecewise linear law with steps `h`, with an error of `c h²/4`.
 fn fluid() -> DampingLaw {
     let corners = (-4000..=4000).map(|at| f64::from(at) * 1e-3);
     absorber(&corners.map(|rate| (rate, DRAG * rate.abs() * rate)).collect::<Vec<_>>())
@@ -83,7 +83,7 @@ fn what_a_law_takes_is_in_the_ledger_and_never_grows_less() {
     }
 }
 
-/// Dry friction as a steep line stops a bead when its energy is spent, whatever the step.
+/// Dry friction as a steep linear law stops a bead when its kinetic energy is dissipated, at any step size.
 #[test]
 fn a_saturated_damper_brakes_with_its_force() {
     let law = absorber(&[(-1.0, -3.0), (-1e-6, -3.0), (1e-6, 3.0), (1.0, 3.0)]);
@@ -95,8 +95,8 @@ fn a_saturated_damper_brakes_with_its_force() {
     }
 }
 
-/// A mass on a spring with dry friction, a line as steep as one likes: each half swing is shorter by `2 F/k`, until friction holds it. From 1 it comes to rest at
-/// 0.05, after seven of them.
+/// Mass on a spring with dry friction as a steep linear law. The amplitude decreases by `2 F/k` per half period until the friction force holds the mass. From
+/// 1 it comes to rest at 0.05, after seven half periods.
 #[test]
 fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
     let (force, stiffness) = (0.3, 4.0);
@@ -140,7 +140,7 @@ fn a_law_that_feeds_is_refused() {
     let told = "at the rate -1 its damping force is 1 and adds energy";
     let is_told = |error: &SystemError| error.to_string().contains(told);
     assert!(refused.as_ref().is_err_and(is_told), "{refused:?}");
-    // Nobody gave this rate: the law goes on straight beyond what was given.
+    // The law is extrapolated linearly beyond its last rate.
     spring.damping = absorber(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);
     let refused = scene.add_spring(spring.clone()).unwrap_err().to_string();
     assert!(

@@ -1,4 +1,4 @@
-//! Drag against closed forms, with every integrator.
+//! Drag compared with closed forms, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, orders, scenes, simulate};
@@ -12,7 +12,7 @@ use withy::system::{
 
 const GRAVITY: f64 = 9.81;
 
-/// A stone of mass 0.5 that begins to fall.
+/// Particle of mass 0.5 that starts to fall.
 fn stone(law: SpeedLaw, wind: Vec2) -> Scene {
     let mut scene = Scene::new("stone");
     let stone = ParticleDefinition { name: "stone".to_owned(), position: at(2.0, 5.0) };
@@ -38,7 +38,7 @@ fn assert_orders(
         let errors = [0.02, 0.01, 0.005].map(of);
         let found = orders(&errors);
         println!("{}: {} {found:?}", entry.name, crate::common::sci(&errors));
-        // Nothing is strained, so that there is nothing for late strains to damp.
+        // The strains are zero, so the numerical damping of strains has no effect.
         let expected = match entry.claims.energy {
             EnergyClaim::NonIncreasing => 2.0,
             _ => f64::from(entry.claims.order),
@@ -75,7 +75,7 @@ fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
     scene.gravity = Vec2::zeros();
     let simulation = simulate(scene, Method::EnergyMomentum, 0.05, 40.0);
     let last = simulation.history().samples().last().unwrap().measures;
-    // At last it moves with the wind: p = m w, W = ∫ F·w dt = m w², and half of it is lost.
+    // The final velocity is that of the wind: p = m w, W = ∫ F·w dt = m w², and half of the work is dissipated.
     assert!((last.momentum - wind * 0.5).norm() < 1e-6, "{}", last.momentum);
     assert!((last.work - 0.5 * 16.0).abs() < 1e-5, "{}", last.work);
     assert!((last.dissipated - 0.25 * 16.0).abs() < 1e-5, "{}", last.dissipated);
@@ -85,7 +85,7 @@ fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
     }
 }
 
-/// Drag from nothing to as good as a rigid medium, with a wind or without: no step fails, nothing drifts, and the rule that the step is says where the stone is.
+/// Drag coefficients from nearly zero to nearly rigid, with and without wind: no step fails, invariants hold, and the position is that of the midpoint rule.
 #[test]
 fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
     let (mass, dt, steps) = (0.5, 0.01, 100);
@@ -105,7 +105,7 @@ fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
                 let drift = history.drift(invariant);
                 assert!(drift < 1e-13, "{name}, {label}: {drift:.1e}");
             }
-            // m (v1 - v0)/Δt = -c (½ (v0 + v1) - w), so v - w falls by one factor a step.
+            // m (v1 - v0)/Δt = -c (½ (v0 + v1) - w), so v - w is multiplied by a constant factor in each step.
             let twice = 2.0 * mass / dt;
             let factor = (twice - linear) / (twice + linear);
             let all: f64 = (0..steps).map(|step| factor.powi(step)).sum();
@@ -117,7 +117,7 @@ fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
     }
 }
 
-/// What is lost is that of the law at its force: as a difference of two large turnovers it would carry their rounding, with either sign.
+/// The dissipated energy follows from the drag law itself. The difference of two large energies would have a rounding error of either sign.
 #[test]
 fn what_a_strong_medium_takes_from_a_grain_in_the_wind_never_falls() {
     let mut scene = Scene::new("grain");
@@ -137,7 +137,7 @@ fn what_a_strong_medium_takes_from_a_grain_in_the_wind_never_falls() {
     assert!(simulation.history().drift(Invariant::Energy) < 1e-13);
 }
 
-/// A stiff rod along x that is let go with its ends in a direction.
+/// Stiff falling rod, initially along x, with a start velocity of its ends.
 fn falling(direction: Vec2) -> Scene {
     let mut scene = Scene::new("falling rod");
     let section = Section {
@@ -166,13 +166,13 @@ fn a_rod_falls_faster_lengthwise_than_sideways() {
         let exact = -limit * (end - time * (1.0 - (-end / time).exp()));
         assert_orders(&|| falling(direction), end, &|s| place(s).y, exact);
     }
-    // One that lies aslant glides to the side on which it is low.
+    // An inclined rod glides towards its lower end.
     let aslant = simulate(falling(at(0.8, 0.6)), Method::EnergyMomentum, 0.02, 2.0);
     assert!(place(&aslant).x < -0.5, "{}", place(&aslant));
     assert!(aslant.history().drift(Invariant::Energy) < 1e-13);
 }
 
-/// A bent beam that tumbles through air, in a wind.
+/// Free rotating bent beam with drag, in wind.
 fn tumbling(quadratic: f64) -> Scene {
     let mut scene = Scene::new("tumbling");
     let axis = Curve::arc(at(0.0, 0.0), 1.5, 0.2, 1.9).unwrap();
@@ -219,13 +219,13 @@ fn a_beam_that_tumbles_through_air_is_met_with_the_order_of_the_method() {
     let end = 0.5;
     let tip = |s: &Simulation| crate::common::ends(s)[1];
     let exact = tip(&simulate(tumbling(0.0), Method::FourthOrder, 2.5e-4, end));
-    // The start shakes vibrations up that only steps far shorter resolve to fourth order: the stones show that.
+    // The start excites vibrations that only much shorter steps resolve with fourth order. The tests with particles show fourth order.
     for entry in INTEGRATORS.iter().filter(|entry| entry.claims.order < 4) {
         let errors = [0.01, 0.005, 0.0025]
             .map(|dt| (tip(&simulate(tumbling(0.0), entry.method, dt, end)) - exact).norm());
         let found = orders(&errors);
         println!("{}: {} {found:?}", entry.name, crate::common::sci(&errors));
-        // With k |v| v, which has a corner in its slope where a component passes zero, orders are uneven.
+        // The derivative of k |v| v has a kink at zero, so the observed orders would be irregular with quadratic drag.
         let expected = f64::from(entry.claims.order);
         assert!(found[1] > expected - 0.3, "{}: {errors:?} {found:?}", entry.name);
     }

@@ -1,4 +1,4 @@
-//! Motions that are given: closed forms with every integrator, places and angles that are exact, and what drives give.
+//! Prescribed motions: closed forms with every integrator, exact positions and angles, and reactions of drives.
 #![allow(clippy::unwrap_used)]
 
 use std::cell::Cell;
@@ -35,7 +35,7 @@ fn section(axial: f64) -> Section {
 const AMPLITUDE: f64 = 0.02;
 const SHAKEN: f64 = 3.1;
 
-/// A bar of one linear element, shaken along its axis at its start: its free end has a mass matrix in common with the start.
+/// Bar of one linear element with an axial base excitation. The mass matrix couples its free end with its start.
 fn bar() -> Scene {
     let mut scene = Scene::new("bar");
     let mesh = Mesh::lagrange(1, 1).unwrap();
@@ -77,13 +77,13 @@ fn base_excitation_has_amplitude_and_phase_with_the_order_of_the_method() {
         let (found, expected) = (orders(&errors), f64::from(entry.claims.order));
         println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
         let last = *found.last().unwrap();
-        // What is of first order comes to it late.
+        // First-order methods reach their asymptotic order at smaller steps.
         let near = if entry.claims.order == 1 { 0.4 } else { 0.25 };
         assert!((last - expected).abs() < near, "{}: {} {found:.2?}", entry.name, sci(&errors));
     }
 }
 
-/// A particle that is moved draws another one on a spring.
+/// Particle with a prescribed motion that pulls another particle on a spring.
 fn towing(motion: PrescribedMotion) -> Scene {
     let mut scene = Scene::new("towing");
     let bead =
@@ -104,7 +104,7 @@ fn after_many_steps_a_place_is_its_function_to_rounding() {
     assert!((found - expected).abs() < 4.0 * f64::EPSILON * expected, "{}", found - expected);
 }
 
-/// A beam that is turned about its start by an angle or a rate, from the rate `spin` on.
+/// Beam with a prescribed rotation or angular velocity at its start, with the initial angular velocity `spin`.
 fn turned(
     mesh: &Mesh,
     section: Section,
@@ -123,7 +123,7 @@ fn turned(
     scene
 }
 
-/// The angle of the beam at an arc length.
+/// Section angle at an arc length.
 fn angle(simulation: &Simulation, arc_length: f64) -> f64 {
     let station = Station::on_beam(0, arc_length);
     simulation.model().angle(simulation.scene(), &station).unwrap()
@@ -142,7 +142,7 @@ fn a_given_rotation_is_not_late_with_any_method() {
         );
         let simulation = simulate(scene, entry.method, 0.02, 5.0);
         let (root, tip) = (angle(&simulation, 0.0), angle(&simulation, 1.0));
-        // A free body would be late by ω³Δt²t/12 = 0.0045 rad.
+        // A free body would lag by ω³Δt²t/12 = 0.0045 rad.
         assert!((root - 15.0).abs() < 1e-12, "{}: {root}", entry.name);
         assert!((tip - 15.0).abs() < 5e-3, "{}: {tip}", entry.name);
         if entry.claims.energy == EnergyClaim::Conserved {
@@ -151,7 +151,7 @@ fn a_given_rotation_is_not_late_with_any_method() {
     }
 }
 
-/// The angle of Simo and Vu-Quoc's spin-up (1986).
+/// Angle of the spin-up of Simo and Vu-Quoc (1986).
 fn spun_up(t: f64) -> f64 {
     let slow = 7.5 / std::f64::consts::PI;
     match t < 15.0 {
@@ -160,7 +160,7 @@ fn spun_up(t: f64) -> f64 {
     }
 }
 
-/// Benchmark B4: the steady stretch of the finite-strain bar, and the largest lag of the tip as converged runs have it.
+/// Benchmark B4: the steady stretch of the finite-strain bar, and the largest lag of the tip of converged runs.
 #[test]
 fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
     let section = Section {
@@ -191,7 +191,7 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
     assert!((lag + 0.363).abs() < 2e-3, "{lag}");
     crate::common::run(&mut simulation, 20.0).unwrap();
     assert!((angle(&simulation, 0.0) - 75.0).abs() < 1e-12);
-    // What is left rings a little.
+    // A small residual vibration is averaged.
     let mut stretch = 0.0;
     for step in 1..=200 {
         crate::common::run(&mut simulation, 20.0 + 0.05 * f64::from(step)).unwrap();
@@ -243,7 +243,7 @@ fn work_is_kept_by_name_and_adds_up() {
     assert!(last("wind.force") == 0.0 && last("move1.angle").abs() > 0.1);
 }
 
-/// What a motor is said to give works on the angle that it turns by: with a damper and an inertia that is `c ω + I α`, whatever the step.
+/// The moment of a motor is the mean `c ω + I α + k φ` of the step, and its work is the moment times the rotation, at any step size.
 #[test]
 fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
     let (inertia, damping, stiffness) = (0.2, 0.5, 0.3);
@@ -281,12 +281,12 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
     }
 }
 
-/// A body that is turned about a point of it that is off its centre by one.
+/// Rigid body with a prescribed rotation about a point at a distance of 1 from its centre.
 fn swung(motion: PrescribedMotion) -> Scene {
     swung_at(1.0, motion)
 }
 
-/// A body that is turned about a point of it that is so far off its centre.
+/// Rigid body with a prescribed rotation about a point at the distance `reach` from its centre.
 pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
     let mut scene = Scene::new("swung");
     let body = add_body(&mut scene, at(reach, 0.0), 0.0, (2.0, 0.5), &[at(-reach, 0.0)]);
@@ -295,7 +295,7 @@ pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
     scene
 }
 
-/// At once it has the energy of its new rate, of which the blow is the work, and no moment any more.
+/// A jump of the prescribed rate changes the energy at once. The impulsive work equals this change, and the moment is zero afterwards.
 #[test]
 fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
     let bent = || Schedule::table(vec![(0.0, 0.0), (0.5, 0.0), (1.5, 1.0)]).unwrap();
@@ -328,7 +328,7 @@ fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
     }
 }
 
-/// A controller that speaks before every step is a blow before every step.
+/// A controlled speed jumps before every step, with an impulse each time.
 #[test]
 fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
     let said = Rc::new(Cell::new(0.0));
@@ -341,7 +341,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
         let history = simulation.history();
         let kinetic = *history.column("kinetic").unwrap().last().unwrap();
         let expected = 1.25 * speed * speed;
-        // What a step turns by is right to second order.
+        // The rotation in a step is accurate to second order.
         assert!((kinetic - expected).abs() < 1e-3, "{step}: {kinetic} {expected}");
     }
     for (name, invariant) in Invariant::ALL {
@@ -350,7 +350,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
     }
 }
 
-/// The start of an equilibrium is that of a scene at rest: what a drive sets in motion at once moves as it does there.
+/// A start from an equilibrium with a moving drive equals a start from rest with this drive.
 #[test]
 fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     let scene = || {
@@ -370,7 +370,7 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
         }
     }
 
-    // One at a later time begins there: the drive leads on from where it is then.
+    // A start at a later time continues the drive from its value at this time.
     let later = Loading { time: 2.0, ..Loading::default() };
     let mut on = Simulation::start_at_rest(&rest(later), dynamics).unwrap();
     assert_eq!(on.time(), 2.0);

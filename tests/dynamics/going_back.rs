@@ -1,4 +1,4 @@
-//! Going back and on again gives, bit for bit, what going straight on gives.
+//! Runs that go back and continue are bit for bit equal to uninterrupted runs.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::HashMap;
@@ -18,7 +18,7 @@ use withy::system::{Scene, StartMotion};
 
 const PLENTY: usize = 1 << 28;
 
-/// Everything that a person could see of a simulation, all digits of it, but the time it took.
+/// Full-precision observable state of a simulation, without the elapsed time.
 fn fingerprint(simulation: &Simulation) -> String {
     let history = simulation.history();
     let columns: Vec<_> = history.columns().map(|(name, _)| history.column(name)).collect();
@@ -43,12 +43,12 @@ fn start(scene: &Scene, settings: SimulationSettings) -> Simulation {
     simulation
 }
 
-/// A straight run: what was seen after each step by their number, and at its end.
+/// Uninterrupted run: fingerprints by number of steps, and the fingerprint at the end.
 fn straight(mut simulation: Simulation, steps: usize) -> (HashMap<usize, String>, String) {
     let mut seen = HashMap::from([(0, fingerprint(&simulation))]);
     for _ in 0..steps {
         step(&mut simulation).unwrap();
-        // A run may end without a step.
+        // A run may end without a further step.
         seen.entry(steps_of(&simulation)).or_insert_with(|| fingerprint(&simulation));
         if simulation.has_ended() {
             break;
@@ -57,8 +57,7 @@ fn straight(mut simulation: Simulation, steps: usize) -> (HashMap<usize, String>
     (seen, fingerprint(&simulation))
 }
 
-/// Steps, goes back, rewinds and forks at random, and at last goes on to the end of a straight run. What is recorded depends
-/// on the seed.
+/// Steps, goes back, rewinds and forks at random, and then continues to the end of an uninterrupted run. The recording depends on the seed.
 fn assert_walk_is_straight(
     label: &str,
     scene: &Scene,
@@ -113,7 +112,7 @@ fn assert_walk_is_straight(
     while !simulation.has_ended() && steps_of(&simulation) < last {
         step(&mut simulation).unwrap();
     }
-    // It may have come back to where the straight run ended without a step.
+    // The simulation may already be at the end of the uninterrupted run.
     if fingerprint(&simulation) != end {
         step(&mut simulation).unwrap();
     }
@@ -161,7 +160,7 @@ fn walks_with_sliders_that_bounce_rest_leave_or_end_the_run_are_straight() {
     assert!(arrivals > 20, "only {arrivals} arrivals");
 }
 
-/// A beam that turns so fast that no whole step works.
+/// Beam that rotates so fast that every full step fails.
 fn fast_spinner() -> Scene {
     let mesh = Mesh::bspline(3, 3, 2).unwrap();
     let mut scene = scenes::free_beam(&mesh, scenes::spaghetti_section(1e4, 100.0));
@@ -192,7 +191,7 @@ fn walks_under_a_function_of_time_are_straight() {
     assert_walk_is_straight("function", &scene, settings(Method::EnergyMomentum, 0.05), 12, 7);
 }
 
-/// Stops a run at its so many-th question.
+/// Stops a run at its n-th monitor call.
 struct StopAt(usize);
 
 impl Monitor for StopAt {

@@ -1,4 +1,4 @@
-//! What every integrator claims to keep, on every mesh and scene; and that what is not claimed is not kept.
+//! Claimed invariants of every integrator, on every mesh and scene. Invariants that are not claimed are shown to drift.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{
@@ -118,7 +118,7 @@ fn energy_stands_still_a_hundred_million_lengths_away() {
     let scene = scenes::thrown(&smooth(14), section, load, at(1e8, 1e8));
     let far = simulate(scene, Method::EnergyMomentum, 0.1, 7.5);
     let near = simulate(scenes::spaghetti(&smooth(14), 1e4), Method::EnergyMomentum, 0.1, 7.5);
-    // Positions there are multiples of 1.5e-8: the drawing itself is rounded, what follows from it is not.
+    // Positions at this distance are multiples of 1.5e-8, so the initial geometry is rounded, but the motion is not.
     let drift = assert_kept("far away", far.history(), Invariant::Energy, 1e-12);
     assert_kept("far away", far.history(), Invariant::Momentum, 1e-12);
     let energy = |s: &Simulation| s.history().samples().last().unwrap().measures.energy.total();
@@ -132,7 +132,7 @@ fn is_finite(history: &History) -> bool {
     history.samples().iter().all(row)
 }
 
-/// Runs a scene that must fail after `good` steps; what went before must be kept and finite.
+/// Runs a scene that must fail after `good` steps. The previous steps must be conserved and finite.
 fn assert_fails_cleanly(scene: withy::system::Scene, dt: f64, good: usize) -> SimulationError {
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
     let error = run(&mut simulation, 10.0 * dt).expect_err("an absurd load cannot be balanced");
@@ -210,7 +210,7 @@ fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
     }
 }
 
-/// What these tests, and those of files, of ways back, of consistency and of memory, run through: whatever a machine may be made of.
+/// The scenes for the tests of invariants, archives, rewinding, consistency and memory contain every element type.
 #[test]
 fn common_scenes_have_every_element_of_a_machine() {
     let mesh = smooth(4);

@@ -1,5 +1,4 @@
-//! Laws with corners, ropes that go slack and buffers that are left, and laws that were sampled: at any stiffness the ledger closes, without a halved
-//! step.
+//! Piecewise linear and sampled laws, slack ropes and open buffers: the energy balance closes at any stiffness, without halved steps.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes, simulate};
@@ -10,7 +9,7 @@ use withy::system::{
     Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, StartMotion,
 };
 
-/// The stiffness of the beams beside which springs stand: `EA` per length 1.
+/// `EA` of the beams, as a reference for the stiffness of the springs.
 const OF_BEAM: f64 = 1e4;
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: SpringLaw) {
@@ -19,7 +18,7 @@ fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: SpringLaw) {
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
 }
 
-/// A rope pulls where it is longer than its length, and a buffer pushes where it is shorter.
+/// A rope resists elongation beyond its length only, a buffer resists compression below its length only.
 fn rope(stiffness: f64, length: f64) -> SpringLaw {
     let points = vec![(length - 1.0, 0.0), (length, 0.0), (length + 1.0, stiffness)];
     SpringLaw::Table { points }
@@ -30,7 +29,7 @@ fn buffer(stiffness: f64, length: f64) -> SpringLaw {
     SpringLaw::Table { points }
 }
 
-/// A hardening spring, asked as a script asks its function.
+/// Hardening spring, sampled like a script function.
 fn hardening(stiffness: f64, length: f64) -> SpringLaw {
     let force = |e: f64| Ok::<f64, ()>(stiffness * (e + 4.0 * e * e * e));
     SpringLaw::sampled((-0.51, 0.62), force).unwrap().shifted(length)
@@ -38,7 +37,7 @@ fn hardening(stiffness: f64, length: f64) -> SpringLaw {
 
 type Law = fn(f64, f64) -> SpringLaw;
 
-/// A beam that flies and turns, with a law between its ends, `beyond` its length as it begins, and one between places inside.
+/// Free rotating beam with a law between its ends and another one between interior points. Both are elongated by `beyond` at the start.
 fn braced(law: Law, stiffness: f64, beyond: f64) -> Scene {
     let mut scene = Scene::new("braced");
     let mesh = Mesh::bspline(8, 3, 2).unwrap();
@@ -53,7 +52,7 @@ fn braced(law: Law, stiffness: f64, beyond: f64) -> Scene {
     scene
 }
 
-/// A beam on a rope from the ground, which its weight makes taut again and again, with a tendon over three of its places.
+/// Beam on a rope from the ground that repeatedly becomes taut under gravity, with a tendon over three of its points.
 fn hanging(stiffness: f64) -> Scene {
     let mut scene = Scene::new("hanging");
     let mesh = Mesh::bspline(8, 3, 2).unwrap();
@@ -121,8 +120,8 @@ fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
     }
 }
 
-/// A bead that falls into a rope which is as good as inextensible, of length 1, from 0.5 above its end: it is thrown back by the step in which the
-/// rope is taut with the speed that it came with, and rises as high again.
+/// A bead falls from 0.5 above the end of a nearly inextensible rope of length 1. The step in which the rope becomes taut reverses the velocity, so the bead
+/// rises to its start height.
 #[test]
 fn a_bead_bounces_on_a_rope_as_on_a_wall() {
     for stiffness in [1e9, 1e13, 1e17] {
@@ -142,7 +141,7 @@ fn a_bead_bounces_on_a_rope_as_on_a_wall() {
         let last = &column[column.len() - 640..];
         let highest = last.iter().fold(1.0, |least: f64, length| least.min(*length));
         assert!(lowest < 1.004, "{stiffness:e}: {lowest}");
-        // A bounce within a step may be off by what it moves in one.
+        // The error of a bounce within a step is at most the displacement in one step.
         assert!((highest - 0.5).abs() < 0.02, "{stiffness:e}: {highest}");
     }
 }

@@ -1,4 +1,4 @@
-//! Warnings about springs and dampers that leave the range of their laws.
+//! Warnings about springs and dampers beyond the range of their laws.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, simulate};
@@ -9,7 +9,7 @@ use withy::system::{
     StationVelocity,
 };
 
-/// A particle at a distance of 5 from the ground with a speed away from it, on a spring or damper called `link`.
+/// Particle at a distance of 5 from the ground that moves away from it, on a spring or damper called `link`.
 fn held(law: Option<SpringLaw>, damping: DampingLaw, speed: f64) -> Scene {
     let mut scene = Scene::new("bead");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(5.0, 0.0) };
@@ -48,7 +48,7 @@ fn a_law_outside_of_its_range_is_told_once_with_the_farthest_value() {
         let before = simulation.warnings();
         simulation.run_to(2.5, &mut NoMonitor).unwrap();
         assert!(simulation.warnings().iter().all(|note| !note.is_new_or_worse(&before)));
-        // The exact amplitude of a speed of 0.5, (v²/5)^(1/4), is inside.
+        // The exact amplitude for a speed of 0.5, (v²/5)^(1/4), is within the range.
         assert!(told(&simulate(held(cubic(), 0.0.into(), 0.5), method, 0.01, 2.0)).is_empty());
     }
     let tanh = |range| DampingLaw::Curve(sampled(range, f64::tanh));

@@ -1,4 +1,4 @@
-//! Figures of the literature and of exact solutions: the flying spaghetti and what stiffness does to it.
+//! Published and exact results: the flying spaghetti, and its energy as a function of the stiffness.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::{Table, distance};
@@ -16,12 +16,12 @@ fn lagrange(elements: usize, degree: usize) -> Mesh {
     Mesh::lagrange(elements, degree).unwrap()
 }
 
-/// The flying spaghetti at t = 7.5 by steps of 0.1.
+/// Flying spaghetti at t = 7.5 with steps of 0.1.
 fn fly(mesh: &Mesh, method: Method) -> Simulation {
     simulate(scenes::spaghetti(mesh, 1e4), method, 0.1, 7.5)
 }
 
-/// Energy and angular momentum at t = 2.5.
+/// Energy and angular momentum at the end of the loads, t = 2.5.
 fn when_released(simulation: &Simulation) -> (f64, f64) {
     let row = simulation.history().between(2.5, 2.5).samples()[0].measures;
     (row.energy.total(), row.angular_momentum)
@@ -36,8 +36,8 @@ fn assert_ends(simulation: &Simulation, expected: [Vec2; 2]) {
     assert!(error < 1e-8, "{:?} are not {expected:?}", ends(simulation));
 }
 
-/// The C¹ cubics of Sibileau & Muñoz, with three Gauss points a span. Their figures here were found once by an independent program that
-/// is not kept; those of the table of locking are in docs/theory.md, section 4.
+/// C¹ cubics of Sibileau & Muñoz with three Gauss points per span. The pinned results are from an independent program that is not part of this repository. The
+/// results for the locking table are in docs/theory.md, section 4.
 fn paper_cubics() -> Mesh {
     points(bspline(7, 3, 1), 3)
 }
@@ -71,7 +71,7 @@ fn the_trapezoidal_rule_flies_as_pinned() {
     assert_digits(highest, 374.74, 1e-2);
 }
 
-/// `E(2.5)`, or why there is none.
+/// `E(2.5)`, or `None` if the run fails.
 fn energy(mesh: &Mesh, stiffness: f64, dt: f64) -> Option<f64> {
     let scene = scenes::spaghetti(mesh, stiffness);
     let settings = crate::common::settings(Method::EnergyMomentum, dt);
@@ -79,12 +79,12 @@ fn energy(mesh: &Mesh, stiffness: f64, dt: f64) -> Option<f64> {
     crate::common::run(&mut simulation, 2.5).ok().map(|()| when_released(&simulation).0)
 }
 
-/// A mesh with `E(2.5)` for values of `EA = GA`.
+/// Name, mesh, and `E(2.5)` for values of `EA = GA`.
 type Row = (&'static str, Mesh, &'static [(f64, f64)]);
 
 #[test]
 fn the_table_of_locking_is_that_of_the_theory() {
-    // docs/theory.md, section 4, has these figures with fewer digits.
+    // docs/theory.md, section 4, gives these results with fewer digits.
     let table: [Row; 7] = [
         (
             "cubic C2, 14",
@@ -141,7 +141,7 @@ fn smooth_cubics_need_two_iterations_a_step_at_any_stiffness() {
     }
 }
 
-/// The largest error of the ends against a step-load reference.
+/// Largest position error of the ends with respect to a step-load reference.
 fn step_load_error(file: &str, bending: f64, spans: usize, dt: f64) -> f64 {
     let reference = Table::read(file);
     let load = withy::loads::Schedule::hold_for(2.5).unwrap();
@@ -159,7 +159,7 @@ fn step_load_error(file: &str, bending: f64, spans: usize, dt: f64) -> f64 {
 
 #[test]
 fn refinement_converges_to_the_step_load_references() {
-    // The jump of the load leaves fronts in the beam: convergence is not smooth, only steady.
+    // The jump of the load causes wave fronts, so the errors decrease monotonically but irregularly.
     for (file, bending, within) in [("P1.csv", 100.0, 1e-2), ("P2.csv", 500.0, 2e-3)] {
         let errors = [(14, 0.05), (28, 0.025), (56, 0.0125)]
             .map(|(spans, dt)| step_load_error(file, bending, spans, dt));

@@ -1,4 +1,4 @@
-//! What moves: steps of every method, their invariants, orders, work and bits; files and ways back.
+//! Dynamics: steps of all methods, invariants, orders of convergence, work counts, reproducibility, archives and rewinding.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! What joints and supports give in the mean of a step: with the loads it is what changes the momenta.
+//! Mean reactions of joints and supports in a step. Together with the loads they equal the changes of the momenta.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge, point};
@@ -22,7 +22,7 @@ fn mesh() -> Mesh {
     Mesh::bspline(4, 3, 2).unwrap()
 }
 
-/// Records the means of all joints.
+/// Records the mean reactions of all joints.
 fn listening(mut scene: Scene) -> Scene {
     for joint in scene.joint_names() {
         ["force", "fx", "fy", "moment"]
@@ -32,7 +32,7 @@ fn listening(mut scene: Scene) -> Scene {
     scene
 }
 
-/// Two beams, pushed at the end, held at their start and joined as is said.
+/// Two beams with the given support and joint, loaded at the end.
 fn two_beams(held: JointKind, joint: JointKind) -> (Scene, Station) {
     let mut scene = Scene::new(format!("{held:?}, {joint:?}"));
     let first = add_beam(&mut scene, line(at(0.5, 0.2), at(1.5, 0.2)), &mesh(), rod());
@@ -44,7 +44,7 @@ fn two_beams(held: JointKind, joint: JointKind) -> (Scene, Station) {
     (scene, tip)
 }
 
-/// A rigid body on a pin, with a beam and another body on pins of its own.
+/// Pinned rigid body with a beam and another rigid body pinned to it.
 fn pinned_bodies() -> (Scene, Station) {
     let mut scene = Scene::new("rigid bodies on pins");
     let points = [at(-0.5, 0.1), at(0.6, 0.2), at(0.0, -0.4)];
@@ -60,7 +60,7 @@ fn pinned_bodies() -> (Scene, Station) {
     (scene, tip)
 }
 
-/// A beam whose foot is moved on a given way, a second one on its end, and a roller under that.
+/// Beam with a prescribed motion of its foot, a second beam joined to its end, and a roller support.
 fn driven() -> (Scene, Station) {
     let (mut scene, tip) = two_beams(JointKind::Support(Components::Rotation), JointKind::Hinge);
     let foot = scene.joints[0].station;
@@ -107,7 +107,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
             let mut simulation = Simulation::start(scene, settings(entry.method, 0.02)).unwrap();
             let places = held.iter().chain([&tip]);
             let places: Vec<_> = places.map(|place| simulation.place(place).unwrap()).collect();
-            // Before the first step, means are the present forces.
+            // Before the first step, the means are the present reactions.
             let now = simulation.instant().unwrap();
             let model = simulation.model();
             assert_eq!(&model.mean_reactions().unwrap(), now.reactions(), "{label}");
@@ -121,7 +121,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let model = simulation.model();
                 let given = model.mean_reactions().unwrap();
                 let (mut force, mut moment, mut size) = (Vec2::zeros(), 0.0, 1.0);
-                // The drive holds the first place alone.
+                // The drive acts at the first station only.
                 for drive in 0..simulation.scene().drives.len() {
                     let drive = model.drive(drive);
                     let (by, _) = model.reaction(&given, &places[0]).unwrap();
@@ -138,7 +138,7 @@ fn mean_reactions_and_loads_change_the_momenta() {
                 let off = (change - force).norm() / size;
                 worst[0] = worst[0].max(off);
                 assert!(off < 2e-11, "{label}, step {step}: {change} {force}");
-                // Parts of a step have middles of their own, and what is moved on a given way does not move as its mean velocity says.
+                // Substeps have different midpoints, and the displacement of a driven point differs from its mean velocity times the step.
                 if entry.claims.angular_momentum
                     && entry.method != Method::FourthOrder
                     && !is_driven
@@ -154,7 +154,6 @@ fn mean_reactions_and_loads_change_the_momenta() {
     }
 }
 
-/// In a very short step all is as at its ends: means are those of the forces at the present moment, also between bodies.
 #[test]
 fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
     let short = 1e-6;
@@ -198,7 +197,7 @@ fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
     assert!(joints > 50, "{joints}");
 }
 
-/// Velocities of points of rigid bodies are of second order at the ends of steps, and a step of another size shakes them: here steps are equal.
+/// Velocities of points of rigid bodies are of second order at the ends of steps. Changes of the step size would disturb them, so steps are constant.
 #[test]
 fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
     for scene in [body_scenes::pendulum(0.2, 0.6, 0.8), body_scenes::double_pendulum()] {

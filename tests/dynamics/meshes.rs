@@ -1,4 +1,4 @@
-//! Every mesh that can be made: three rigid motions and no other mode without resistance, no locking, and the right frequencies.
+//! Every admissible mesh: three rigid motions and no other zero-energy mode, no locking, and correct frequencies.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::{free_beam, spaghetti};
@@ -12,11 +12,11 @@ use withy::simulation::Simulation;
 use withy::system::System;
 use withy::vibration::Modes;
 
-/// How long spans are.
+/// Lengths of the spans.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Spans {
     Equal,
-    /// The last one ten times as long as the first.
+    /// The last span is ten times as long as the first one.
     Graded,
 }
 
@@ -36,7 +36,7 @@ fn mesh(spans: usize, degree: usize, continuity: usize, lengths: Spans) -> Mesh 
     Mesh::new(Basis::BSpline(KnotVector::new(degree, knots).unwrap()))
 }
 
-/// All degrees and continuities, with spans of both kinds.
+/// All degrees and continuities, with equal and graded spans.
 fn kinds() -> impl Iterator<Item = (usize, usize, Spans)> {
     let of_degree = |degree| (0..degree).map(move |continuity| (degree, continuity));
     let lengths = |(degree, continuity)| {
@@ -45,7 +45,7 @@ fn kinds() -> impl Iterator<Item = (usize, usize, Spans)> {
     (1..=10).flat_map(of_degree).flat_map(lengths)
 }
 
-/// The lowest angular frequencies of a free beam of length 10, slender and stiff in tension.
+/// Lowest angular frequencies of a free, slender beam of length 10 with a high axial stiffness.
 fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
     let section = Section {
         axial_stiffness: 1e6,
@@ -61,7 +61,7 @@ fn frequencies(mesh: &Mesh, count: usize) -> Vec<f64> {
 
 #[test]
 fn no_mesh_has_a_mode_that_a_finer_one_has_not() {
-    // Of a spline of degree 7 on 40 spans: the six lowest bending modes between are right to 1e-10.
+    // Spline of degree 7 on 40 spans. The six lowest bending modes are accurate to 1e-10.
     let exact = frequencies(&mesh(40, 7, 6, Spans::Equal), 12);
     for (degree, continuity, lengths) in kinds() {
         let mut worst = [0.0_f64; 2];
@@ -77,7 +77,7 @@ fn no_mesh_has_a_mode_that_a_finer_one_has_not() {
         println!(
             "degree {degree}, C{continuity}, {lengths:?}: five elastic modes off by {coarse:.1e} with 8 spans, {fine:.1e} with 16"
         );
-        // A mode too many would shift all above it by their distance, 0.3 of themselves and more.
+        // A spurious mode would shift all higher modes by at least 0.3 of their frequency.
         let allowed = [0.35, 0.2, 0.05][degree.min(3) - 1];
         assert!(
             fine < allowed && (fine < 0.6 * coarse || fine < 1e-4),
@@ -102,7 +102,7 @@ fn few_spans_have_three_rigid_motions_and_no_other_mode_without_resistance() {
     }
 }
 
-/// `E(2.5)` of the thrown rod.
+/// `E(2.5)` of the flying spaghetti.
 fn energy(mesh: &Mesh, stiffness: f64) -> f64 {
     let mut simulation =
         Simulation::start(spaghetti(mesh, stiffness), settings(Method::EnergyMomentum, 0.1))
@@ -137,7 +137,7 @@ fn no_mesh_locks() {
 
 #[test]
 fn masses_slide_on_every_mesh_where_the_references_have_them() {
-    // P7d at 0.3 and 0.55, P7c at 1: scripts/studies/reference.
+    // P7d at 0.3 and 0.55, P7c at 1, from scripts/studies/reference.
     let kicked = |mesh: &Mesh| kicked_sliding_particle(mesh, SlidingRule::Conserving);
     let turning = |mesh: &Mesh| sliding_particle(mesh, 1.0, SlidingRule::Conserving);
     for (degree, continuity, lengths) in

@@ -1,4 +1,4 @@
-//! What runs are told of that their steps do not resolve, and that nothing is told where all is well.
+//! Warnings about motion that the time steps do not resolve, and their absence in resolved runs.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::notepad::Notepad;
@@ -16,7 +16,7 @@ use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, Stat
 
 const METHODS: [Method; 3] = [Method::EnergyMomentum, Method::Trapezoidal, Method::FourthOrder];
 
-/// `m`, `kg`, `s`: 300 mm long, 25 mm wide, 1 mm thick.
+/// Steel strip in `m`, `kg`, `s`: length 300 mm, width 25 mm, thickness 1 mm.
 fn steel() -> Section {
     let (area, second) = (25e-6, 25e-3 * 1e-9 / 12.0);
     Section {
@@ -40,7 +40,7 @@ fn beam(scene: &mut Scene, to: withy::geometry::Vec2, spans: usize, section: Sec
     scene.add_beam(definition).unwrap()
 }
 
-/// A steel ruler that is clamped and whose gravity sets in at the start, and its first natural period.
+/// Clamped steel ruler under gravity that starts suddenly, and its first natural period.
 fn ruler() -> (Scene, f64) {
     let (mut scene, section, length) = (Scene::new("ruler"), steel(), 0.3);
     beam(&mut scene, at(length, 0.0), 8, section);
@@ -80,7 +80,7 @@ fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_no
 
 #[test]
 fn vibration_that_hides_under_flight_is_told() {
-    // The ruler flies, and bends with a twentieth of the energy of its flight at 40 times the frequency that steps could follow.
+    // The bending energy is a twentieth of the translational energy, at 40 times the highest frequency that the steps resolve.
     let spinning = |bending: f64| {
         let mut scene = Scene::new("flight");
         beam(&mut scene, at(0.3, 0.0), 8, steel());
@@ -108,7 +108,7 @@ fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
         scene.gravity = at(0.0, -9.81);
         scene
     };
-    // A period of 0.9: steps are as long as the third of the first natural period of bending, 0.02, and longer.
+    // The swing has a period of 0.9, the first bending mode one of about 0.025. The steps are 0.4 to 2 times as long as the latter.
     for dt in [0.01, 0.03, 0.05] {
         let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).warnings();
         assert_eq!(notes, [], "dt = {dt}");
@@ -137,7 +137,7 @@ fn sections_that_turn_far_in_a_step_are_told() {
     assert!((angle - 2.0 * 0.5_f64.atan()).abs() < 1e-3, "{angle}");
 }
 
-/// A ring of a mass that slides along a bar clamped at its start, from a fifth before its end at speed 1.
+/// Slider with a mass on a bar clamped at its start, at a fifth of the length from its end.
 fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
     let mut scene = Scene::new("bar");
     let section = Section {
@@ -172,7 +172,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
 
 #[test]
 fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
-    // Saint-Venant's bar, struck by its own mass: the exact rebound is 0.6990 for every EA.
+    // Saint-Venant's bar, struck by a body of its own mass: the exact rebound is 0.6990 for every EA.
     for (stiffness, dt) in
         [(1e4, 0.01), (1e4, 5e-4), (1e4, 1e-3), (1e6, 0.01), (1e6, 1e-4), (1e8, 0.01), (1e10, 0.01)]
     {
@@ -183,7 +183,7 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
         let is_right = (rebound / 0.6990 - 1.0).abs() < 0.05;
         assert_eq!(told, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
     }
-    // An end that is held is struck without waves.
+    // An impact on a supported end causes no waves.
     let mut held = ring(1e10, 1.0, 1.0);
     let end = end_of(&mut held, 0);
     held.join(JointKind::Rigid, end, Partner::Ground).unwrap();
@@ -211,7 +211,7 @@ fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
     assert_eq!(passing(9.0).warnings(), []);
 }
 
-/// A pendulum of a beam, solved as well as a tolerance asks for.
+/// Pendulum of a flexible beam, solved to a given tolerance of Newton's method.
 fn solved_to(tolerance: f64) -> Simulation {
     let mut scene = Scene::new("pendulum");
     let soft = Section {
@@ -247,7 +247,7 @@ fn notes_are_those_of_the_steps_behind_the_present() {
     run(&mut simulation, 0.1).unwrap();
     assert_eq!(simulation.warnings(), []);
     let before = *simulation.model().resolution();
-    // From here on steps are as coarse as jumps of the grid make them: another simulation of the same state.
+    // The continuation has the same resolution record as the saved simulation.
     let (name, mut again) = Simulation::from_bytes(&simulation.to_bytes("ruler").unwrap()).unwrap();
     assert_eq!((name.as_str(), *again.model().resolution()), ("ruler", before));
     run(&mut again, 0.2).unwrap();
@@ -332,7 +332,7 @@ fn notes_can_be_kept_and_fine_steps_have_none() {
 
 #[test]
 fn a_bead_below_a_barrier_is_told_that_its_well_is_not_resolved() {
-    // A double well: the bead starts at rest 6 % below the barrier between.
+    // Double well: the bead starts at rest, 6 % below the barrier.
     let script = |dt: &str, crosses: bool| {
         format!(
             "let s = section(#{{ EA: 1e7, GA: 1e7, EI: 1e6, rho_A: 10, rho_I: 10 }});

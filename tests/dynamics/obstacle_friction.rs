@@ -13,10 +13,10 @@ use withy::system::{ContactTarget, Obstacle, PointMass, RigidBodyDefinition, Sce
 
 const GRAVITY: f64 = 9.81;
 
-/// Speed of the block up the incline at the start.
+/// Start speed of the block up the incline.
 const SPEED: f64 = 2.0;
 
-/// Block on an incline, in static equilibrium with the normal force at the start, that slides up the incline.
+/// Block that slides up an incline. The initial normal force is in equilibrium.
 fn incline(degrees: f64, friction: f64, stiffness: f64) -> (Scene, Vec2) {
     let angle = degrees.to_radians();
     let (up, normal) = (at(angle.cos(), angle.sin()), at(-angle.sin(), angle.cos()));

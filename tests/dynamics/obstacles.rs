@@ -130,7 +130,7 @@ fn soft() -> Section {
     }
 }
 
-/// A rod that falls obliquely on an obstacle.
+/// Inclined rod that falls on an obstacle.
 fn falling_rod(obstacle: Obstacle) -> Scene {
     let mut scene = Scene::new("falling rod");
     scene.gravity = at(0.0, -9.81);
@@ -141,7 +141,7 @@ fn falling_rod(obstacle: Obstacle) -> Scene {
     scene
 }
 
-/// Energy and momenta stay at rounding for stiffnesses of twelve decades at a fixed step, and the iterations per step do not grow with the stiffness.
+/// The drifts of energy and momenta stay at rounding over twelve decades of stiffness at a fixed step, and the iterations per step do not increase.
 #[test]
 fn the_energy_balance_holds_at_any_stiffness() {
     for (restitution, friction) in [(1.0, 0.0), (0.5, 0.0), (1.0, 0.3), (0.5, 0.8)] {
@@ -175,7 +175,6 @@ fn the_energy_balance_holds_at_any_stiffness() {
     }
 }
 
-/// The claims of every method hold with contact.
 #[test]
 fn every_method_keeps_what_it_claims() {
     for entry in INTEGRATORS {
@@ -193,7 +192,7 @@ fn every_method_keeps_what_it_claims() {
     }
 }
 
-/// A contact point far from all obstacles changes no bit, and a turned, mirrored, shifted and rescaled copy of a scene moves alike.
+/// A contact point far from all obstacles changes no bit, and a rotated, mirrored, translated and scaled copy of a scene has the same motion.
 #[test]
 fn far_obstacles_change_no_bit() {
     let run = |obstacle: Option<Obstacle>| {
@@ -266,7 +265,7 @@ fn a_box_keeps_its_particles() {
         }
         let simulation = simulate(scene, Method::EnergyMomentum, dt, 200.0 * dt);
         assert_balanced(&simulation, 1e-10);
-        // The potential energy at the lowest place of the box is the zero of the energy.
+        // The potential energy is zero at the lowest point of the box.
         let mass: f64 = (0..5).map(|number| 0.5 + f64::from(number)).sum();
         let energy = simulation.history().samples()[0].measures.energy.total() + mass * 3.0 * 1.5;
         let deepest = (2.0 * energy / stiffness).sqrt();
@@ -278,7 +277,7 @@ fn a_box_keeps_its_particles() {
     }
 }
 
-/// Saved and restored runs, and runs that go back, keep every bit.
+/// Restored runs, and runs that go back and continue, are equal bit for bit.
 #[test]
 fn contacts_go_back_and_are_saved() {
     let start = || {
@@ -305,7 +304,7 @@ fn contacts_go_back_and_are_saved() {
     }
 }
 
-/// Beam that spins freely between discs: both momenta change only by the impulses of the obstacles, which the balance contains.
+/// Free rotating beam between discs: both momenta change only by the impulses of the obstacles, which the balance contains.
 #[test]
 fn a_spinning_rod_between_pegs_is_balanced() {
     let mut scene = falling_rod(disc(at(0.0, 0.0), 0.2, 1e6, 1.0));

@@ -1,4 +1,4 @@
-//! Orders of convergence in time and space, against own fine runs and the references with a smooth pulse.
+//! Orders of convergence in time and space, against fine runs and the references with a smooth pulse.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::{Table, distance};
@@ -14,18 +14,18 @@ fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// The ends of the beam at t = 5, when the pulse has been over for as long as it took.
+/// Positions of the ends of the beam at t = 5, twice the duration of the pulse.
 fn fly(mesh: &Mesh, bending: f64, method: Method, dt: f64) -> [Vec2; 2] {
     ends(&simulate(scenes::smooth_spaghetti(mesh, bending), method, dt, 5.0))
 }
 
-/// The limit for dt → 0, from two runs of a method of second order.
+/// Extrapolation to dt → 0 from two runs of a second-order method.
 fn extrapolated(mesh: &Mesh, bending: f64, dt: f64) -> [Vec2; 2] {
     let [coarse, fine] = [dt, 0.5 * dt].map(|dt| fly(mesh, bending, Method::EnergyMomentum, dt));
     [0, 1].map(|end| (fine[end] * 4.0 - coarse[end]) / 3.0)
 }
 
-/// The method of a row; where little damping would hide the first order behind the second, one with much of it.
+/// Method of a row, with strong numerical damping where weak damping would hide the first order behind the second.
 fn representative(method: Method) -> Method {
     match method {
         Method::EnergyDecaying { .. } => Method::EnergyDecaying { chi: 1.0 },
@@ -37,7 +37,7 @@ fn representative(method: Method) -> Method {
 fn every_integrator_converges_in_time_at_the_order_it_claims() {
     for entry in INTEGRATORS {
         for (file, bending) in PULSES {
-            // Each method is looked at where it has begun to converge evenly.
+            // Largest step in the asymptotic range of the method.
             let largest = match entry.claims.order {
                 1 => 0.0125,
                 4 => 0.025,
@@ -53,7 +53,7 @@ fn every_integrator_converges_in_time_at_the_order_it_claims() {
                 entry.name,
                 sci(&changes)
             );
-            // The first halvings of a method of high order still find fast vibration that they do not resolve.
+            // At the first step sizes, high-order methods do not resolve the fast vibrations.
             let (order, last) = (f64::from(entry.claims.order), slopes[slopes.len() - 1]);
             assert!((last - order).abs() < 0.15, "{}", entry.name);
             assert!(slopes[1..].iter().all(|slope| *slope > order - 0.2), "{}", entry.name);
@@ -78,7 +78,7 @@ fn smooth_cubics_with_the_patch_rule_converge_in_space_at_third_order() {
 
 #[test]
 fn cubic_lagrange_elements_converge_at_nearly_sixth_order_at_their_nodes() {
-    // Three points an element for strain and curvature.
+    // Three quadrature points per element for strain and curvature.
     let reference = Table::read("P2s.csv").ends(5.0);
     let errors: Vec<f64> = [8, 16]
         .into_iter()

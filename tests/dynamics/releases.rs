@@ -1,4 +1,4 @@
-//! What lets go in the course of a run: places and velocities go on, ledgers close, and what follows is what a scene without it does.
+//! Releases during a run: continuous positions and velocities, closed balances, and the later motion of a scene without the released object.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::FRAC_PI_2;
@@ -85,7 +85,7 @@ fn nothing_jumps_where_something_lets_go() {
     assert_eq!(simulation.model().springs().next().unwrap().stored, 0.0);
 }
 
-/// A bead on a rigid arm without weight turns about the ground and is let go.
+/// Bead on a massless rotating rigid arm, released during the rotation.
 fn sling() -> Scene {
     let mut scene = Scene::new("sling");
     let arm = add_body(&mut scene, at(0.0, 0.0), 0.0, (1.0, 1.0), &[at(2.0, 0.0)]);
@@ -93,7 +93,7 @@ fn sling() -> Scene {
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(2.0, 0.0) };
     let bead = scene.add_particle(bead, 0.5).unwrap();
     hinge(&mut scene, point(arm, 1), Some(bead));
-    // 1 - cos 1.5t: it begins at rest, as the bead does.
+    // 1 - cos 1.5t has zero initial velocity, like the bead.
     let (one, wave) = (Schedule::constant(1.0), Schedule::sine(1.0, 1.5, -FRAC_PI_2));
     let turn = Schedule::combined(Operation::Sum, one.unwrap(), wave.unwrap()).unwrap();
     let turn = PrescribedMotion::Position(turn);
@@ -115,7 +115,7 @@ fn a_sling_throws_along_the_tangent_and_errs_with_second_order() {
             .map(|dt| {
                 let simulation = simulate(sling(), entry.method, dt, 1.0);
                 let bead = simulation.model().control_points().next().unwrap()[0];
-                // The arm goes on with the spin that the motor left.
+                // After its release, the arm keeps the angular velocity of the motor.
                 let turned = simulation.model().section_angle(0).unwrap();
                 ((bead - end).norm(), (turned - angle - 0.2 * later).abs())
             })
@@ -123,7 +123,7 @@ fn a_sling_throws_along_the_tangent_and_errs_with_second_order() {
         let flown: Vec<f64> = errors.iter().map(|error| error.0).collect();
         let found = orders(&flown);
         println!("{:18} {} {found:.2?} {errors:?}", entry.name, sci(&flown));
-        // The rate of a point that a rigid link holds is of second order with every method, and so is that with which it flies.
+        // Velocities of points on rigid links are of second order with every method, and so is the velocity of the bead after its release.
         assert!(
             found[1] > f64::from(entry.claims.order.min(2)) - 0.4,
             "{}: {found:.2?}",
@@ -135,7 +135,7 @@ fn a_sling_throws_along_the_tangent_and_errs_with_second_order() {
 
 #[test]
 fn a_rod_that_is_let_go_falls_as_one_that_was_free_from_the_start() {
-    // Clamps at both ends hold it at rest: from the release on it is a free rod with the same state.
+    // Clamps at both ends hold the beam at rest. After the release it equals a free beam in the same state.
     for entry in INTEGRATORS {
         let mut held = Scene::new("shelf");
         let beam = add_beam(&mut held, line(at(0.0, 0.0), at(2.0, 0.0)), &mesh(), rod());
@@ -183,7 +183,7 @@ fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
         let history = simulation.history();
         let (stored, dissipated) = (history.column("stored"), history.column("dissipated"));
         let (stored, dissipated) = (stored.unwrap(), dissipated.unwrap());
-        // 0.5 cos 2t
+        // The elongation is 0.5 cos 2t.
         let energy = 4.0 * (0.5 * 0.6_f64.cos()).powi(2);
         assert!((stored[30] - energy).abs() < 1e-3, "{}: {}", entry.name, stored[30]);
         assert_eq!(stored[31..].iter().fold(0.0, |a: f64, b| a.max(*b)), 0.0);

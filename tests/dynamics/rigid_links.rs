@@ -1,4 +1,4 @@
-//! Rigid links fit together: their tangent, their balances, what joints give to bodies, and what is refused.
+//! Rigid links: tangent, balances, reactions of joints on bodies, and refused input.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge, point};
@@ -23,7 +23,7 @@ fn smooth(spans: usize) -> Mesh {
 fn the_tangent_is_the_derivative_of_forces_and_places() {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
-        // A law with corners has no derivative there.
+        // Piecewise linear laws have no derivative at their corners.
         let is_smooth = |scene: &Scene| scene.springs().all(|at| at.damping.corners().is_empty());
         for scene in body_scenes::all(&mesh).into_iter().filter(is_smooth) {
             let mut model = System::assemble(&scene).unwrap();
@@ -56,7 +56,7 @@ fn what_methods_do_not_claim_is_seen_to_fail() {
             let momentum = drift(body_scenes::dumbbell(&smooth(4)), Invariant::AngularMomentum);
             assert!(momentum > 1e-5, "{}: {momentum:.1e}", entry.name);
         }
-        // Nothing strains a rigid body: what is damped in beams is not damped in it.
+        // Numerical damping acts on strains only, so rigid bodies are not damped.
         let decays = entry.claims.energy == EnergyClaim::NonIncreasing;
         if decays {
             let energy = drift(body_scenes::double_pendulum(), Invariant::Energy);
@@ -83,7 +83,7 @@ fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
     }
 }
 
-/// The sums of forces and moments on a body as joints, weight and inertia make them, from what is told of the present moment.
+/// The present reactions of joints balance the weight and the inertia of a body.
 #[test]
 fn joints_give_to_a_body_what_its_accelerations_need() {
     let mut scene = body_scenes::dumbbell(&smooth(6));
@@ -103,7 +103,7 @@ fn joints_give_to_a_body_what_its_accelerations_need() {
     let inertia = (1.2 * acceleration).norm();
     assert!((force - 1.2 * acceleration).norm() < 1e-10 * inertia, "{force} {acceleration}");
     let arm = model.position(&held) - model.position(&centre);
-    // The angular acceleration from the acceleration of the point: a_p - a_c = α J r - ω² r.
+    // The acceleration of the point gives the angular acceleration: a_p - a_c = α J r - ω² r.
     let relative = model.acceleration(&now, &held) - acceleration;
     let spin = model.spin(&centre);
     let turning = cross(arm, relative) / arm.norm_squared();
@@ -156,9 +156,9 @@ fn what_holds_a_body_twice_is_refused_by_its_name() {
         let error = held(&points).unwrap_err();
         assert_eq!(error, SystemError::HeldTwice { body: "body1".to_owned() }, "{error}");
     }
-    // A hundred bodies in a row are not.
+    // A chain of a hundred bodies is not overconstrained.
     assert!(System::assemble(&body_scenes::chain(100)).is_ok());
-    // Five parallel bars are, though none of them is.
+    // A parallel linkage is overconstrained, although none of its bars is alone.
     let mut scene = Scene::new("parallel bars");
     let across = add_body(
         &mut scene,
@@ -207,7 +207,7 @@ fn numbers_and_names_that_make_no_body_are_refused() {
     assert_eq!(error.to_string(), "body 'hub' has no point 'b'; it has 'a'");
     let again = scene.add_rigid_body(definition("hub", &[]), 1.0, 1.0).unwrap_err();
     assert!(matches!(again, SystemError::DuplicateName { .. }), "{again}");
-    // Inertia without a mass may stand on a body, nothing may not.
+    // A point of a body may have inertia without mass, but not zero mass and zero inertia.
     let station = point(hub, 1);
     scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.1 }).unwrap();
     assert!(scene.add_mass(PointMass { station, mass: 0.0, rotary_inertia: 0.0 }).is_err());
@@ -229,7 +229,7 @@ fn start_velocities_must_fit_the_joints() {
 
 #[test]
 fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothing() {
-    // (I + m l²) λ² = m g l - k, the spring being too soft by as much as I + m l².
+    // (I + m l²) λ² = m g l - k, with k chosen such that λ = 1.
     let (inertia, arm) = (0.5, 1.5);
     let mut scene = body_scenes::pendulum(inertia, arm, std::f64::consts::PI);
     let stiffness = 9.81 * arm - (inertia + arm * arm);
@@ -272,7 +272,7 @@ fn a_slider_on_a_point_may_leave_its_beam() {
     assert!(simulation.history().drift(Invariant::Energy) < 1e-11);
 }
 
-/// A beam at rest that a body in motion takes along at its end: the node there is told to have the velocity of that point of the body, and no other.
+/// A moving body is hinged to the end of a beam at rest. The start velocity of this node alone must equal that of the point of the body.
 #[test]
 fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
     let struck = |node: Vec2| {
@@ -293,7 +293,7 @@ fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
     assert!(matches!(error, SystemError::StartVelocity { .. }), "{error}");
     let simulation = simulate(struck(at(-3.5, 1.0)), Method::EnergyMomentum, 0.005, 0.5);
     let begun = simulation.history().samples()[0].measures;
-    // The body, and the node of the beam, which counts little.
+    // Kinetic energy of the body, and the small one of the beam node.
     assert!((begun.energy.kinetic - (40.0 + 0.125)).abs() < 2.0, "{}", begun.energy.kinetic);
     for (name, invariant) in Invariant::ALL {
         let drift = simulation.history().drift(invariant);

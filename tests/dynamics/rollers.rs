@@ -1,4 +1,4 @@
-//! Inclined rollers: scenes that are turned, closed forms, what they give, and what is refused.
+//! Inclined rollers: rotated scenes, closed forms, reactions, and refused input.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, carriage, point};
@@ -29,7 +29,7 @@ fn turned(angle: f64, place: Vec2) -> Vec2 {
     unit(angle) * place.x + perpendicular(unit(angle)) * place.y
 }
 
-/// A bridge on a hinge and a roller with a body on its end, all of it turned by an angle; where that is zero the roller is one along the axis.
+/// Bridge on a hinge and an inclined roller with a body at its end, rotated by an angle. At the angle zero the roller is axis-parallel.
 fn bridge(angle: f64) -> Scene {
     let mut scene = Scene::new("bridge");
     let to = turned(angle, at(2.0, 0.0));
@@ -74,7 +74,7 @@ fn a_scene_that_is_turned_moves_as_with_a_roller_along_an_axis() {
             let off = off.map(|(own, place)| (own - turned(angle, *place)).norm());
             let worst = off.fold(0.0, f64::max);
             assert!(worst < 1e-9, "{} turned by {angle}: {worst:.1e}", entry.name);
-            // What it gives is across its line, and what the other one gives.
+            // The reaction is normal to the rolling direction, and equals the rotated reaction of the unrotated scene.
             let mut upright = simulate(bridge(0.0), entry.method, 0.05, 3.0);
             let reactions = [&mut simulation, &mut upright].map(|one| {
                 let place = end(one, tip(one.scene()));
@@ -118,7 +118,7 @@ fn a_scene_that_is_turned_has_the_same_rest_and_the_same_modes() {
     }
 }
 
-/// A beam on a hinge and an inclined roller is for small bending a simply supported one where its end is free to approach: `ω = (π/L)² √(EI/ρA)`.
+/// For small bending, a beam on a hinge and a roller along its axis is simply supported with a free axial displacement: `ω = (π/L)² √(EI/ρA)`.
 #[test]
 fn a_beam_on_an_inclined_roller_along_itself_has_the_modes_of_a_simply_supported_one() {
     let mut scene = Scene::new("bridge");
@@ -227,7 +227,7 @@ fn what_is_held_twice_is_refused() {
     }
     supported(&[along(0.3), along(0.4)]).unwrap();
     supported(&[along(0.3), JointKind::Support(Components::Rotation)]).unwrap();
-    // Three points of one body, whose lines meet in one place about which it may turn: it is held twice, and free besides.
+    // Three rollers at points of one body whose normals meet in one point: the body is overconstrained, and can still rotate about this point.
     let mut scene = Scene::new("wheel");
     let points = [at(1.0, 0.0), at(0.0, 1.0), at(-1.0, 0.0)];
     let body = add_body(&mut scene, at(0.0, 0.0), 0.2, (1.0, 0.2), &points);

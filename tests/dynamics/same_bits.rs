@@ -1,7 +1,6 @@
-//! The same bits everywhere: states of scenes of every kind are pinned, whatever the C library, its vector instructions and the machine;
-//! and equal runs leave equal bytes.
+//! Reproducibility: pinned states of scenes of every kind are equal on every machine and with every C library, and repeated runs write equal files.
 //!
-//! `WITHY_UPDATE=1 cargo test --test dynamics same_bits` pins them anew, where they were meant to change.
+//! `WITHY_UPDATE=1 cargo test --test dynamics same_bits` records intended changes.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;
@@ -25,7 +24,7 @@ use withy::statics::{ArcLength, Control, Equilibrium, Loading};
 use withy::system::{Scene, StartMotion, System};
 use withy::vibration::Modes;
 
-/// What keeps the GNU C library from using these instructions in its functions; names differ from version to version.
+/// Setting that keeps the GNU C library from using these instructions. The names depend on its version.
 const PLAIN: (&str, &str) = (
     "GLIBC_TUNABLES",
     "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable,-FMA4_Usable,-AVX512F_Usable",
@@ -33,7 +32,7 @@ const PLAIN: (&str, &str) = (
 
 /// Fingerprint of all digits of a value. Names are left out, so that renaming changes no fingerprint.
 fn hash(value: &impl Debug) -> u64 {
-    // Scenes without springs have no such entries.
+    // Scenes without springs omit these entries.
     let text = format!("{value:?}").replace(", stored: 0.0", "").replace(", dissipated: 0.0", "");
     fingerprint(without_names(&text).bytes())
 }
@@ -51,7 +50,7 @@ fn without_names(text: &str) -> String {
         .collect()
 }
 
-/// Runs a scene: the state at the end, the history, and the refusal if a step had no solution, which is an outcome like others.
+/// Fingerprint of a run: final state, history, and the error if a step has no solution.
 fn moved(scene: Scene, method: Method, dt: impl Into<StepSize>, end: f64) -> u64 {
     let mut simulation = Simulation::start(scene, settings(method, dt)).unwrap();
     let ended = run(&mut simulation, end);
@@ -66,7 +65,7 @@ fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// A steel tube that spins, pushed by a schedule of sines and a table.
+/// Rotating steel tube, loaded by a schedule of sines and a table.
 fn spinning_tube() -> Scene {
     let shape = SectionShape::Tube { outer: 0.06, inner: 0.051 };
     let solid = Solid { youngs_modulus: 2.1e11, poisson: 0.29, density: 7850.0, shape };
@@ -87,7 +86,7 @@ fn with_ends(mut scene: Scene, ends: EndAction) -> Scene {
     scene
 }
 
-/// A cantilever with a dead force at its tip.
+/// Cantilever with a dead force at its tip.
 fn loaded(mesh: &Mesh, force: Vec2) -> Scene {
     let mut scene = scenes::cantilever(mesh, scenes::spaghetti_section(1e4, 100.0));
     let station = scenes::end_of(&mut scene, 0);
@@ -101,7 +100,7 @@ fn at_rest(scene: Scene, loading: Loading) -> u64 {
     hash(&rest.path().points())
 }
 
-/// The deep arch of `statics.rs`, clamped at one end and hinged at the other, on the way to where it buckles.
+/// The deep arch of `statics.rs`, clamped at one end and hinged at the other, loaded up to its buckling load.
 fn deep_arch() -> u64 {
     let lean = 17.5_f64.to_radians();
     let axis = Curve::arc(Vec2::zeros(), 100.0, -lean, PI + lean).unwrap();
@@ -125,7 +124,7 @@ fn modes(scene: &Scene, count: usize) -> u64 {
     hash(&(modes.all(), shapes))
 }
 
-/// Values of all elementary functions, also far from the origin and near to where they end.
+/// Values of all elementary functions, including large arguments and the limits of their domains.
 fn elementary_functions() -> u64 {
     use elementary::*;
     let ofs: [fn(f64) -> f64; 17] = [
@@ -137,7 +136,7 @@ fn elementary_functions() -> u64 {
         (-600..600).map(|i| f64::from(i) * 0.0173 * (1.0 + f64::from(i * i))).collect();
     let small: Vec<f64> = (-500..=500).map(|i| f64::from(i) / 500.0).collect();
     let mut found = Vec::new();
-    // Undefined values differ in their sign from machine to machine, which nobody can see.
+    // The sign of NaN depends on the machine, but is not visible to users.
     let mut keep = |x: f64| found.push(if x.is_nan() { None } else { Some(x) });
     for x in arguments.iter().chain(&small) {
         ofs.iter().for_each(|of| keep(of(*x)));
@@ -149,7 +148,7 @@ fn elementary_functions() -> u64 {
     hash(&found)
 }
 
-/// What is seen of scenes that differ in kind.
+/// Fingerprints of scenes of all kinds.
 fn all() -> Vec<(String, u64)> {
     use EndAction::{Bounce, Release, Stop};
     use Method::{EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Trapezoidal};
@@ -268,7 +267,7 @@ fn the_states_of_scenes_are_those_that_were_pinned() {
     );
 }
 
-/// The same test in a process of its own, whose C library does without vector instructions.
+/// Runs the same test in a child process whose C library uses no vector instructions.
 #[test]
 fn a_c_library_without_vector_instructions_changes_no_bit() {
     let name = "same_bits::the_states_of_scenes_are_those_that_were_pinned";
@@ -281,7 +280,7 @@ fn a_c_library_without_vector_instructions_changes_no_bit() {
     assert!(output.status.success() && said.contains("1 passed"), "{said}");
 }
 
-/// Everything in which a run might show chance: names of functions without one, elementary functions, files of all kinds.
+/// Possible sources of nondeterminism: names of anonymous functions, elementary functions, and all kinds of output files.
 const SCRIPT: &str = r#"
 let slender = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene("thrown");
@@ -309,7 +308,7 @@ plot_motion(sim, "motion.svg", #{ every: 0.5 });
 plot_motion(sim, "motion.png", #{ every: 0.5 });
 "#;
 
-/// Standard output, and the files that a run has left.
+/// Standard output and output files of a run.
 fn left(script: &Path, plain: bool) -> BTreeMap<String, Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -322,7 +321,7 @@ fn left(script: &Path, plain: bool) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder.path()).unwrap().map(Result::unwrap);
     let files = entries
         .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()));
-    // withy's record of what it has written there begins with a dot.
+    // The name of withy's record of written files starts with a dot.
     let files = files.filter(|(name, _)| !name.starts_with('.'));
     files.chain([("standard output".to_owned(), output.stdout)]).collect()
 }

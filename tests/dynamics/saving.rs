@@ -1,4 +1,4 @@
-//! Scripts that save simulations, load them in another run, and are checked without being run.
+//! Scripts that save simulations, load them in another run, and are checked in a dry run.
 #![allow(clippy::unwrap_used)]
 
 use std::path::Path;
@@ -74,7 +74,7 @@ fn a_simulation_survives_a_restart() {
         assert_good(&outcome);
         assert_eq!(told, "");
     }
-    // The second script ends where it began: only the time spent in steps is another.
+    // The second script ends in its initial state, apart from the elapsed time.
     let again = std::fs::read(home.path().join("half.withy")).unwrap();
     assert!(again.len().abs_diff(file.len()) < 20);
 }
@@ -135,7 +135,7 @@ fn a_script_that_never_goes_back_keeps_no_states_and_one_that_does_keeps_them() 
     assert_good(&run_in(home.path(), RunMode::Run, &format!("{fall}sim.back(2);")).0);
     assert_good(&run_in(home.path(), RunMode::Run, &format!("{fall}sim.rewind(0.1);")).0);
     let kept = |script: &str| {
-        // A call by a pointer hides the name from whoever reads the tokens.
+        // A call by a function pointer is not visible in the tokens of the script.
         let outcome =
             run_in(home.path(), RunMode::Run, &format!("{script}Fn(\"ba\" + \"ck\").call(sim);")).0;
         matches!(outcome.ending, Ending::Finished)

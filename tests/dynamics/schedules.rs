@@ -1,4 +1,4 @@
-//! Loads and speeds that change within a step: exact impulses and positions of built-in schedules, and warnings about functions that steps do not resolve.
+//! Loads and speeds that change within a step: exact impulses and positions for built-in schedules, and warnings about functions that are not resolved.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
@@ -21,7 +21,7 @@ fn particle() -> (Scene, withy::beams::Station) {
     (scene, station)
 }
 
-/// A free particle of mass 1 under a force of 1 times a schedule.
+/// Free particle of mass 1 with a schedule as its force.
 fn pushed(schedule: Schedule) -> Scene {
     let (mut scene, station) = particle();
     let force = at(1.0, 0.0);
@@ -29,7 +29,7 @@ fn pushed(schedule: Schedule) -> Scene {
     scene
 }
 
-/// A particle whose speed is a schedule.
+/// Particle with a schedule as its prescribed speed.
 fn moved(schedule: Schedule) -> Scene {
     let (mut scene, station) = particle();
     drive(&mut scene, station, &[(Component::X, PrescribedMotion::Rate(schedule))]);
@@ -48,7 +48,7 @@ fn product(a: Schedule, b: Schedule) -> Schedule {
     Schedule::combined(Operation::Product, a, b).unwrap()
 }
 
-/// Methods with the exact impulse of loads.
+/// Methods for which the impulse of loads is exact.
 fn methods() -> impl Iterator<Item = Method> {
     INTEGRATORS.iter().filter(|entry| entry.claims.momentum).map(|entry| entry.method)
 }
@@ -58,10 +58,10 @@ fn built_in_loads_have_their_exact_impulse_at_any_step_size() {
     let pulse = |duration| Schedule::smooth_pulse(duration).unwrap();
     let sine = |rate| Schedule::sine(1.0, rate, 0.4).unwrap();
     let ramp = Schedule::ramp(0.0, 2.0).unwrap();
-    // ∫ t/2 sin(ωt) dt over whole periods until 1 is -1/2ω.
+    // ∫ t/2 sin(ωt) dt over an integer number of periods up to 1 is -1/2ω.
     let rate = 2.0 * TAU / DT;
     let swell = product(ramp, Schedule::sine(3.0, rate, 0.0).unwrap());
-    // (16/5)² times the mean of sin¹² over its period, 231/1024.
+    // (16/5)² times the mean of sin¹² over a period, 231/1024.
     let square = product(pulse(0.05), pulse(0.05));
     let cases = [
         (pulse(0.01), 0.01),

@@ -1,4 +1,4 @@
-//! Derivatives of runs by parameters: against closed forms, against differences of exact runs, and what they cost.
+//! Derivatives of runs with respect to parameters, compared with closed forms and with differences of exact runs, and their work counts.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::steered_scenes::is_steered;
@@ -25,7 +25,7 @@ fn variation(name: &str, distance: f64, scene: impl Fn(f64) -> Scene) -> Variati
     Variation { name: name.to_owned(), distance, scenes: [scene(distance), scene(-distance)] }
 }
 
-/// A particle on a spring from the ground, drawn out by `stretch`.
+/// Particle on a spring from the ground, initially elongated by `stretch`.
 fn oscillator(stiffness: f64, mass: f64, stretch: f64) -> Scene {
     let mut scene = Scene::new("oscillator");
     let particle = ParticleDefinition { name: "bead".to_owned(), position: at(2.0 + stretch, 0.0) };
@@ -45,7 +45,7 @@ fn bead(simulation: &Simulation) -> f64 {
 #[test]
 fn a_mass_on_a_spring_has_the_derivatives_of_its_closed_form() {
     let (stiffness, mass, stretch, dt, steps) = (9.0, 1.3, 0.2, 0.02, 400);
-    // What the method of second order does to an oscillator: it turns by θ in a step, tan(θ/2) = ω Δt/2.
+    // Discrete solution of the second-order method: the phase angle θ per step satisfies tan(θ/2) = ω Δt/2.
     let omega = f64::sqrt(stiffness / mass);
     let tangent = 0.5 * omega * dt;
     let angle = 2.0 * tangent.atan();
@@ -69,7 +69,7 @@ fn a_mass_on_a_spring_has_the_derivatives_of_its_closed_form() {
     }
 }
 
-/// A scene with all bending stiffnesses, springs and dampers, or loads and weight, times one plus a number.
+/// Scene with all bending stiffnesses (0), springs and dampers (1), or loads and gravity (2) multiplied by `1 + by`.
 fn scaled(scene: &Scene, what: usize, by: f64) -> Scene {
     let mut scene = scene.clone();
     let factor = 1.0 + by;
@@ -169,7 +169,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             }
             for what in 0..3 {
                 let exact = |by: f64| places(&simulate(scaled(&scene, what, by), method, DT, END));
-                // Central differences at two distances, extrapolated: fourth order, and near where laws are polygons with corners.
+                // Central differences with two small increments and Richardson extrapolation, of fourth order.
                 let at = |h: f64| -> Vec<f64> {
                     let pairs = exact(h).into_iter().zip(exact(-h));
                     pairs.map(|(plus, minus)| (plus - minus) / (2.0 * h)).collect()
@@ -183,7 +183,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
                 let largest = expected.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
                 let error = found.zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 println!("{} {what}: {:.1e} of {largest:.1e}", scene.name, error / largest);
-                // A law that is a polygon has no derivative at its corners, which runs pass here and there.
+                // A piecewise linear law has no derivative at its corners, which some runs pass.
                 let near = if scene.name == "absorbed" { 1e-5 } else { 1e-6 };
                 assert!(error < near * largest, "{}, {what}: {error:e} of {largest:e}", scene.name);
                 compared += 1;
@@ -191,7 +191,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
             let counts = simulation.derivative_counts();
             let steps = simulation.counts().steps * 6 * if method == METHODS[1] { 7 } else { 1 };
             println!("{}: {} solves for {steps} steps beside", scene.name, counts.solves);
-            // Where old factors do not do, as in a few steps of a slider that turns, a neighbour has its own.
+            // A perturbed run computes its own factorisation only if the existing one does not converge, as in a few steps of a rotating slider.
             assert!(100 * counts.factorisations <= steps, "{}: {counts:?}", scene.name);
         }
     }
@@ -265,7 +265,7 @@ fn histories_beside_a_run_have_its_rows() {
     assert_eq!(simulation.parameters().collect::<Vec<_>>(), [("k", 1e-4)]);
 }
 
-/// Half of `I + m r²` times the square of the speed, which jumps from zero to one: its derivative by `r` is `m r`.
+/// The kinetic energy jumps to `(I + m r²)/2` at the impulse of a drive. Its derivative with respect to `r` is `m r`.
 #[test]
 fn what_a_drive_strikes_is_struck_beside_the_run_too() {
     let scene = |by: f64| {
@@ -285,7 +285,7 @@ fn what_a_drive_strikes_is_struck_beside_the_run_too() {
     }
 }
 
-/// A ball that bounces obliquely on a floor with friction: derivatives are those of exact runs, and of the closed form of the normal motion.
+/// Ball that bounces obliquely on a floor with friction. The derivatives equal differences of exact runs and the closed form of the normal motion.
 #[test]
 fn runs_against_obstacles_have_derivatives() {
     let (dt, end) = (1e-3, 0.6);

@@ -1,4 +1,4 @@
-//! What sensors read: against balance, differences and closed forms; and that reading changes nothing.
+//! Sensors, compared with balances, differences and closed forms. Sensors do not change the motion.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::steered_scenes::is_steered;
@@ -16,8 +16,8 @@ fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// Records everything that is ready, but for means of steps, of which the sums are a part of the state and which not all methods have, and but for
-/// the angles of sections that are not followed yet.
+/// Records all available sensors, except means of steps, whose sums are part of the state and which not all methods have, and angles of sections that the
+/// model does not track yet.
 fn with_all_sensors(mut scene: Scene) -> Scene {
     let names = scene.sensor_names();
     let names = names.iter().filter(|name| !name.ends_with(".middle.angle"));
@@ -43,7 +43,7 @@ fn reading_changes_no_bit_of_the_motion() {
             let label = format!("{}, {}", scene.name, entry.name);
             assert!(watched.history().columns().count() > plain.history().columns().count() + 10);
             let mut extra = watched.model().state();
-            // Sections that are followed for a sensor are a part of the state: here all were followed before.
+            // The angles of tracked sections are part of the state. The states are comparable only if both runs track the same sections.
             if watched.scene().stations.len() != plain.scene().stations.len() {
                 extra = plain.model().state();
             }
@@ -78,12 +78,11 @@ fn energies_of_all_bodies_are_that_of_the_scene() {
     }
 }
 
-/// A short step from a state tells, by its own balance, what the equations of motion say there.
+/// The balance of a very short step gives the present forces and accelerations of the equations of motion.
 #[test]
 fn forces_and_accelerations_are_those_of_a_very_short_step() {
     let short = 1e-6;
-    // Nothing may let go in the short step: what gave a reaction before it would be gone after it.
-    // Nor may a controller say something else in it.
+    // A release within the short step would remove its reaction, and a controller could change its value.
     let lets_go = |scene: &Scene| {
         is_steered(scene) || is_damped(scene) || scene.release_times().any(|time| time == 0.4)
     };
@@ -130,7 +129,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
     }
 }
 
-/// What sections transmit at the ends of beams is what joints give there; the one comes from strains, the other from inertia and loads.
+/// Section forces at the ends of beams, from strains, equal the reactions of joints, from inertia and loads.
 #[test]
 fn joints_give_what_sections_transmit() {
     let errors = [8, 16, 32].map(|spans| {
@@ -172,12 +171,12 @@ fn a_clamp_gives_the_moment_that_the_section_transmits() {
         ["clamp1.moment", "beam1.start.M"].map(|name| simulation.history().column(name).unwrap());
     let largest = given.iter().fold(0.0_f64, |largest, moment| largest.max(moment.abs()));
     for (row, (given, section)) in given.iter().zip(&section).enumerate().skip(100) {
-        // What follows pushes on what is before; the clamp is before the beam.
+        // The section moment acts on the part before the section, and the reaction of the clamp on the beam after it, so the signs are opposite.
         assert!((given + section).abs() < 5e-3 * largest, "{row}: {given} {section}");
     }
 }
 
-/// A rod that swings about its end under gravity: the reaction along it and across it in closed form.
+/// Rod that swings about its end under gravity, compared with the closed forms of the axial and transverse reactions.
 #[test]
 fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
     let (length, g) = (1.0, 9.81);
@@ -197,7 +196,7 @@ fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
     ["hinge1.present_fx", "hinge1.present_fy", "beam1.end.angle", "beam1.end.spin"]
         .iter()
         .for_each(|name| scene.record(name).unwrap());
-    // What a sudden start lets ring is damped; the swing itself is not.
+    // The method damps the vibration after the sudden start, but not the swing.
     let simulation = simulate(scene, Method::EnergyDecaying { chi: 1.0 }, 0.001, 0.8);
     let history = simulation.history();
     let [fx, fy, angle, spin] =
@@ -218,7 +217,7 @@ fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
     assert!(worst < 0.02 * g, "{worst}");
 }
 
-/// Second differences of the way of a bead against its acceleration, which is all contact force.
+/// Second differences of the arc length of a bead equal its acceleration by the contact force alone.
 #[test]
 fn a_bead_accelerates_as_its_contact_force_says() {
     let errors = [0.01, 0.005, 0.0025].map(|dt| {
@@ -386,7 +385,7 @@ fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
     [bead, driven, scene].into_iter().for_each(goes_back_and_on);
 }
 
-/// Stores a run, goes back, forks it, and compares all columns.
+/// Saves a run, rewinds and forks it, and compares all columns.
 fn goes_back_and_on(scene: Scene) {
     let mut simulation = Simulation::start(scene, settings(Method::default(), 0.02)).unwrap();
     simulation.enable_snapshots(1 << 24);

@@ -1,4 +1,4 @@
-//! Springs and dampers whose ways end in nothing, or change by little of themselves: closed forms, orders, ledgers.
+//! Springs and dampers whose length passes through zero or changes by a small fraction: closed forms, orders and energy balances.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, point};
@@ -18,7 +18,7 @@ use withy::system::{
 const STIFFNESS: f64 = 9.0;
 const DAMPING: f64 = 0.5;
 const SPEED: f64 = 0.3;
-/// Along which everything moves: no axis.
+/// Direction of all motion, not parallel to an axis.
 const DIRECTION: Vec2 = Vec2::new(0.6, 0.8);
 
 fn spring(kind: SpringKind, law: Option<SpringLaw>, damping: f64) -> Spring {
@@ -26,7 +26,7 @@ fn spring(kind: SpringKind, law: Option<SpringLaw>, damping: f64) -> Spring {
     Spring { name: "spring".to_owned(), kind, law, origin: Origin::Zero, damping }
 }
 
-/// A particle of mass 1, one away from where a damper is anchored, which passes through there.
+/// Particle of mass 1 at a distance of 1 from the anchor of a damper, which moves through the anchor.
 fn passing(law: Option<SpringLaw>, damping: f64, velocity: Vec2) -> Scene {
     let mut scene = Scene::new("passing");
     let (name, anchor) = ("bead".to_owned(), at(2.0, -1.0));
@@ -48,7 +48,7 @@ fn place(simulation: &Simulation) -> f64 {
     (point - at(2.0, -1.0)).dot(&DIRECTION)
 }
 
-/// `ẍ + c ẋ + k x = 0`, and `ẍ + c ẋ = -3`, both from 1 with a speed: through the anchor three times, and once.
+/// `ẍ + c ẋ + k x = 0` and `ẍ + c ẋ = -3`, both with x(0) = 1 and a start velocity. The motions pass the anchor three times and once.
 #[test]
 fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method() {
     let end = 4.0;
@@ -70,7 +70,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
             let errors = [0.04, 0.02, 0.01].map(error);
             let found = orders(&errors);
             println!("{:18} {} {found:.2?}", entry.name, sci(&errors));
-            // Neither is a strain that could be damped.
+            // No strains occur that numerical damping could act on.
             let expected = match entry.claims.energy {
                 EnergyClaim::NonIncreasing => 2.0,
                 _ => f64::from(entry.claims.order),
@@ -80,7 +80,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
     }
 }
 
-/// However near it passes, and however strong the damper is.
+/// Independent of the minimum distance and of the damping coefficient.
 #[test]
 fn a_damper_that_nearly_passes_through_its_anchor_keeps_the_ledger() {
     let mut random = Random(17);
@@ -104,7 +104,7 @@ fn a_damper_that_nearly_passes_through_its_anchor_keeps_the_ledger() {
     }
 }
 
-/// The foot of a spring, and of a torsion spring beside it that is drawn at a right angle, moved by `a sin 5t`.
+/// Body with the prescribed motion `a sin 5t` at the end of a spring and of a torsion spring with an initial angle of 90°.
 fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
     let mut scene = Scene::new("foot");
     let foot = add_body(&mut scene, at(7.0, 2.0), FRAC_PI_2, (1e-3, 1e-3), &[]);
@@ -125,7 +125,7 @@ fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
     scene
 }
 
-/// What a drive puts into a spring is little beside what its length would store: from 1e-2 of it to 1e-10, all of it is in the ledger.
+/// The work of a drive on a spring is complete in the energy balance, for amplitudes from 1e-2 to 1e-10 of the length of the spring.
 #[test]
 fn a_spring_whose_end_is_moved_by_little_of_its_length_keeps_the_ledger() {
     for stiffness in [1e-6, 1.0, 1e12] {
@@ -136,7 +136,7 @@ fn a_spring_whose_end_is_moved_by_little_of_its_length_keeps_the_ledger() {
             let history = simulation.history();
             let drift = history.drift(Invariant::Energy);
             assert!(drift < 1e-14, "{label}: {drift:.1e}");
-            // Both springs store ½ k a² sin²; the roundings of the place itself are left.
+            // Each spring stores ½ k a² sin². The tolerance allows for rounding of the position.
             let expected = stiffness * (amplitude * 5.0_f64.sin()).powi(2);
             let stored = *history.column("stored").unwrap().last().unwrap();
             assert!((stored / expected - 1.0).abs() < 1e-5, "{label}: {stored} {expected}");

@@ -1,4 +1,4 @@
-//! Springs, dampers and tendons against closed forms, at any stiffness, with every integrator.
+//! Springs, dampers and tendons compared with closed forms, at any stiffness, with every integrator.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;
@@ -26,7 +26,7 @@ fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<SpringLaw>, damping:
         .unwrap();
 }
 
-/// A mass of 2 on a spring along x, `stretch` beyond its ease, with a damper beside it.
+/// Mass of 2 on a spring along x, elongated by `stretch`, with a parallel damper.
 fn oscillator(stiffness: f64, damping: f64, stretch: f64) -> Scene {
     let mut scene = Scene::new("oscillator");
     let position = at(5.0 + NATURAL + stretch, 3.0);
@@ -41,7 +41,7 @@ fn place(simulation: &Simulation) -> f64 {
     simulation.model().control_points().next().unwrap()[0].x - 5.0 - NATURAL
 }
 
-/// `x(t)` of `m ẍ + c ẋ + k x = 0` from rest at `x(0) = a`, below critical damping.
+/// `x(t)` of `m ẍ + c ẋ + k x = 0` with `x(0) = a` and zero velocity, below critical damping.
 fn damped(a: f64, (m, c, k): (f64, f64, f64), t: f64) -> f64 {
     let decay = c / (2.0 * m);
     let omega = (k / m - decay * decay).sqrt();
@@ -66,7 +66,7 @@ fn a_damped_oscillator_is_met_with_the_order_of_the_method() {
     }
 }
 
-/// A particle at (1, 0) on a damper to the origin, with or without a spring beside it.
+/// Particle at (1, 0) on a damper to the origin, with an optional parallel spring.
 fn turning(velocity: (f64, f64), law: Option<SpringLaw>) -> Scene {
     let mut scene = Scene::new("turning");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
@@ -77,7 +77,7 @@ fn turning(velocity: (f64, f64), law: Option<SpringLaw>) -> Scene {
     scene
 }
 
-/// Where the particle of [`turning`] is at t = 1, by the classical Runge–Kutta method.
+/// Position of the particle of [`turning`] at t = 1, by the classical Runge–Kutta method.
 fn turned((u, v): (f64, f64), stiffness: f64) -> [f64; 2] {
     let rate = |[x, y, u, v]: [f64; 4]| {
         let length = (x * x + y * y).sqrt();
@@ -118,7 +118,7 @@ fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
             let expected = f64::from(entry.claims.order);
             let found = orders(&errors);
             println!("{} {start:?} {stiffness:?}: {errors:.1?} {found:.2?}", entry.name);
-            // Without strain nothing decays, and the method of first order is of second.
+            // The strains are zero, so numerical damping has no effect and the first-order method is of second order.
             assert!(found[1] > expected - 0.3, "{}: {errors:?} {found:?}", entry.name);
         }
     }
@@ -150,7 +150,7 @@ fn springs_that_can_do_nothing_are_refused() {
         );
     }
     assert_eq!(scene.springs().count(), 0);
-    // A rope over pulleys on the ground, and one that goes on to where it came from, do something.
+    // A rope over pulleys on the ground and a rope that returns to its start are valid.
     scene.add_spring(spring(SpringKind::Length(vec![ground(0.0), ground(1.0), end]))).unwrap();
     let there_and_back = SpringKind::Length(vec![end, start, end]);
     scene.add_spring(Spring { name: "back".to_owned(), ..spring(there_and_back) }).unwrap();
@@ -165,21 +165,21 @@ fn what_dampers_take_is_in_the_ledger_and_grows() {
         let stored = history.column("stored").unwrap();
         assert!(stored[0] > 0.8 && column[0] == 0.0);
         let last = *column.last().unwrap();
-        // All of it is lost in the end, and the damper says so, where energy is kept.
+        // The damper dissipates the whole energy if the method conserves energy.
         let error = (last / (0.5 * 18.0 * 0.09) - 1.0).abs();
         if entry.claims.energy == EnergyClaim::Conserved {
             assert!(history.drift(Invariant::Energy) < 1e-14, "{}", entry.name);
             assert!(error < 2e-4, "{}: {error:.1e}", entry.name);
             assert!(column.windows(2).all(|pair| pair[1] >= pair[0]), "{}", entry.name);
         }
-        // In one dimension all is linear, and what decays does so in the spring, besides.
+        // Energy-decaying methods also damp the spring.
         if entry.claims.energy == EnergyClaim::NonIncreasing {
             assert!(history.drift(Invariant::Energy) > 1e-6, "{}", entry.name);
         }
     }
 }
 
-/// A beam that flies, with a spring between its ends and one between places inside.
+/// Free beam with a spring between its ends and another one between interior points.
 fn braced(stiffness: f64, damping: f64) -> Scene {
     let mut scene = Scene::new("braced");
     let mesh = Mesh::bspline(8, 3, 2).unwrap();
@@ -196,7 +196,7 @@ fn braced(stiffness: f64, damping: f64) -> Scene {
 
 #[test]
 fn springs_and_dampers_of_any_stiffness_keep_the_ledger_in_as_many_iterations() {
-    // EA = 1e4: from 1e-6 to 1e12 of the beam's.
+    // EA = 1e4, so the stiffness of the springs is 1e-6 to 1e12 of it.
     for stiffness in [1e-2, 1e4, 1e10, 1e16] {
         for damping in [0.0, 1.0, 1e6] {
             let label = format!("stiffness {stiffness:e}, damping {damping:e}");
@@ -214,7 +214,7 @@ fn springs_and_dampers_of_any_stiffness_keep_the_ledger_in_as_many_iterations() 
     }
 }
 
-/// A pendulum of length 1 whose rod is a spring 1e12 times stiffer than the weight at its end.
+/// Pendulum of length 1 whose rod is a spring. Its stiffness is 1e12 times the weight at its end per length.
 fn on_a_stiff_spring() -> Scene {
     let mut scene = Scene::new("pendulum");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.0, 0.0) };
@@ -226,7 +226,7 @@ fn on_a_stiff_spring() -> Scene {
 
 #[test]
 fn a_stiff_spring_is_a_rigid_rod() {
-    // From the height of its hinge it is back after 4 K(1/√2) √(L/g).
+    // A pendulum released from the height of its hinge has the period 4 K(1/√2) √(L/g).
     let period = 4.0 * 1.854_074_677_301_372 / 9.81_f64.sqrt();
     let simulation = simulate(on_a_stiff_spring(), Method::EnergyMomentum, 1e-3, period);
     let back = simulation.model().control_points().next().unwrap()[0];
@@ -236,7 +236,7 @@ fn a_stiff_spring_is_a_rigid_rod() {
 
 #[test]
 fn a_tendon_pulls_alike_along_its_way() {
-    // Atwood's machine without inertia of its pulleys: masses 3 and 1 on one rope over two places of the ground.
+    // Atwood machine with massless pulleys: masses of 3 and 1 on one rope over two points of the ground.
     let mut scene = Scene::new("Atwood");
     let mut hang = |name: &str, x: f64, mass: f64| {
         let bead = ParticleDefinition { name: name.to_owned(), position: at(x, -2.0) };
@@ -260,7 +260,7 @@ fn a_tendon_pulls_alike_along_its_way() {
     }
 }
 
-/// A nearly rigid bar on a torsion spring and damper at its hinge.
+/// Nearly rigid bar with a torsion spring and a damper at its hinge.
 fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
     let mut scene = Scene::new("door");
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
@@ -289,7 +289,7 @@ fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
 
 #[test]
 fn a_bar_on_a_torsion_spring_swings_with_its_frequency_far_beyond_a_turn() {
-    // At ease a turn and a half away: the angle is that of a linear oscillator all the same. The bar's own inertia is m L²/3 + rho_I.
+    // The unstrained angle is one and a half turns away, and the motion is still that of a linear oscillator. The inertia of the bar is m L²/3 + rho_I.
     let (k, goal) = (4.0, 1.5 * TAU);
     let inertia = 1.0 / 3.0 + 1e-6;
     let end = 1.3;

@@ -1,4 +1,4 @@
-//! Steps that keep a tolerance where springs are struck, and in scenes far from the origin: against closed forms.
+//! Adaptive steps in impacts on springs and in scenes far from the origin, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;
@@ -28,7 +28,7 @@ fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: SpringLaw) {
     scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
 }
 
-/// A mass that falls through a height onto a bumper of a stiffness, whose face is at y = 1.
+/// Mass that falls from a height onto a linear bumper with its face at y = 1.
 fn drop(stiffness: f64, height: f64) -> Scene {
     let mut scene = Scene::new("drop");
     let mass = particle(&mut scene, at(0.0, 1.0 + height), MASS);
@@ -40,7 +40,7 @@ fn drop(stiffness: f64, height: f64) -> Scene {
     scene
 }
 
-/// Where that is at a time: free fall, and a part of a vibration about where the bumper carries the weight.
+/// Height of the mass at a time: free fall, and a harmonic motion about the static deflection during contact.
 fn height_of_drop(stiffness: f64, height: f64, time: f64) -> f64 {
     let omega = (stiffness / MASS).sqrt();
     let (fall, sag) = ((2.0 * height / GRAVITY).sqrt(), GRAVITY / (omega * omega));
@@ -58,7 +58,7 @@ fn height_of_drop(stiffness: f64, height: f64, time: f64) -> f64 {
     }
 }
 
-/// Half the time of a touch: until `q' = 0` of `q = s cos ωt - v/ω sin ωt`.
+/// Half the duration of a contact, from `q' = 0` of `q = s cos ωt - v/ω sin ωt`.
 fn touched(sag: f64, speed: f64, omega: f64) -> f64 {
     (0.25 * TAU + (sag * omega / speed).atan()) / omega
 }
@@ -102,7 +102,7 @@ fn every_method_meets_a_stiff_bumper_in_time() {
                 "{:18} {stiffness:e}: {error:.1e}, {} steps, {} rejected",
                 entry.name, counts.steps, counts.rejected
             );
-            // A method that takes forces at the ends of steps needs to see the blow: where it does not, that is told.
+            // A method with forces at the ends of steps may miss the impact. A warning reports this.
             let is_told = run.warnings().iter().any(|note| matches!(note, Warning::Contact { .. }));
             assert!(error < 6e-3 || is_told, "{}: {error:e}", entry.name);
             assert!(error < 2e-4 || entry.method != Method::EnergyMomentum, "{error:e}");
@@ -126,7 +126,7 @@ fn a_rope_that_is_jerked_taut_throws_back() {
     }
 }
 
-/// A mass on a spring, 0.2 beyond its ease at a place.
+/// Mass on a spring that is elongated by 0.2, anchored at a given position.
 fn oscillator(place: Vec2) -> Scene {
     let mut scene = Scene::new("oscillator");
     let mass = particle(&mut scene, place + at(1.2, 0.0), 1.0);
@@ -175,7 +175,7 @@ fn a_lone_particle_has_no_place_that_counts() {
 
 #[test]
 fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
-    // A mass on a spring that is drawn where it is anchored, but for the last digit.
+    // Mass on a spring whose initial length is a rounding error.
     let mut scene = Scene::new("rounded");
     let mass = particle(&mut scene, at(0.1 + 0.2, 0.0), 1.0);
     let law = SpringLaw::Linear { stiffness: 25.0, natural: 0.0 };
@@ -184,7 +184,7 @@ fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
     scene.gravity = at(0.0, -1.0);
     let steps = simulate(scene, Method::EnergyMomentum, adaptive(1e-3), 1.0).counts().steps;
     assert!(steps < 500, "{steps}");
-    // A mass that hardly moves when it is let go.
+    // Mass with a very small start velocity.
     let mut scene = Scene::new("let go");
     let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
     let velocity = at(1e-9, 0.0);
@@ -213,7 +213,7 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
         let run = simulate(scene, method, dt, 20.0 * dt);
         run.warnings().iter().any(|note| matches!(note, Warning::EnergyGain { .. }))
     };
-    // The pole of its part that leads back lies at λΔt = 3.557; beside it motion decays too slowly.
+    // The backward substep has a pole at λΔt = 3.557. Near it, the motion decays too slowly.
     for dt in [0.32, 0.35, 0.3545, 0.3555, 0.3557, 0.356, 0.37] {
         assert!(slowed(Method::FourthOrder, dt), "{dt}");
     }
@@ -224,7 +224,7 @@ fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
     assert!(!slowed(Method::GeneralizedAlpha { rho_infinity: 0.5 }, 0.3557));
 }
 
-/// A rigid body at rest on two inclined rollers, at a height.
+/// Rigid body at rest on two inclined rollers, at a given height.
 fn resting(height: f64, directions: [f64; 2]) -> Scene {
     let mut scene = Scene::new("rest");
     let body = RigidBodyDefinition {

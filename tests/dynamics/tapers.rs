@@ -1,4 +1,4 @@
-//! Beams whose section varies, in motion.
+//! Dynamics of beams with varying sections.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, meshes, scenes, simulate};
@@ -49,7 +49,7 @@ fn a_taper_between_equal_sections_is_a_uniform_beam() {
 
 #[test]
 fn momenta_at_the_start_are_integrals_of_the_taper() {
-    // ρA = ρ (2 - s), ρI = ρ_I (2 - s)² linear between places: s from 0 to 1 in one piece is linear in numbers.
+    // ρA = ρ (2 - s) and ρI = ρ_I (2 - s)². Section numbers are interpolated linearly, here on one interval with s from 0 to 1.
     let variation = SectionVariation::Numbers(vec![(0.0, section(2.0)), (1.0, section(1.0))]);
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
     let mut model = System::assemble(&thrown(&mesh, variation.clone())).unwrap();
@@ -57,7 +57,7 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
     let mass = 1.5 * length * rod.mass_per_length;
     assert!((model.total_mass() / mass - 1.0).abs() < 1e-13);
     let measured = model.measure();
-    // The centre: ∫ s (2 - s) ds / 1.5 = (2/3)/1.5 of the length from the start.
+    // Centre of mass: ∫ s (2 - s) ds / 1.5 = (2/3)/1.5 of the length from the start.
     let centre = at(3.0, 1.0) * (2.0 / 3.0 / 1.5);
     let spin_of_centre = at(-2.0 * centre.y, 2.0 * centre.x);
     let momentum = (at(1.0, -2.0) + spin_of_centre) * mass;
@@ -66,7 +66,7 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
         "{}",
         measured.momentum
     );
-    // About its start: ∫ s² (2 - s) ds L³ ρA + ∫ (4 - 3 s) ds L ρI, as (2 - s)² is 4 at one end and 1 at the other.
+    // Moment of inertia about the start: ∫ s² (2 - s) ds L³ ρA + ∫ (4 - 3 s) ds L ρI, as (2 - s)² is 4 at one end and 1 at the other.
     let inertia = (2.0 / 3.0 - 0.25) * length.powi(3) * rod.mass_per_length
         + 2.5 * length * rod.rotary_inertia;
     let about_start = mass * (centre.x * -2.0 - centre.y) + 2.0 * inertia;

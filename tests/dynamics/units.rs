@@ -1,4 +1,4 @@
-//! The unit decides nothing: a scene in other units of length, mass and time takes the same steps to the same end.
+//! Independence of units: a scene in other units of length, mass and time takes the same steps and has the same final state.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::{add_beam, line, start_of};
@@ -14,11 +14,11 @@ use withy::system::{
     RigidBodyDefinition, Scene, Spring, SpringKind, SpringLaw, StartMotion, StationVelocity,
 };
 
-/// Step of all runs in the first units, and number of random scenes.
+/// Step of all runs in the first system of units, and number of random scenes.
 const DT: f64 = 0.01;
 const SEEDS: u64 = 44;
 
-/// Numbers by which lengths, masses and times are multiplied.
+/// Factors of lengths, masses and times.
 #[derive(Debug, Clone, Copy)]
 struct Units {
     length: f64,
@@ -174,11 +174,11 @@ impl Units {
     }
 }
 
-/// A run in some units: work, events and end, scaled back.
+/// Results of a run in a system of units: work counts, events and final state, scaled back.
 #[derive(Debug, PartialEq)]
 struct Outcome {
     has_failed: bool,
-    /// Steps, iterations, retries, tries to find arrivals.
+    /// Steps, iterations, retries, and attempts to locate arrivals.
     counts: [usize; 4],
     arrivals: Vec<(f64, String)>,
     end: Vec<f64>,
@@ -206,7 +206,7 @@ impl Outcome {
         }
     }
 
-    /// Largest difference of the ends, relative to the place farthest from the origin.
+    /// Largest difference of the final positions, relative to the largest coordinate.
     fn off(&self, other: &Self) -> f64 {
         let size = self.end.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         let pairs = self.end.iter().zip(&other.end);
@@ -214,7 +214,7 @@ impl Outcome {
     }
 }
 
-/// A bead that glides along a straight unloaded beam, and another one if wanted, and bounces at its ends.
+/// Beads that slide along a straight unloaded beam and bounce at its ends.
 fn gliding(is_held: bool, damping: f64, beads: &[(f64, f64)]) -> Scene {
     let mut scene =
         Scene::new(format!("{} beads, held: {is_held}, damping {damping}", beads.len()));
@@ -284,7 +284,7 @@ fn beads_glide_in_any_unit() {
     }
 }
 
-/// The wild scene of a seed, with what else has a unit: damped materials, springs and dampers to the ground, rigid bodies.
+/// Random scene of a seed with further dimensional parameters: damped materials, springs and dampers to the ground, and rigid bodies.
 fn random(seed: u64) -> (Scene, Method) {
     let (mut scene, method) = wild_scenes::scene(seed);
     let mut random = Random(seed + 1000);

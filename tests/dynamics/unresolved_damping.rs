@@ -1,4 +1,4 @@
-//! Damped materials that relax long before a step is over: what their sections transmit, beside a rod that is as good as rigid.
+//! Damped materials whose relaxation time is not resolved by the steps: section forces compared with those of a rigid rod.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, run, scenes, simulate};
@@ -13,7 +13,7 @@ const GRAVITY: f64 = 9.81;
 const MASS: f64 = 2.0;
 const LENGTH: f64 = 1.5;
 
-/// A rod hinged at its start, let go from the horizontal, with relaxation times of a second; beside it, if wanted, something heavy that flies.
+/// Hinged rod, released from the horizontal, with relaxation times of 1. Optionally, a heavy free beam moves beside it.
 fn rod(beside: bool) -> Scene {
     let mut scene = Scene::new("rod");
     scene.gravity = Vec2::new(0.0, -GRAVITY);
@@ -39,8 +39,8 @@ fn rod(beside: bool) -> Scene {
     scene
 }
 
-/// Axial force, shear force and moment of a rigid rod that was let go from the horizontal, at an arc length, where it has turned down by an angle:
-/// `θ̈ = 3g/(2L) cos θ`, `θ̇² = 3g/L sin θ`, and what lies beyond moves with the rod.
+/// Axial force, shear force and moment at an arc length of a rigid rod that is released from the horizontal, at a rotation `angle`: `θ̈ = 3g/(2L) cos θ` and
+/// `θ̇² = 3g/L sin θ`. They balance the part beyond the section.
 fn of_a_rigid_rod(angle: f64, s: f64) -> [f64; 3] {
     let (sine, cosine) = angle.sin_cos();
     let (along, line) = (LENGTH - s, MASS / LENGTH);
@@ -53,7 +53,7 @@ fn of_a_rigid_rod(angle: f64, s: f64) -> [f64; 3] {
     [axial, shear, moment]
 }
 
-/// How far section forces are from those of a rigid rod, as parts of weight and of weight times length, at the worst place of the present moment.
+/// Largest present deviation of the section forces from those of a rigid rod, relative to the weight (moments: weight times length).
 fn off(simulation: &Simulation) -> f64 {
     let tip = *simulation.model().control_points().next().unwrap().last().unwrap();
     let angle = f64::atan2(-tip.y, tip.x);
@@ -85,7 +85,7 @@ fn a_rod_that_relaxes_within_a_step_transmits_what_a_rigid_one_does() {
     }
 }
 
-/// A clamped beam of a material with relaxation times of a second, whose end is struck, alone or beside something heavy that flies.
+/// Clamped beam of a material with relaxation times of 1 and an initial tip velocity, optionally beside a heavy free beam.
 fn struck(beside: bool) -> Scene {
     let mut scene = rod(beside);
     scene.name = "struck".to_owned();
@@ -112,11 +112,11 @@ fn a_beam_is_told_whose_own_motion_is_not_followed_whatever_moves_beside_it() {
     };
     println!("{}", beside[0]);
     assert_eq!(beam, "beam1");
-    // It is the same motion, measured in the same way.
+    // Both warnings measure the same motion in the same way.
     assert!((share - of_all).abs() < 1e-6 && *dt == 0.01, "{share} {of_all}");
     let period = *period;
-    // τ ω² h is large where ω h is small: the rate of the highest modes is far above any step's.
+    // τ ω² h is large although ω h is small: the highest modes decay much faster than any step resolves.
     assert!(period < 0.01, "{period}");
-    // What nobody strikes is followed.
+    // The steps resolve the motion without the initial tip velocity.
     assert_eq!(simulate(rod(true), Method::EnergyMomentum, 0.01, 0.3).warnings(), []);
 }

@@ -1,4 +1,4 @@
-//! A feature that is not used costs nothing: the same matrix, the same work, the same numbers, to the last bit.
+//! Unused features have no cost: equal matrices, work counts and results, bit for bit.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{scenes, settings, simulate};
@@ -21,7 +21,7 @@ fn spinning() -> Scene {
     scene
 }
 
-/// What the matrix of a step looks like, what is recorded, and the work: all that costs.
+/// Size and bandwidth of the matrix, recorded data, and work counts.
 fn shape(simulation: &Simulation) -> ([usize; 5], [usize; 4]) {
     let counts = simulation.counts();
     let matrix = [

@@ -1,4 +1,4 @@
-//! The work of named benchmarks, pinned: a change of it must be meant.
+//! Pinned work counts of named benchmarks. Every change must be intended.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::sliding::{Support, free_sliding_mass, smoothly_pushed_mass};
@@ -70,7 +70,7 @@ fn benchmarks() -> Vec<(&'static str, Scene, Method, f64)> {
     ]
 }
 
-/// Scenes with sliders, and the times at which they end.
+/// Scenes with sliders, with their method, step size and end time.
 fn sliding_benchmarks() -> Vec<(&'static str, Scene, Method, f64, f64)> {
     use Method::{EnergyDecaying, EnergyMomentum, FourthOrder, GeneralizedAlpha, Trapezoidal};
     use SlidingRule::{Conserving, Exact};

@@ -1,7 +1,7 @@
-//! 100 000 inputs through parser, bindings, editor and prompt: no panic, no mistake of ours, no hang, every error can be shown.
+//! 100 000 inputs to parser, bindings, editor and prompt: no panic, no internal error, no hang, and every error can be displayed.
 //!
-//! They all run where `WITHY_LONG` is set, as in `.ci/run`, and the first tenth of them elsewhere. A failure names its seed. `WITHY_SEED=n`
-//! runs that one alone and shows the input; `WITHY_SEEDS=n` runs the first n.
+//! All inputs run if `WITHY_LONG` is set, as in `.ci/run`, otherwise the first tenth of them. A failure names its seed. `WITHY_SEED=n` runs a single seed and
+//! shows its input; `WITHY_SEEDS=n` runs the first n seeds.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../common/mod.rs"]
@@ -36,14 +36,14 @@ use withy::script::state::limits::Limits;
 use withy::script::state::settings::{RunMode, RunSettings};
 
 const SEEDS: u64 = 100_000;
-/// So many are run while somebody waits.
+/// Number of inputs in a short run.
 const SEEDS_IN_SHORT: u64 = 10_000;
-/// An engine serves so many inputs.
+/// Number of inputs for each engine.
 const BATCH: u64 = 200;
 const WORKERS: usize = 2;
 const TIME: Duration = Duration::from_millis(200);
-/// Longer than this is a hang: the limit of time, and patience with a loaded machine. An assembly asks between beams whether it may go on, and a beam
-/// of 400 000 spans takes some seconds.
+/// Time after which an input is considered to hang: the time limit plus a margin for a loaded machine. The assembly checks for interrupts only between beams,
+/// and a beam of 400 000 spans takes some seconds.
 const HANG: Duration = Duration::from_secs(90);
 const LIMITS: Limits = Limits {
     time: Some(TIME),
@@ -54,7 +54,7 @@ const LIMITS: Limits = Limits {
     files: None,
 };
 
-/// What a worker is at, for the one who watches for hangs.
+/// Input that a worker currently runs, for the detection of hangs.
 type Present = Mutex<Option<(u64, Instant)>>;
 
 #[derive(Default)]
@@ -99,7 +99,7 @@ fn no_input_breaks_the_language() {
             thread::sleep(Duration::from_millis(200));
             for (seed, since) in present.iter().filter_map(|present| *present.lock().unwrap()) {
                 if since.elapsed() > HANG {
-                    // Not by a macro, whose words the harness keeps to itself, and the process ends here.
+                    // A macro would write to the captured output of the harness, which is lost when the process exits here.
                     let told = format!("seed {seed} hangs:\n{}\n", corpus.input(seed));
                     std::io::stderr().write_all(told.as_bytes()).unwrap();
                     // A thread that hangs cannot be joined.
@@ -177,15 +177,15 @@ fn run_batch(
     }
 }
 
-/// A session that every fourth input goes through too, and an editor that all of them are typed into.
+/// Session that runs every fourth input, and editor that receives every input.
 struct Prompt {
     shell: Shell,
     told: Notepad,
-    /// Of the session as it was before it was last reset.
+    /// Names of the session before its last reset.
     vocabulary: SessionNames,
 }
 
-/// What is written before some of the inputs; `:save` and `:load` would leave the folder.
+/// Prefixes of some inputs. `:save` and `:load` are left out because they access files outside the folder.
 const COMMANDS: [&str; 10] =
     [":watch ", ":time ", ":plot ", ":show ", ":help ", "?", ":step ", ":run ", ":back ", ":"];
 
@@ -252,7 +252,7 @@ fn judge(program: &Program, host: &ScriptEngine) -> Result<Ran, String> {
                 engine.run_ast(&ast)
             },
         );
-        // Letting go of what the input has made may take time and memory as well.
+        // Freeing the results of the input may also take time and memory.
         host.context().report();
         ran
     });

@@ -12,13 +12,13 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// A fenced block, and the line of its document that it begins at.
+/// Fenced block and the line of its document where it starts.
 struct Block {
     line: usize,
     text: String,
 }
 
-/// The fenced blocks of a language.
+/// Fenced blocks of a language.
 fn blocks(text: &str, language: &str) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut current: Option<Block> = None;
@@ -84,7 +84,7 @@ fn the_readme_shows_what_its_script_prints() {
     assert_eq!(printed.take().trim_end(), shown.text.trim_end());
 }
 
-/// Where a document shows a picture that one of its blocks draws, that picture is kept when asked for, and must be there.
+/// Pictures in a document that its blocks draw must exist. They are written on request.
 fn keep_pictures(document: &Path, drawn: &Path) {
     let text = std::fs::read_to_string(document).unwrap();
     for picture in std::fs::read_dir(drawn).unwrap().map(|entry| entry.unwrap().path()) {
@@ -103,7 +103,7 @@ fn keep_pictures(document: &Path, drawn: &Path) {
     }
 }
 
-/// Inputs of a session in a document, each with what it says.
+/// Inputs of a session in a document, each with its output.
 fn session(block: &Block) -> Vec<(String, Vec<String>)> {
     let mut inputs: Vec<(String, Vec<String>)> = Vec::new();
     for line in block.text.lines() {
@@ -115,7 +115,7 @@ fn session(block: &Block) -> Vec<(String, Vec<String>)> {
     inputs
 }
 
-/// Whether two words are the same, or numbers that are but for rounding.
+/// Returns true if two words are equal, or are numbers that differ by rounding.
 fn is_same(written: &str, said: &str) -> bool {
     let number = |word: &str| word.trim_matches(|c| "(),".contains(c)).parse::<f64>();
     match (number(written), number(said)) {
@@ -138,7 +138,7 @@ fn the_sessions_of_the_documents_say_what_is_written() {
             let folder = tempfile::tempdir().unwrap();
             let said = said_by_a_session(folder.path(), &piped);
             for ((input, written), said) in inputs.iter().zip(said.split("§\n")) {
-                // Pictures are drawn at a terminal; a pipe gets a line.
+                // `:plot` and `:show` draw pictures at a terminal, but print a line into a pipe.
                 if input.starts_with(":plot") || input.starts_with(":show") {
                     continue;
                 }
@@ -187,7 +187,7 @@ fn the_pages_of_the_library_are_up_to_date() {
     expect_written("docs/standard_library.md", &withy::script::library::document());
 }
 
-/// Compares a document that is made with what is written, or writes it when asked to.
+/// Compares a generated document with the file, or writes the file on request.
 fn expect_written(document: &str, current: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
     if std::env::var_os("WITHY_UPDATE").is_some() {

@@ -1,4 +1,4 @@
-//! Figures of the README and of docs/studies.md can be made again: the command stands beside them, and what it runs is there.
+//! Figures of the README and of docs/studies.md are reproducible: each has a command whose script exists.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,14 +14,14 @@ fn text(name: &str) -> String {
     std::fs::read_to_string(path(name)).unwrap()
 }
 
-/// What stands in a document: a heading, the commands of a block for the shell, or a table that begins at a line.
+/// Piece of a document: a heading, the commands of a shell block, or a table with its first line.
 enum Piece {
     Heading,
     Commands(Vec<String>),
     Table(usize),
 }
 
-/// The pieces of a document in their order, tables with their lines. A table is one of Markdown with figures in it, or a block of text.
+/// Pieces of a document in order, with the lines of tables. A table is a Markdown table with numbers, or a text block.
 fn pieces(document: &str) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut fence: Option<(String, usize, Vec<String>)> = None;
@@ -50,7 +50,7 @@ fn pieces(document: &str) -> Vec<Piece> {
     pieces
 }
 
-/// What is wrong with a command, if anything: what it runs is not there.
+/// Error of a command whose file does not exist or that this test does not know.
 fn fault(command: &str) -> Option<String> {
     let words: Vec<&str> = command.split_whitespace().collect();
     let missing = |name: &str| (!path(name).is_file()).then(|| format!("{command}: no {name}"));

@@ -16,7 +16,7 @@ const CHAIN: &[&[&str]] = &[
     &["system"],
 ];
 
-/// Below the model, and beside the chain: each layer with those it may use.
+/// Layers below the model and beside the chain, each with the layers that it may use.
 const BRANCHES: &[(&str, &[&str])] = &[
     ("joints", &["beams", "geometry", "elementary"]),
     ("loads", &["beams", "geometry", "elementary"]),
@@ -33,13 +33,13 @@ const BRANCHES: &[(&str, &[&str])] = &[
     ("panics", &[]),
 ];
 
-/// What a layer may use; none if it is in no table.
+/// Layers that a layer may use, or `None` for a layer that is in no table.
 fn allowed(layer: &str) -> Option<Vec<&'static str>> {
     match layer {
         "main.rs" => return Some(vec!["cli"]),
-        // That of the language hands the layers of the mechanics on.
+        // The root of the script crate re-exports the layers of the mechanics crate.
         "lib.rs" => return allowed("analysis"),
-        // It draws plain data.
+        // The output layer draws plain data.
         "output" => return Some(vec!["elementary", "sandbox_fs"]),
         _ => {}
     }
@@ -72,12 +72,12 @@ pub fn sources() -> Vec<(PathBuf, String)> {
     files
 }
 
-/// The folders that the layers of each crate stand in: those of the mechanics, and all others.
+/// Source folders of the crates: mechanics, and everything else.
 pub fn crates() -> [PathBuf; 2] {
     ["src/mechanics", "src"].map(|root| Path::new(env!("CARGO_MANIFEST_DIR")).join(root))
 }
 
-/// The path of a file of `src` from the folder on that the layers of its crate stand in.
+/// Path of a source file relative to the source folder of its crate.
 pub fn in_crate(path: &Path) -> &Path {
     crates().iter().find_map(|root| path.strip_prefix(root).ok()).unwrap()
 }
@@ -87,7 +87,7 @@ pub fn layer(path: &Path) -> String {
     first.as_os_str().to_string_lossy().into_owned()
 }
 
-/// The names after a path in the code of a file, those in braces one by one, with the line of each; comments are no code.
+/// Names after a path in the code of a file, with their lines. Names in braces are listed one by one, and comments are skipped.
 pub fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices(path) {
@@ -102,7 +102,7 @@ pub fn named_after(text: &str, path: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// The first name of what is written behind a path, or those of each part of a list in braces, which may hold further lists.
+/// First name after a path, or the first names of all entries of a list in braces, which may be nested.
 fn first_names(rest: &str) -> Vec<String> {
     let word = |text: &str| {
         let name = text.trim().split(|c: char| !c.is_alphanumeric() && c != '_').next();
@@ -125,7 +125,7 @@ fn first_names(rest: &str) -> Vec<String> {
     names
 }
 
-/// The text of a file without its unit tests.
+/// Text of a file without its unit tests.
 pub fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
     match path.file_stem().is_some_and(|name| name == "tests") {
         true => "",
@@ -133,31 +133,31 @@ pub fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
     }
 }
 
-/// How the code of a file names the module of a folder of its crate that it lies in without its path: one `super::` for each level below; none at its root.
+/// Relative path from a file to the module of a root folder of its crate: one `super::` for each level, or `None` at the root.
 fn upwards(path: &Path, root: &str) -> Option<String> {
     let depth = in_crate(path).strip_prefix(root).ok()?.components().count()
         - usize::from(path.ends_with("mod.rs"));
     (depth > 0).then(|| "super::".repeat(depth))
 }
 
-/// Walls between parts of the code.
+/// Boundaries between parts of the code.
 pub struct Walls<'w> {
-    /// What one part is, in words.
+    /// Word for a part in messages.
     pub part: &'static str,
-    /// The folder of its crate that the parts are in.
+    /// Folder of the crate with the parts.
     pub root: &'static str,
-    /// The part that a file stands in; none for files that are in no part.
+    /// Part of a file, or `None` for files outside all parts.
     pub of_file: &'w dyn Fn(&Path) -> Option<String>,
-    /// The paths that names of parts stand behind.
+    /// Paths that precede names of parts.
     pub paths: &'static [&'static str],
-    /// The part that a name stands for.
+    /// Part that a name refers to.
     pub of_name: &'w dyn Fn(&str) -> String,
-    /// Whether a part may use another; none for a part that is in no table.
+    /// Returns true if a part may use another one, or `None` for a part that is in no table.
     pub may_use: &'w dyn Fn(&str, &str) -> Option<bool>,
 }
 
 impl Walls<'_> {
-    /// Uses that are not allowed, as `file:line: part uses part`.
+    /// Forbidden uses, as `file:line: part uses part`.
     pub fn breaches(&self, files: &[(PathBuf, String)]) -> Vec<String> {
         let mut found = Vec::new();
         for (path, text) in files {
@@ -166,7 +166,7 @@ impl Walls<'_> {
                 found.push(format!("{}: no {} '{own}' in the table", path.display(), self.part));
                 continue;
             }
-            // Unit tests stand a module deeper.
+            // Unit tests are one module level deeper.
             let code = without_tests(path, text);
             let upwards = upwards(path, self.root);
             let named = self.paths.iter().flat_map(|of| named_after(text, of));
@@ -201,7 +201,7 @@ fn layers_use_only_those_to_their_right() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// The rooms of the model: each with those it may use.
+/// Submodules of the model, each with the submodules that it may use.
 const ROOMS: &[(&str, &[&str])] = &[
     (
         "queries",
@@ -233,14 +233,14 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("errors", &[]),
 ];
 
-/// The room of a file of the model, by its folder or, for the file beside a folder, its name.
+/// Submodule of a file of the model, from its folder or, for the file beside a folder, from its name.
 fn room(path: &Path) -> Option<String> {
     let first = in_crate(path).strip_prefix("system").ok()?.components().next()?;
     let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();
     (name != "mod").then_some(name)
 }
 
-/// Uses of one room by another that the table does not allow; `exports` are the rooms of names that the model hands on.
+/// Uses between submodules that the table does not allow. `exports` are the submodules of names that the model re-exports.
 fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<String> {
     let of_name = |name: &str| {
         let of = exports.iter().find(|(export, _)| export == name);
@@ -255,7 +255,7 @@ fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<S
     Walls { part: "room", root: "system", of_file: &room, paths, of_name, may_use }.breaches(files)
 }
 
-/// What `model/mod.rs` hands on: names with their rooms.
+/// Names that `model/mod.rs` re-exports, with their submodules.
 fn exports(text: &str) -> Vec<(String, String)> {
     let of_room = |(room, _): &(&str, &[&str])| {
         let names = named_after(text, &format!("pub use {room}::"));
@@ -336,7 +336,7 @@ fn names_in_lists_of_lists_are_found() {
     assert_eq!(named_after(text, "crate::"), [(1, "system".to_owned()), (1, "beams".to_owned())]);
 }
 
-/// What joints and loads name of beams besides their stations.
+/// Names of beams, other than stations, that joints and loads use.
 fn intrusions(files: &[(PathBuf, String)]) -> Vec<String> {
     let of_beams = |path: &Path, text: &str| -> Vec<(usize, String)> {
         let upwards = upwards(path, "").into_iter().map(|up| format!("{up}beams::"));
@@ -345,7 +345,7 @@ fn intrusions(files: &[(PathBuf, String)]) -> Vec<String> {
     };
     let own = files.iter().filter(|(path, _)| ["joints", "loads"].contains(&&*layer(path)));
     let named = own.flat_map(|(path, text)| {
-        // A list of layers would hide what is named of them.
+        // A list of layers would hide the names that are used from beams.
         let lists = named_after(text, "crate::{").into_iter().filter(|(_, name)| name == "beams");
         let names = of_beams(path, text).into_iter().filter(|(_, name)| name != "Station");
         names.chain(lists).map(|(line, name)| format!("{}:{line}: {name}", path.display()))

@@ -1,4 +1,4 @@
-//! The house itself: walls between layers, and documents that are true.
+//! Consistency of the repository: boundaries between layers, and documents that match the code.
 
 #[path = "../common/mod.rs"]
 mod common;

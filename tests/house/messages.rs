@@ -1,22 +1,22 @@
-//! Layers below the script know no script: what they say is the same for a program that uses the library. What to write in the language
-//! is advised by `script/words/advice.rs`.
+//! Messages of layers below the script do not depend on the script language, so that they are valid for programs that use the library.
+//! `script/words/advice.rs` adds advice on the language.
 
 use crate::layering::{layer, sources};
 
-/// The layers that may speak the language.
+/// Layers whose messages may use the script language.
 const SPEAKERS: [&str; 7] =
     ["script", "repl", "exercises", "cli", "main.rs", "lib.rs", "elementary"];
 
-/// Beginnings of members that scripts call: `scene.beam`, `sim.step`, `beam.end`.
+/// Prefixes of members that scripts call: `scene.beam`, `sim.step`, `beam.end`.
 const OBJECTS: [&str; 4] = ["scene.", "sim.", "beam.", "call."];
 
-/// Signs of the language: maps, closures, calls with their arguments left out, options with a text.
+/// Marks of the script language: maps, closures, calls with omitted arguments, options with a string.
 const SIGNS: [&str; 5] = ["#{", "|t|", "(…)", "[[", ": \\\""];
 
-/// How schedules show themselves, in scripts and in what a scene explains: by the names of what makes them.
+/// Schedules are displayed, in scripts and in explanations of scenes, as calls of their constructors.
 const SHOWN: (&str, &str) = ("loads/schedule.rs", "schedule(|t| …)");
 
-/// The texts of a file, without comments and unit tests, with the line that each begins at.
+/// String literals of a file, without comments and unit tests, with the line where each starts.
 fn texts(code: &str) -> Vec<(usize, String)> {
     let code = code.split("#[cfg(test)]").next().unwrap_or_default();
     let mut found = Vec::new();
@@ -29,7 +29,7 @@ fn texts(code: &str) -> Vec<(usize, String)> {
                 behind
             }
             "/" if behind.starts_with('/') => &behind[behind.find('\n').unwrap_or(behind.len())..],
-            // A character, and not the beginning of a lifetime.
+            // Character literal, not a lifetime.
             "'" if behind.chars().nth(1) == Some('\'') => {
                 &behind[behind.char_indices().nth(2).map_or(behind.len(), |(at, _)| at)..]
             }
@@ -52,9 +52,9 @@ fn texts(code: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// Whether a text is written in the language, or names something of it.
+/// Returns true if a text is in the script language or names a member of it.
 fn speaks(text: &str) -> bool {
-    // As `format!` writes a brace.
+    // `format!` doubles braces.
     let text = text.replace("{{", "{");
     let names_a_member = |object: &&str| {
         text.match_indices(*object).any(|(at, _)| {

@@ -136,7 +136,7 @@ fn files_of_the_theory_are_there() {
                 let inside = word.split(['{', '}']).nth(1).unwrap();
                 inside.split(',').map(|name| format!("{before}{name}{after}")).collect()
             }
-            // A name without a folder is a file beside the previous one.
+            // A name without a folder is a file in the folder of the previous one.
             None if !word.contains('/') => vec![format!("{folder}/{word}")],
             None => vec![word.to_owned()],
         };

@@ -1,4 +1,4 @@
-//! The wings of the script: one way between them.
+//! Dependencies between the submodules of the script.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::layering::{Walls, sources, without_tests};
 
-/// From left to right: a wing may use those to its left.
+/// Submodules in order. A submodule may use those before it.
 const WINGS: &[&str] = &[
     "messages",
     "source",
@@ -27,13 +27,13 @@ fn script() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src/script")
 }
 
-/// The wing of a file of the script.
+/// Submodule of a file of the script.
 fn wing(path: &Path) -> Option<String> {
     let first = path.strip_prefix(script()).ok()?.components().next()?;
     first.as_os_str().to_str().filter(|name| *name != "mod.rs").map(str::to_owned)
 }
 
-/// Uses of a wing by one to its left.
+/// Uses of a submodule by an earlier one.
 fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
     let place = |name: &str| WINGS.iter().position(|wing| *wing == name);
     // Unit tests may use everything.

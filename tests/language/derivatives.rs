@@ -1,4 +1,4 @@
-//! What is told of derivatives by parameters beside errors.
+//! Notes on derivatives with respect to parameters.
 
 use crate::common::notepad::Notepad;
 use withy::script::engine::runner::{Ending, run};
@@ -6,7 +6,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Runs a script that must run; what it told.
+/// Runs a script, which must succeed, and returns its notes.
 fn told(text: &str) -> String {
     let told = Notepad::default();
     let settings =
@@ -35,7 +35,7 @@ let half = a / 2;
     assert_eq!(once.lines().count(), 1, "{once}");
     let inside = told(&format!("{scene}scene.move(bead, #{{ x: |t| floor(t / a) }});\n"));
     assert!(inside.contains("line 5, column 28: floor compares with 'a'"), "{inside}");
-    // What is decided by the parameter alone, or by the time alone, is decided the same beside.
+    // Conditions on the parameter alone or on the time alone are the same in the perturbed runs.
     let silent = told(&format!(
         "{scene}scene.force(bead, [0, 1], |t| if a > 0.3 {{ a * t }} else {{ 0 }});
 scene.force(bead, [0, 1], |t| if t < 0.3 {{ a }} else {{ half * t }});

@@ -1,5 +1,4 @@
-//! A domain of its own, as a later one will be written: a type with methods, properties and options, callbacks,
-//! errors with hints, files, interrupts and panics.
+//! Test domain, written like a later extension: a type with methods, properties and options, callbacks, errors with hints, files, interrupts and panics.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -21,7 +20,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// A mass on a spring, as a shared handle.
+/// Mass on a spring, as a shared handle.
 #[derive(Clone)]
 struct Spring(Rc<RefCell<State>>);
 
@@ -154,7 +153,7 @@ fn error(script: &str) -> Diagnostic {
     }
 }
 
-/// The column, the message and the hint.
+/// Column, message and hint of an error.
 fn said(script: &str) -> (usize, String, String) {
     let error = error(script);
     (error.location.map_or(0, |at| at.column), error.message, error.hint.unwrap_or_default())
@@ -298,7 +297,7 @@ fn signatures_show_what_may_be_left_out() {
     assert_eq!(signature("length").as_deref(), Some("spring.length"));
 }
 
-/// Something that ran.
+/// Reporter of a finished run.
 struct Work;
 
 impl Reporter for Work {

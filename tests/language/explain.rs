@@ -1,4 +1,4 @@
-//! What `explain` says about a scene is what its model does.
+//! Output of `explain`, compared with the assembled model.
 #![allow(clippy::unwrap_used)]
 
 use std::cell::Cell;
@@ -120,7 +120,7 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
     assert!(used(&parts, "unknowns").contains("5 contact unknowns, in the border of the matrix"));
     assert_eq!(model.unknowns(), 20);
     assert!(used(&parts, "supports").contains("1 clamp: 3 movements fixed"));
-    // The rotation of the particle is held too, but by no support.
+    // The rotation of the particle is also fixed, but not by a support.
     assert_eq!(model.degrees_of_freedom() - model.unknowns() - 5, 4);
     assert_eq!(used(&parts, "particles"), "1, without rotation");
     assert!(is_left_out(&parts, "point masses") && is_left_out(&parts, "loads"));

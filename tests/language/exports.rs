@@ -1,4 +1,4 @@
-//! Frames, arrays and tables for other programs, read by parsers of our own and compared with the solver.
+//! Exported frames, arrays and tables, read by independent parsers and compared with the solver.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 use withy::simulation::{NoMonitor, Simulation};
 
-/// A clamped beam that falls, a joint inside it, and a stone.
+/// Clamped beam that falls, with a joint inside it, and a particle.
 const SCENE: &str = "
 let s = section(#{ EA: 1e4, GA: 4e3, EI: 20, rho_A: 1, rho_I: 1e-3 });
 let scene = new_scene(\"fall\");
@@ -27,7 +27,7 @@ scene.particle([1, 5], 0.5, #{ name: \"stone\" });
 scene.gravity([0, -9.81]);
 ";
 
-/// Runs a script in a folder of its own; what it told.
+/// Runs a script in its own folder. Returns the folder and the messages.
 fn ran(text: &str) -> (TempDir, String) {
     let (folder, told) = (tempfile::tempdir().unwrap(), Notepad::default());
     let settings = RunSettings {
@@ -41,12 +41,12 @@ fn ran(text: &str) -> (TempDir, String) {
     (folder, told.take())
 }
 
-/// The value of an attribute of a tag.
+/// Value of an attribute of a tag.
 fn attribute<'t>(tag: &'t str, name: &str) -> &'t str {
     tag.split_once(&format!(" {name}=\"")).unwrap().1.split_once('"').unwrap().0
 }
 
-/// Bytes of base64, by the book.
+/// Decodes base64.
 fn decoded(letters: &str) -> Vec<u8> {
     let code = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',
@@ -69,7 +69,7 @@ fn decoded(letters: &str) -> Vec<u8> {
     bytes
 }
 
-/// A grid as it is read.
+/// Parsed grid.
 struct Grid {
     fields: HashMap<String, Vec<f64>>,
     offsets: Vec<i64>,
@@ -114,7 +114,7 @@ impl Grid {
     }
 }
 
-/// The frames of a collection: times and paths.
+/// Times and paths of the frames of a collection.
 fn frames(collection: &Path) -> Vec<(f64, std::path::PathBuf)> {
     let text = fs::read_to_string(collection).unwrap();
     let sets = text.split("<DataSet").skip(1);
@@ -139,12 +139,12 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
     let times: Vec<f64> = frames.iter().map(|frame| frame.0).collect();
     assert_eq!(times.len(), 6);
     let original = saved(folder.path(), "run.withy");
-    // The same scene from its start again, without the functions that write.
+    // Repeats the run without the export functions.
     let mut again = Simulation::start(original.scene().clone(), *original.settings()).unwrap();
     for (time, path) in frames {
         again.run_to(time, &mut NoMonitor).unwrap();
         let grid = Grid::read(&path);
-        // Lines between points, one body after another, then a dot.
+        // Cells: line segments, body by body, then a vertex.
         let (dot, lines) = grid.types.split_last().unwrap();
         assert!(*dot == 1 && lines.iter().all(|kind| *kind == 3));
         assert_eq!(grid.bodies.len(), grid.types.len());
@@ -167,7 +167,7 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
         let clamp = again.section_forces(&Station::on_beam(0, 0.0)).unwrap();
         let told = ["N", "Q", "M"].map(|name| grid.fields[name][0]);
         assert_eq!(told, [clamp.axial, clamp.shear, clamp.moment]);
-        // Section angles are taken from normals between strain points, those of the solver from steps: near, not equal.
+        // Exported section angles follow from normals between strain points, those of the solver from the steps. They agree approximately.
         let (start, end) = again.model().end_angles(0);
         assert!(
             (grid.fields["angle"][0] - start).abs() < 1e-2,
@@ -207,7 +207,7 @@ fn the_end_of_a_free_beam_transmits_nothing_and_whole_turns_are_counted() {
     assert_eq!(frames.len(), 201);
     let grids: Vec<Grid> = frames.iter().map(|(_, path)| Grid::read(path)).collect();
     let end = grids[0].fields["N"].len() - 1;
-    // It turns with ω = 20, and rings along its axis about N = ρA ω² L²/8 in the middle. Its ends are free.
+    // The beam rotates with ω = 20. The axial force in the middle oscillates about N = ρA ω² L²/8. The ends are free.
     let mean = |name: &str, point: usize| {
         grids.iter().map(|grid| grid.fields[name][point]).sum::<f64>() / grids.len() as f64
     };
@@ -228,7 +228,7 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
              write_vtk(sim, \"run.pvd\"{options});"
         )
     };
-    // The stone falls, so a scene of its own.
+    // A separate scene, because the particle would fall.
     let scene = "let scene = new_scene(\"rest\");
         let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });
         scene.clamp(rod.start); scene.gravity([0, -9.81]);";
@@ -252,7 +252,7 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
     assert!(!told.contains("note: the states"), "{told}");
 }
 
-/// The arrays of an archive that is not compressed: shapes as they are written, and numbers.
+/// Arrays of an uncompressed archive: shapes as text, and numbers.
 fn arrays(bytes: &[u8]) -> HashMap<String, (String, Vec<f64>)> {
     let mut arrays = HashMap::new();
     let mut at = 0;

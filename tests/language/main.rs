@@ -1,4 +1,4 @@
-//! The language, run in this process: what scripts say, and what sessions and exercises make of it.
+//! Tests of the language in this process: outputs of scripts, sessions and exercises.
 
 #[path = "../common/mod.rs"]
 mod common;

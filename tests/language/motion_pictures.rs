@@ -1,4 +1,4 @@
-//! What a picture of a motion shows.
+//! Contents of motion pictures.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -8,7 +8,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// How many knots a picture with such options marks on a beam that has run to t = 1.
+/// Number of knot markers in a picture with the given options, for a beam that has run to t = 1.
 fn knots(options: &str) -> usize {
     let out = tempfile::tempdir().unwrap();
     let script = format!(
@@ -27,7 +27,7 @@ plot_motion(sim, \"spin.svg\", #{{ {options} }});"
 
 #[test]
 fn the_last_snapshot_is_the_present_whether_or_not_the_others_meet_it() {
-    // 0, 0.3, 0.6, 0.9 and 1 are as many as 0, 0.25, 0.5, 0.75 and 1.
+    // The times 0, 0.3, 0.6, 0.9 and 1 are as many as 0, 0.25, 0.5, 0.75 and 1.
     assert_eq!(knots("every: 0.3"), knots("every: 0.25"));
     assert_eq!(knots("every: 0.3, to: 1"), knots("every: 0.25"));
     assert_eq!(knots("every: 0.3, from: 0.3, to: 0.8"), knots("every: 0.25, to: 0.5"));

@@ -1,7 +1,7 @@
-//! What newcomers type, and what must be said: the word that is wrong, and what is written instead.
+//! Typical mistakes of newcomers, with the expected message and hint.
 //!
-//! Rows of `tests/newcomer/*.txt`: what is typed, then `=> ` and a part of the message, then `-> ` and a part of the hint. What is typed
-//! may have several lines. Lines that begin with `== ` are headings.
+//! Each row of `tests/newcomer/*.txt` has the input, then `=> ` and a part of the message, then `-> ` and a part of the hint. An input may have several lines.
+//! Lines that begin with `== ` are headings.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -12,7 +12,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// A mistake, and what must be said about it.
+/// Mistake with its expected message and hint.
 #[derive(Default)]
 struct Row {
     typed: String,
@@ -38,7 +38,7 @@ fn rows(text: &str) -> Vec<Row> {
     rows
 }
 
-/// What is said about a script that must be wrong.
+/// Message and hint for a script that must fail.
 fn said(typed: &str) -> Result<(String, String), String> {
     let printed = Notepad::default();
     let settings =

@@ -1,4 +1,4 @@
-//! Values as the prompt shows them.
+//! Display of values at the prompt.
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
@@ -24,7 +24,7 @@ fn shown(script: &str) -> String {
     shown_at(WIDTH, script)
 }
 
-/// The scene of the examples, and a simulation of it that has run for a second.
+/// Displayed value of an expression of the example scene and its simulation, which has run for a second.
 fn of_scene(expression: &str) -> String {
     shown(&format!(
         "let scene = new_scene(\"example\");
@@ -115,7 +115,7 @@ fn values_that_hold_themselves_come_to_an_end() {
     assert_eq!(shown(&Dynamic::from(1_i64).into_shared()), "1");
     assert_eq!(shown(&Dynamic::UNIT.into_shared()), "");
     assert_eq!(shown(&map), "#{me: #{me: #{me: #{me: #{…}}}}}");
-    // Eight references to one array in each of twenty levels: nobody may walk them all.
+    // Twenty levels with eight references each to one array, too many to traverse completely.
     let mut wide = Dynamic::from(vec![Dynamic::from(1_i64)]);
     for _ in 0..20 {
         wide = Dynamic::from(vec![wide.into_shared(); 8]);
@@ -207,7 +207,7 @@ proptest! {
         let all = [Dynamic::from(array.clone()), Dynamic::from(map.clone()), Dynamic::from(vec![Dynamic::from(array), Dynamic::from(map)])];
         for value in all {
             let shown = present(&language(), &value, width);
-            // The count of an array that is elided stands behind its last line.
+            // The count of an abbreviated array follows its last line.
             prop_assert!(shown.lines().all(|line| line.chars().count() <= width + 5), "{}", shown);
         }
     }

@@ -1,4 +1,4 @@
-//! The commands of the prompt that look: what `:plot`, `:time` and `name?` say, and that they leave the session as it was.
+//! Inspection commands of the prompt: output of `:plot`, `:time` and `name?`, and their absence of side effects.
 #![allow(clippy::unwrap_used)]
 
 use std::cell::{Cell, RefCell};
@@ -16,7 +16,7 @@ use withy::repl::shell::{CommandOutcome, ReplyTarget, Shell};
 use withy::script::packages::language;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// A shell, and what it has printed and told.
+/// Shell with its output and its messages.
 struct Prompt {
     shell: Shell,
     printed: Notepad,
@@ -60,7 +60,7 @@ impl Prompt {
         prompt
     }
 
-    /// What is printed and what is told for an input that works.
+    /// Output and messages of an input that succeeds.
     fn ask_both(&mut self, input: &str) -> (String, String) {
         let outcome = self.shell.submit(input);
         let (printed, told) = (self.printed.take(), self.told.take());
@@ -72,7 +72,7 @@ impl Prompt {
         self.ask_both(input).0
     }
 
-    /// What is told for an input that does not work.
+    /// Messages of an input that fails.
     fn refusal(&mut self, input: &str) -> String {
         let outcome = self.shell.submit(input);
         assert_eq!(outcome, CommandOutcome::Failed, "{input}: {}", self.printed.take());
@@ -81,7 +81,7 @@ impl Prompt {
     }
 }
 
-/// A clock that is a millisecond later each time it is looked at: work is counted, not timed.
+/// Clock that advances by a millisecond at each query, so that the test counts work instead of time.
 struct Ticks {
     now: Cell<Duration>,
 }
@@ -115,7 +115,7 @@ fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
     assert!(reply.contains(&format!("now {:.5}", now)[..9]), "{reply} {now}");
     assert_eq!(told, "evaluated in all 11 states of simulation 'spin', t = 0 to 1\n");
     assert_eq!(prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`"), before);
-    // What was can still be gone back to, and goes on as it would have.
+    // Earlier states are still available.
     prompt.ask(":back 3");
     assert!(prompt.ask(":plot sim.steps").contains("now 7 (8 states)"));
 }
@@ -126,7 +126,7 @@ fn the_history_is_in_each_state_what_it_was() {
     prompt.ask(":step 4");
     let rows = prompt.ask(":plot sim.history.rows");
     assert!(rows.contains("1 at the start, minimum 1, maximum 5, now 5 (5 states)"), "{rows}");
-    // By another name, and by a function.
+    // Through another variable, and through a function.
     prompt.ask("let other = sim; fn tip() { latest_simulation().t }");
     for same in [
         "other.t",
@@ -153,7 +153,7 @@ fn a_vector_makes_two_curves_and_commas_separate_more() {
         names,
         ["energy", "sim.position(rod.end).x", "sim.position(rod.end).y", "2 * sim.t"]
     );
-    // Names of columns need no commas, as ever.
+    // Column names need no commas.
     assert_eq!(prompt.ask(":plot kinetic strain #{ y_log: true }").lines().count(), 2);
     let labelled =
         prompt.ask(":plot kinetic, 2 * sim.t, #{ labels: [\"one\", \"two\"], title: \"both\" }");
@@ -322,7 +322,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     kept.ask("sim.run_to(1.55);");
     assert_eq!(kept.ask(":plot sim.position(rod.end).x"), reply, "both ways see the same states");
 
-    // A function of a load that is another one now: not the same run, and that is told.
+    // A load function with another value gives another run, which a message reports.
     let mut changed = Prompt::with(0, ReplyTarget::Pipe);
     changed.ask(SPINNING);
     changed.ask("let f = 1; scene.force(rod.end, [1, 0], schedule(|t| f)); let sim = scene.start(#{ dt: 0.1 });");
@@ -362,7 +362,7 @@ fn an_interrupt_while_drawing_gives_the_simulation_back() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 5");
     let flag = prompt.interrupt.clone();
-    // Ctrl-C comes while an expression is evaluated, however long a busy machine takes to begin.
+    // Interrupts during the evaluation of an expression, with repeated signals for slow machines.
     let is_over = Arc::new(AtomicBool::new(false));
     let over = Arc::clone(&is_over);
     let setter = std::thread::spawn(move || {
@@ -384,7 +384,7 @@ fn a_pure_input_is_timed_until_the_figure_is_known() {
     let mut prompt = Prompt::new();
     prompt.ask("let x = 1;");
     let (reply, told) = prompt.ask_both(":time { x += 1; x }");
-    // The value, the first time, and the rest; each look at the clock takes a millisecond.
+    // The value, the first run, and the other runs. Each query of the clock takes a millisecond.
     let expected = "2\nfirst run 1.00 ms\n67 runs more: minimum 1.00 ms, median 1.00 ms, middle half 1.00 ms to 1.00 ms\n";
     assert_eq!((&*reply, &*told), (expected, ""));
     assert_eq!(prompt.ask("x"), "2\n", "done again from the same variables, and taken back");
@@ -428,7 +428,7 @@ fn a_run_of_its_own_is_timed_again_and_the_last_simulation_stays() {
     let mut prompt = Prompt::spinning();
     let reply = prompt.ask(":time { let own = scene.start(#{ dt: 0.1 }); own.step(3); own.t }");
     assert!(reply.starts_with("0.3\n") && reply.contains("more: minimum"), "{reply}");
-    // What no variable holds is out of reach, and commands act on what was the last one before.
+    // A simulation without a variable is unreachable, so commands use the previous simulation.
     assert_eq!(prompt.ask("latest_simulation().t"), "0\n");
     assert_eq!(prompt.ask("sim.steps"), "0\n");
 }
@@ -514,7 +514,7 @@ fn names_of_the_session_are_explained_with_their_values() {
             assert!(reply.contains(part), "{question}: {part}\n{reply}");
         }
     }
-    // A variable hides nothing that the language has under its name.
+    // A variable does not hide the help on a function of the same name.
     prompt.ask("let line = 3;");
     let reply = prompt.ask("line?");
     assert!(
@@ -550,7 +550,7 @@ fn functions_of_imported_files_are_explained() {
     assert_eq!(printed.take(), "parts::third(x) is a function of an imported file.\nA third.\n");
 }
 
-/// A pager that remembers what it was given.
+/// Pager that records its input.
 #[derive(Clone, Default)]
 struct Reader(Rc<RefCell<Vec<String>>>);
 

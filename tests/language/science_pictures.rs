@@ -1,4 +1,4 @@
-//! What pictures of arrays, of motion and of the inside of beams show, and what they refuse.
+//! Contents of pictures of arrays, of motion and of sections of beams, and refused options.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -15,7 +15,7 @@ scene.clamp(rod.start);
 scene.force(rod.end, [0, -3], hold_for(0.5));
 ";
 
-/// The picture that a script draws as `it.svg`.
+/// Picture that a script draws as `it.svg`.
 fn picture(script: &str) -> String {
     let out = tempfile::tempdir().unwrap();
     let settings = RunSettings { out: out.path().to_owned(), ..RunSettings::silent(RunMode::Run) };
@@ -24,13 +24,13 @@ fn picture(script: &str) -> String {
     fs::read_to_string(out.path().join("it.svg")).unwrap()
 }
 
-/// What stands in it.
+/// Words in the description of a picture.
 fn words(svg: &str) -> Vec<&str> {
     let text = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
     text.split(" | ").collect()
 }
 
-/// Why a script is refused.
+/// Error message of a script.
 fn refusal(script: &str) -> String {
     let settings = RunSettings::silent(RunMode::Run);
     let outcome = run(&Program::named("picture", &format!("{ROD}{script}")), &language(), settings);
@@ -107,7 +107,7 @@ fn dots_are_left_out_where_there_are_many_and_loads_when_they_have_ended() {
     let dots = |options: &str| drawn(options, "0.4").matches("<circle").count();
     assert_eq!(dots("") - dots(", dots: false"), 18);
     let lines = |options: &str, until: &str| drawn(options, until).matches("<polyline").count();
-    // In the same view, for lines of the grid are lines too.
+    // Both pictures have the same view, because grid lines are polylines too.
     let view = ", x_limits: [-1, 4], y_limits: [-2, 3]";
     let bare = format!("{view}, symbols: false");
     let arrow = |until: &str| lines(view, until) - lines(&bare, until);
@@ -129,7 +129,7 @@ fn a_hundred_eyelets_do_not_hide_their_rope() {
         svg.matches("<poly").count()
     };
     let [all, some, none] = ["symbols: true", "", "symbols: false"].map(|how| marks(100, how));
-    // The load is still there.
+    // The symbol of the load is still drawn.
     assert!(none < some && some + 100 < all, "{none} {some} {all}");
     assert!(marks(20, "") == marks(20, "symbols: true"));
 }

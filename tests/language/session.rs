@@ -1,4 +1,4 @@
-//! A session of the language: what one input leaves for the next.
+//! Sessions: effects of an input on later inputs.
 #![allow(clippy::unwrap_used)]
 
 use std::path::PathBuf;
@@ -22,7 +22,7 @@ fn session_with_snapshots() -> Session {
     Session::new(language(), settings).unwrap()
 }
 
-/// The value of an input as text.
+/// Value of an input as text.
 fn value(session: &mut Session, input: &str) -> String {
     match session.eval(input) {
         Reply::Value(value) => value.to_string(),
@@ -35,7 +35,7 @@ fn done(session: &mut Session, input: &str) {
     assert!(matches!(reply, Reply::Done), "{input}: {reply:?}");
 }
 
-/// The message of an input that fails, with its place and its hint.
+/// Message of an input that fails, with position and hint.
 fn refusal(session: &mut Session, input: &str) -> String {
     match session.eval(input) {
         Reply::Failed(diagnostic) => diagnostic.to_string(),
@@ -233,7 +233,7 @@ const SPINNING: &str = "let scene = new_scene(\"example\");\n\
     let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s, spin: 1 });\n\
     let sim = scene.start(#{ dt: 0.1 });";
 
-/// Inputs whose saved script must come to the same end; those after `!` fail.
+/// Inputs whose saved script must give the same final state. Inputs after `!` fail.
 const SESSIONS: &[&[&str]] = &[
     &["3 * 2", "sim.step(ans);", "!sim.step(2); sim.stepp();", "sim.step();"],
     &["fn q() { 3 } q()", "sim.step(ans)"],

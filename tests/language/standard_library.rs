@@ -1,5 +1,4 @@
-//! The standard library from outside: who wins over files of the same name, where failing checks are told, imports from other files
-//! and at the prompt, and its help.
+//! Standard library from outside: precedence over files of the same name, positions of failed checks, imports in files and at the prompt, and help.
 
 #![allow(clippy::unwrap_used)]
 
@@ -16,7 +15,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Runs a script beside files, and gives what it told at once.
+/// Runs a script in a folder with files. Returns the outcome and the messages.
 fn run_beside(files: &[(&str, &str)], script: &str) -> (RunOutcome, String) {
     let home = tempfile::tempdir().unwrap();
     for (name, text) in files {

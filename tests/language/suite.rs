@@ -1,8 +1,7 @@
 //! Runs the scripts of `tests/suite`.
 //!
-//! A file has sections `// --- name`. A section without expectations must run to its end with all checks passing. Above
-//! the offending line stand `// error: COLUMN text` and then, if wanted, `// hint: text`; both texts may be a part.
-//! `// prints: text` expects the next printed line to be exactly that.
+//! A file has sections `// --- name`. A section without expectations must run to its end with all checks passing. `// error: COLUMN text` and an optional `//
+//! hint: text` precede the line with the error; both texts may be parts. `// prints: text` is exactly the next printed line.
 
 use std::fs;
 
@@ -12,7 +11,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// What a section of a file expects.
+/// Expectation of a section.
 #[derive(Default)]
 struct Expectation {
     error: Option<(usize, usize, String)>,

@@ -1,4 +1,4 @@
-//! Viewers and animations show what the solver has computed.
+//! Viewers and animations, compared with the solver.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -13,7 +13,7 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Two beams and a particle under their weight, a load that follows, one that does not, and something that slides.
+/// Two beams and a particle under gravity, a follower load, a dead load and a slider.
 const SCENE: &str = "
 let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene(\"two\");
@@ -28,12 +28,12 @@ scene.slider(ring, two, #{ name: \"slide\", at: 0.5, ends: \"bounce\" });
 let sim = scene.start(#{ dt: 0.02 });
 ";
 
-/// What a script prints, and a file that it writes.
+/// Output of a script and the content of a file that it writes.
 fn written(script: &str, file: &str) -> (String, Vec<u8>) {
     written_in(SCENE, script, file)
 }
 
-/// The same after another scene.
+/// The same for another scene.
 fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
     let out = tempfile::tempdir().unwrap();
     let printed = Notepad::default();
@@ -48,7 +48,7 @@ fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
     (printed.take(), fs::read(out.path().join(file)).unwrap_or_default())
 }
 
-/// The message of a script that fails.
+/// Error message of a script that fails.
 fn refused(script: &str) -> String {
     let program = Program::named("viewer", &format!("{SCENE}sim.run_to(0.1);\n{script}"));
     match run(&program, &language(), RunSettings::silent(RunMode::Run)).ending {
@@ -57,14 +57,14 @@ fn refused(script: &str) -> String {
     }
 }
 
-/// The data of a page.
+/// Data of a page.
 fn data(page: &[u8]) -> Value {
     let page = String::from_utf8(page.to_vec()).unwrap();
     let (_, rest) = page.split_once("id=\"data\">").unwrap();
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
 }
 
-/// Numbers over frames, read as the page reads them: number by number.
+/// Decodes time series like the page does, number by number.
 fn series(packed: &Value) -> Vec<Vec<f64>> {
     let whole = |name: &str| packed[name].as_u64().unwrap() as usize;
     let (numbers, frames) = (whole("numbers"), whole("frames"));
@@ -107,7 +107,7 @@ fn from_letters(text: &str) -> Vec<u8> {
     letters.chunks(4).flat_map(group).collect()
 }
 
-/// Where a place of a film is in all frames.
+/// Positions of a material point of a film in all frames.
 fn path(film: &Value, place: &Value) -> Vec<(f64, f64)> {
     let first = place[0].as_u64().unwrap() as usize;
     let weights: Vec<f64> =
@@ -143,7 +143,7 @@ fn places_are_where_the_solver_says() {
         let frame = times.iter().position(|time| (time - numbers[0]).abs() < 1e-12).unwrap();
         for (path, at) in paths.iter().zip([&numbers[1..3], &numbers[3..5]]) {
             let off = (path[frame].0 - at[0]).abs().max((path[frame].1 - at[1]).abs());
-            // Half a step, and the roundings of at most three weights.
+            // Half a quantisation step, and the rounding of at most three weights.
             assert!(off <= 0.51 * step * 1.3, "off by {off} at t = {}", numbers[0]);
             compared += 1;
         }
@@ -170,7 +170,7 @@ fn columns_and_colours_are_those_of_the_run() {
     let known: Vec<f64> = printed.lines().map(|line| line.parse().unwrap()).collect();
     assert_eq!(known.len(), values.len());
     assert!(known.iter().zip(&values).all(|(a, b)| (a - b).abs() <= 0.51 * step));
-    // The speed at the far end, the last station of the last beam, against the path of its point.
+    // The speed at the last station of the last beam is compared with the path of this point.
     let fields = film["fields"].as_array().unwrap();
     assert_eq!((fields.len(), fields[0]["name"].as_str()), (1, Some("speed")));
     let speeds = series(&fields[0]["values"]);
@@ -188,7 +188,7 @@ fn columns_and_colours_are_those_of_the_run() {
 
 #[test]
 fn moments_and_strain_energy_are_those_of_the_states_also_where_a_run_is_made_again_over_bounces() {
-    // Section forces of both ends of the first beam, then of the last place of the second one.
+    // Section forces at both ends of the first beam, then at the end of the second beam.
     let script = "
         let look = |q| { let f = [q.section_forces(one, 0), q.section_forces(one, 2), q.section_forces(two, 2)];
             for s in f { print(`${q.t} ${s.M} ${0.5 * (s.N * s.axial_strain + s.Q * s.shear_strain + s.M * s.curvature)}`); } };
@@ -298,7 +298,7 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
         .map(|at| at["name"].as_str().unwrap())
         .collect();
     assert_eq!(names, ["wheel.e", "wheel.n", "wheel.w"]);
-    // A place of a body is one of the points that were sent: there, in the last frame, it is where the solver has it.
+    // The recorded points of a body include the point of the station, with the position of the solver in the last frame.
     let place = bodies[0]["points"][1]["at"].as_array().unwrap();
     let first = place[0].as_u64().unwrap() as usize;
     let known: Vec<f64> = printed.trim().split(' ').map(|number| number.parse().unwrap()).collect();
@@ -379,14 +379,14 @@ fn what_is_wrong_is_told() {
     assert!(said.contains("does not end in .png"), "{said}");
 }
 
-/// A frame of an animation as it is seen: red, green and blue of each pixel, and how wide it is.
+/// Decoded frame of an animation: red, green and blue of each pixel, and the width.
 struct Frame {
     pixels: Vec<u8>,
     width: usize,
 }
 
 impl Frame {
-    /// The frames of an animated picture, each the one before with a part of it replaced, and how long they stay.
+    /// Frames of an animated picture and their delays. Each frame replaces a part of the previous one.
     fn all(bytes: &[u8]) -> Vec<(Self, (u16, u16))> {
         let mut decoder = png::Decoder::new(bytes);
         decoder.set_transformations(png::Transformations::EXPAND);
@@ -409,7 +409,7 @@ impl Frame {
         (0..control.num_frames).map(frame).collect()
     }
 
-    /// The places of all pixels of a colour, but for a little.
+    /// Positions of all pixels of approximately this colour.
     fn places(&self, colour: [u8; 3]) -> Vec<(f64, f64)> {
         let is_it = |pixel: &[u8]| pixel.iter().zip(colour).all(|(a, b)| a.abs_diff(b) < 24);
         let all = self.pixels.chunks_exact(3).enumerate().filter(|(_, pixel)| is_it(pixel));
@@ -417,7 +417,7 @@ impl Frame {
             .collect()
     }
 
-    /// How bright the darkest pixel around a place is.
+    /// Brightness of the darkest pixel near a position.
     fn darkest(&self, (x, y): (f64, f64)) -> u8 {
         let near = |x: f64| (x - 1.0).floor() as usize..=(x + 1.0).floor() as usize;
         let green =
@@ -436,7 +436,7 @@ fn an_animation_shows_the_tip_where_the_solver_says() {
     let frames = Frame::all(&bytes);
     assert_eq!((frames.len(), frames[0].0.width), (11, 400));
     assert!(frames.iter().all(|(_, delay)| *delay == (1, 10)));
-    // At the start the second beam, of the second hue, lies from x = 2 to x = 4; its ends are below dots of radius 2.4.
+    // At the start the second beam, drawn in the second colour, extends from x = 2 to x = 4. Dots of radius 2.4 cover its ends.
     let start: Vec<_> =
         frames[0].0.places([213, 94, 0]).into_iter().filter(|at| at.1 > 60.0).collect();
     let end = |pick: fn(f64, f64) -> f64| start.iter().map(|at| at.0).reduce(pick).unwrap();

@@ -1,4 +1,4 @@
-//! Steps allocate nothing: only the room for their rows is taken, before they begin.
+//! Steps do not allocate memory. The rows of the history are allocated in advance.
 #![allow(unsafe_code, clippy::unwrap_used)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
@@ -14,15 +14,15 @@ thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Counts what each thread asks of the system's allocator.
+/// Counts the allocations of each thread.
 struct Counting;
 
 fn count() {
-    // A thread that is going away has nothing left to count in.
+    // The counter of a thread that terminates is no longer available.
     let _ = ALLOCATIONS.try_with(|allocations| allocations.set(allocations.get() + 1));
 }
 
-// SAFETY: every call is handed on to the system's allocator as it is.
+// SAFETY: every call is forwarded unchanged to the system allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count();
@@ -68,7 +68,7 @@ fn steps_of_varying_size_take_no_allocations() {
     assert!(few <= 4 && many <= 4, "{few} in 10 steps, {many} in 150");
 }
 
-/// Runs a scene for few and for many steps; both must take no more than `most` allocations.
+/// Runs a scene for few and for many steps. Both runs must take at most `most` allocations.
 fn assert_bounded(label: &str, scene: Scene, method: Method, most: usize) {
     let mut simulation = Simulation::start(scene, settings(method, 0.001)).unwrap();
     let mut until = |end: f64| allocations_of(|| run(&mut simulation, end).unwrap());
@@ -88,7 +88,7 @@ fn a_full_store_of_snapshots_takes_no_allocations() {
     run(&mut simulation, 0.1).unwrap();
     let kept = simulation.stored_snapshots();
     assert!(kept.0 > 5 && kept.0 < 50, "{kept:?}");
-    // Room for the rows of the history, the times and the configurations of the trajectory.
+    // Allocations for the rows of the history, and for the times and configurations of the trajectory.
     assert!(allocations_of(|| run(&mut simulation, 0.2).unwrap()) <= 3);
     assert_eq!(simulation.stored_snapshots(), kept);
 }
@@ -98,13 +98,12 @@ fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
-            // What lets go gets new work space, once; and a speed that a controller sets before every step strikes what is tied to it as often, with
-            // matrices of its own.
+            // A release allocates new work space once. A controlled speed applies an impulse before every step, with matrices of its own.
             let is_struck = |scene: &Scene| scene.name == "steered trolley";
             let all = all.filter(|scene| scene.releases.is_empty() && !is_struck(scene));
             for scene in all {
                 let label = format!("{}, {}, {name}", entry.name, scene.name);
-                // Room for the rows of the history, the times and the configurations of the trajectory, and for columns that a scene adds.
+                // Allocations for the rows of the history, for the times and configurations of the trajectory, and for columns of the scene.
                 assert_bounded(&label, scene, entry.method, 4);
             }
         }
@@ -117,19 +116,19 @@ fn sliders_take_no_allocations_in_steps_either() {
     for (entry, of) in rules.flat_map(|rule| INTEGRATORS.iter().map(move |of| (rule, of))) {
         for (name, mesh) in meshes(4) {
             for mut scene in sliding_scenes::all(&mesh, entry.rule) {
-                // What passes a seam gets the work space of the next beam: here nothing comes to one.
+                // A slider that passes a seam allocates the work space of the next beam. Without start velocities, none reaches a seam.
                 if !scene.tracks.is_empty() {
                     scene.velocities.clear();
                 }
                 let label = format!("{}, {}, {}, {name}", of.name, entry.name, scene.name);
-                // One more: room for their columns of the history.
+                // One further allocation for the columns of the sliders in the history.
                 assert_bounded(&label, scene, of.method, 4);
             }
         }
     }
 }
 
-/// The present contact force is checked in every step of a slider that only pushes. One slides on a fixed beam, and another one falls on it.
+/// The present contact force of a unilateral slider is checked in every step. One slider slides on a fixed beam, and another one falls on it.
 #[test]
 fn sliders_that_only_push_take_no_allocations_in_steps() {
     let mut scene = Scene::new("pushing");
@@ -162,7 +161,7 @@ fn steps_that_are_not_recorded_take_no_allocations_at_all() {
                 simulation.step(&mut NoMonitor).unwrap();
             }
         });
-        // The row of the present is overwritten in its place.
+        // The present row is overwritten in place.
         assert!(taken <= 3, "{}: {taken}", entry.name);
     }
 }

@@ -1,4 +1,4 @@
-//! A million steps of free flight: nothing drifts, and nothing is hoarded.
+//! A million steps of free flight: no invariant drifts, and the memory does not grow.
 #![allow(clippy::unwrap_used)]
 
 use std::num::NonZeroUsize;
@@ -12,10 +12,10 @@ use withy::system::Scene;
 
 const DT: f64 = 0.05;
 const STEPS: usize = 1_000_000;
-/// When the loads end [time].
+/// End of the loads [time].
 const REST: f64 = 2.5;
 
-/// A free beam that two moments bend and turn.
+/// Free beam that two moments bend and rotate.
 fn thrown() -> Scene {
     let mesh = Mesh::bspline(2, 3, 2).unwrap();
     let mut scene = scenes::free_beam(&mesh, scenes::spaghetti_section(1e4, 100.0));

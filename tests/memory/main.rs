@@ -1,4 +1,4 @@
-//! What runs take of memory.
+//! Memory use of runs.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! What the program says and writes: scripts, short studies, sessions, exercises and their marks.
+//! Outputs of the binary: scripts, short studies, sessions, exercises and marks.
 
 use std::fs;
 use std::io::Write;
@@ -22,7 +22,7 @@ fn withy(folder: &Path) -> Command {
     command
 }
 
-/// Everything that a program said, with the names of places that change from run to run left out.
+/// Output of the program, with placeholders for paths that differ between runs.
 fn said(output: &Output, folder: &Path) -> String {
     let all = format!(
         "{}\n--- and told\n{}\n--- exit code {:?}",
@@ -49,7 +49,7 @@ fn scripts(book: &mut Book) {
     }
 }
 
-/// Studies in short.
+/// Shortened studies.
 fn studies(book: &mut Book) {
     for (name, text) in texts("tests/outputs/studies", "rhai") {
         let file = project(&format!("tests/outputs/studies/{name}.rhai"));
@@ -68,7 +68,7 @@ fn studies(book: &mut Book) {
     }
 }
 
-/// Inputs of sessions, from a pipe: what the prompt can do a pipe can do. A mistake ends one; `---` begins the next.
+/// Sessions with inputs from a pipe. An error ends a session, and `---` begins the next one.
 fn sessions(book: &mut Book) {
     for (name, text) in texts("tests/outputs/sessions", "txt") {
         for (number, inputs) in text.split("---\n").enumerate() {
@@ -88,7 +88,7 @@ fn session(book: &mut Book, name: &str, inputs: &str) {
     book.keep_files(&format!("{name}, files"), folder.path());
 }
 
-/// A class of two: one hands in what stands in the exercises, the other plausible mistakes.
+/// Class of two students: one submits the solutions of the exercises, the other typical mistakes.
 fn marks(book: &mut Book) {
     let folder = tempfile::tempdir().unwrap();
     for (student, from) in [("right", "scripts/exercises/solutions"), ("wrong", "tests/attempts")] {

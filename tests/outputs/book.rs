@@ -1,4 +1,4 @@
-//! Outputs by name, compared with recorded ones: texts with readable snapshots, other files with checksums.
+//! Named outputs, compared with recorded ones: texts with readable snapshots, other files with checksums.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,20 +17,20 @@ const PINNED: &str = "tests/outputs/pinned.txt";
 /// Longest text that is recorded as a snapshot [bytes].
 const LONGEST: usize = 20_000;
 
-/// Beginnings of the names of generated pages, whose texts are in `docs/language`.
+/// Prefixes of the names of generated pages, whose texts are in `docs/language`.
 const GENERATED: [&str; 2] = ["pages/help", "pages/definitions"];
 
-/// Endings of text files that are data or pictures.
+/// Extensions of text files with data or pictures.
 const DATA: [&str; 6] = [".svg", ".csv", ".vtu", ".pvd", ".html", ".json"];
 
 impl Book {
-    /// Keeps an output under a name that no other has.
+    /// Records an output under a unique name.
     pub fn keep(&mut self, name: impl Into<String>, output: impl Into<Vec<u8>>) {
         let name = name.into();
         assert!(self.0.insert(name.clone(), output.into()).is_none(), "'{name}' is kept twice");
     }
 
-    /// Keeps every file below a folder, but for withy's own records of what it has written there.
+    /// Records every file below a folder, except withy's own records of written files.
     pub fn keep_files(&mut self, name: &str, folder: &Path) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         for entry in entries.map(Result::unwrap) {
@@ -43,7 +43,7 @@ impl Book {
         }
     }
 
-    /// Keeps the names of the files of a folder alone.
+    /// Records only the names of the files of a folder.
     pub fn keep_file_names(&mut self, name: &str, folder: &Path) {
         let Ok(entries) = fs::read_dir(folder) else { return };
         let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name()).collect();
@@ -119,7 +119,7 @@ impl Book {
         );
     }
 
-    /// One file for each output; what may not stand in the name of a file is a `~`.
+    /// Writes one file for each output. Characters that file names do not allow are replaced by `~`.
     fn write_to(&self, folder: &Path) {
         fs::create_dir_all(folder).unwrap();
         for (name, output) in &self.0 {

@@ -1,4 +1,4 @@
-//! What scripts say that are run in this process: the suite of the language, what newcomers type, examples of the help, exercises.
+//! Outputs of scripts in this process: the language suite, inputs of newcomers, examples of the help, and exercises.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub fn record(book: &mut Book) {
     exercises(book);
 }
 
-/// Runs a text, and keeps what it prints, what is told, how it ends and what it writes.
+/// Runs a text, and records its output, messages, outcome and files.
 fn keep_run(book: &mut Book, name: &str, text: &str) {
     let out = tempfile::tempdir().unwrap();
     let (printed, told) = (Notepad::default(), Notepad::default());
@@ -47,12 +47,12 @@ fn keep_run(book: &mut Book, name: &str, text: &str) {
     }
 }
 
-/// Whether a script measures times, which differ from run to run, and with them tables and pictures.
+/// Returns true if a script measures times. Its tables and pictures differ between runs.
 pub fn measures_times(text: &str) -> bool {
     ["timestamp()", "study_cost", "study_work_precision"].iter().any(|study| text.contains(study))
 }
 
-/// The texts of a folder, by name.
+/// Texts of a folder, by name.
 pub fn texts(folder: &str, ending: &str) -> Vec<(String, String)> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut texts: Vec<_> = entries
@@ -76,7 +76,7 @@ fn suite(book: &mut Book) {
     }
 }
 
-/// Rows are told apart by their numbers: what is typed is too long for a name.
+/// Rows are identified by their numbers, because the inputs are too long for names.
 fn newcomers(book: &mut Book) {
     for (file, text) in texts("tests/newcomer", "txt") {
         let rows = text.lines().filter(|line| !line.starts_with("== "));

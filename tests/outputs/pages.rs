@@ -1,4 +1,4 @@
-//! Help, reference, definition files, and the pages of the library.
+//! Help, reference, definition files, and pages of the library.
 
 use crate::book::Book;
 use withy::script::help::definitions::definitions;
@@ -7,7 +7,7 @@ use withy::script::help::reference::reference;
 use withy::script::library;
 use withy::script::packages::language;
 
-/// Names that mean nothing, and what is said about them.
+/// Unknown names, whose messages are recorded.
 const UNKNOWN: &[&str] = &["", "bspilne", "sim.rnu_to", "spring.pull", "%", "gravity.x"];
 
 pub fn record(book: &mut Book) {

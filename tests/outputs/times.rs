@@ -1,6 +1,6 @@
-//! Times, which no two runs share, left out of what is said.
+//! Removal of times, which differ between runs, from outputs.
 
-/// Numbers in front of units of time, and behind the words of a report that are times.
+/// Removes numbers before units of time, and after words of a report that denote times.
 pub fn without_times(text: &str) -> String {
     let lines = text.lines().map(|line| {
         let words = line.split_inclusive(' ').collect::<Vec<_>>();
@@ -20,7 +20,7 @@ pub fn without_times(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Words alone, for tables in which all numbers may be times, without marks of the fastest and warnings of a busy machine.
+/// Keeps words only, for tables in which all numbers may be times. Removes marks of the fastest row and warnings of a busy machine.
 pub fn without_numbers(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.contains("warning: the same again took"));
     let words = lines.flat_map(|line| {

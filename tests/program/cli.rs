@@ -1,4 +1,4 @@
-//! The real binary: exit codes, what it says first, files, interrupts, closed pipes.
+//! The binary: exit codes, first lines of messages, files, interrupts, and closed pipes.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -11,7 +11,7 @@ fn withy() -> Command {
     Command::new(env!("CARGO_BIN_EXE_withy"))
 }
 
-/// A folder with a script in it.
+/// Folder with a script.
 fn script(text: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("script.rhai");
@@ -138,7 +138,7 @@ fn the_report_is_written_also_after_a_failure() {
     assert_eq!(left.len(), 2, "only the script and the report: {left:?}");
 }
 
-/// A bead that reaches the end of its rod at t = 1.
+/// Bead that reaches the end of its beam at t = 1.
 const BEAD: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });
     let scene = new_scene(\"bead\");
     let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });
@@ -176,7 +176,7 @@ fn a_script_that_waits_for_an_end_can_be_checked() {
     assert_eq!(code(&output), 0, "{}", said(&output));
 }
 
-/// A simulation that a dry build can pretend to run.
+/// Script with a simulation, for dry runs.
 const FALL: &str = r#"let scene = new_scene("fall"); let p = scene.particle([0, 10], 1); scene.gravity([0, -9.81]);
 let sim = scene.start(#{ dt: 0.01 });
 "#;
@@ -210,7 +210,7 @@ fn a_report_that_cannot_be_written_is_an_error() {
     assert!(first_line(&output).contains("/dev/null/folder/r.json"), "{}", said(&output));
 }
 
-/// Runs a script, interrupts it once it has printed a line, and waits for its end.
+/// Runs a script, interrupts it after its first printed line, and waits for its end.
 #[cfg(unix)]
 fn interrupted(folder: &TempDir, file: &Path) -> Output {
     let mut running = withy()
@@ -260,7 +260,7 @@ fn ctrl_c_in_an_endless_run_keeps_its_history() {
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     let steps = report["simulations"][0]["steps"].as_u64().expect("steps");
     let history = fs::read_to_string(folder.path().join("out/a-long-flight-stopped.csv"));
-    // A comment, the names of the columns, and the start are no steps.
+    // Three lines are not steps: a comment, the names of the columns, and the start.
     assert_eq!(history.expect("the history").lines().count() as u64, steps + 3);
     assert!(steps >= 10);
 }

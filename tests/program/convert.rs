@@ -1,4 +1,4 @@
-//! `withy convert`, and what it writes in the programs that it is for, where they are there.
+//! `withy convert`, and its output in the target programs, if they are installed.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// A folder with a saved simulation in `out`, and where its beam ends.
+/// Folder with a saved simulation in `out`, and the printed position of the end of its beam.
 fn saved() -> (tempfile::TempDir, String) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::write(folder.path().join("swing.rhai"), SCRIPT).expect("the script is written");
@@ -82,7 +82,7 @@ fn what_cannot_be_converted_is_told() {
     assert!(!home.join("out/run.pvd").exists(), "a collection names whole frames alone");
 }
 
-/// With the Python that `WITHY_PYTHON` names, which has numpy, meshio, pyvista and pyarrow.
+/// Uses the Python interpreter in `WITHY_PYTHON`, which needs numpy, meshio, pyvista and pyarrow.
 #[test]
 fn other_programs_read_what_is_written() {
     let Some(python) = std::env::var_os("WITHY_PYTHON") else {

@@ -1,4 +1,4 @@
-//! `withy docs` through the real binary.
+//! `withy docs`, run with the binary.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;

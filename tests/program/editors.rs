@@ -1,4 +1,4 @@
-//! Colours in editors: the grammar of the repository is the one of the language, and VS Code's own engine finds the colours of the prompt.
+//! Syntax colours in editors: the grammar in the repository matches the language, and the engine of VS Code gives the colours of the prompt.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -37,7 +37,7 @@ fn scripts(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The colour of each byte as the prompt draws it.
+/// Colour of each byte at the prompt.
 fn colours_of_the_prompt(text: &str, vocabulary: &Vocabulary) -> Vec<&'static str> {
     let styles = [KEYWORD, NUMBER, TEXT, COMMENT, FUNCTION, CONSTANT].map(|style| style.0);
     let mut colours = Vec::with_capacity(text.len());
@@ -58,7 +58,7 @@ fn colours_of_the_prompt(text: &str, vocabulary: &Vocabulary) -> Vec<&'static st
     colours
 }
 
-/// The colour of each byte as an editor finds it.
+/// Colour of each byte in an editor.
 fn colours_of_the_editor(text: &str, pieces: &serde_json::Value) -> Vec<&'static str> {
     let mut colours = Vec::with_capacity(text.len());
     for piece in pieces.as_array().unwrap() {
@@ -77,7 +77,7 @@ fn colours_of_the_editor(text: &str, pieces: &serde_json::Value) -> Vec<&'static
     colours
 }
 
-/// With the packages of Node that are in the folder `WITHY_TEXTMATE`.
+/// Uses the Node packages in the folder `WITHY_TEXTMATE`.
 #[test]
 fn an_editor_finds_the_colours_of_the_prompt() {
     let Some(modules) = std::env::var_os("WITHY_TEXTMATE") else {

@@ -1,4 +1,4 @@
-//! Every machine of `scripts/gallery/` runs, holds its checks, draws its picture and its animation, and `docs/gallery.md` tells what it found.
+//! Every machine of `scripts/gallery/` runs, passes its checks, and draws its picture and its animation. `docs/gallery.md` has its results.
 
 #![allow(clippy::unwrap_used)]
 
@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The largest animation, in bytes.
+/// Largest size of an animation [bytes].
 const LARGEST: usize = 300_000;
-/// How many scripts run at once.
+/// Number of scripts that run at the same time.
 const HANDS: usize = 2;
 
 fn root() -> &'static Path {
@@ -27,7 +27,7 @@ fn name(script: &Path) -> &str {
     script.file_stem().unwrap().to_str().unwrap()
 }
 
-/// What one line of the table of the page or of a machine says: its benchmark, then value, ours and error.
+/// Line of the table of the page or of the results of a machine: benchmark, value, ours and error.
 #[derive(Clone, Debug)]
 struct Row<T> {
     machine: String,
@@ -35,7 +35,7 @@ struct Row<T> {
     numbers: [T; 3],
 }
 
-/// The lines of the table that the page begins with, as they are written there.
+/// Lines of the first table of the page, as text.
 fn told(page: &str) -> Vec<Row<String>> {
     let lines = page.lines().skip_while(|line| !line.starts_with("| ---")).skip(1);
     let lines = lines.take_while(|line| line.starts_with('|'));
@@ -52,7 +52,7 @@ fn told(page: &str) -> Vec<Row<String>> {
     lines.map(row).collect()
 }
 
-/// What a machine wrote, as numbers.
+/// Results of a machine, as numbers.
 fn found(machine: &str, csv: &str) -> Vec<Row<f64>> {
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some("benchmark,error,ours,value"), "{machine}");
@@ -69,7 +69,7 @@ fn found(machine: &str, csv: &str) -> Vec<Row<f64>> {
     lines.map(row).collect()
 }
 
-/// A number with as many digits as a cell has, in the same way.
+/// Formats a number like a cell, with the same number of digits.
 fn in_the_way_of(cell: &str, number: f64) -> String {
     let decimals = |text: &str| text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     match cell.split_once('e') {
@@ -78,7 +78,7 @@ fn in_the_way_of(cell: &str, number: f64) -> String {
     }
 }
 
-/// Runs a machine into a folder of its own; what it found, or what is wrong.
+/// Runs a machine in its own folder. Returns its results, or an error message.
 fn run(script: &Path) -> Result<Vec<Row<f64>>, String> {
     let out = tempfile::tempdir().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_withy"))

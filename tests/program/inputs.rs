@@ -14,7 +14,7 @@ fn doubled(load) { load * input(\"factor\", 2) }
 print(`${name}: ${doubled(load)}, ${parts::spans}`);
 ";
 
-/// A folder with these files.
+/// Folder with the given files.
 fn folder(files: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -131,7 +131,7 @@ fn a_sweep_runs_an_imported_script_with_its_inputs() {
     let (code, printed, said) = withy(home.path(), &["run", "sweep.rhai", "--set", "scale=3"]);
     assert_eq!(code, 0, "{said}");
     assert!(printed.ends_with("[2, 4, 6, 8]\n"), "{printed}");
-    // At the prompt the statements of the file are not run again.
+    // At the prompt, the statements of the file do not run again.
     let (code, _, said) = withy(home.path(), &["-e", sweep]);
     assert!(code == 2 && said.contains("does not use the parameter 'load'"), "{said}");
 }
@@ -157,7 +157,7 @@ fn a_session_sets_the_inputs_of_a_file() {
     assert_eq!(printed, "boom: 2, 4\n1\n", "{said}");
 }
 
-/// Loaded machines stall.
+/// Time limit of a wait, generous for loaded machines.
 #[cfg(unix)]
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
@@ -189,7 +189,7 @@ fn watching_runs_again_after_each_change_and_survives_errors() {
         forward(Box::new(watching.stdout.take().unwrap())),
         forward(Box::new(watching.stderr.take().unwrap())),
     ];
-    // Lines of both streams arrive in any order.
+    // The lines of both streams may arrive in any order.
     let wait_for = |expected: &[&str]| {
         let mut missing = expected.to_vec();
         let mut seen = Vec::new();

@@ -1,4 +1,4 @@
-//! `withy learn` through the real binary: what is said, what is written, exit codes, watching, grading.
+//! `withy learn`, run with the binary: messages, files, exit codes, watching and grading.
 
 #![allow(clippy::unwrap_used)]
 
@@ -17,7 +17,7 @@ fn learn(folder: &Path, words: &[&str]) -> Output {
     command.arg("learn").args(words).current_dir(folder).output().unwrap()
 }
 
-/// The exit code and all that was said.
+/// Exit code and all output.
 fn said(folder: &Path, words: &[&str]) -> (i32, String) {
     let output = learn(folder, words);
     let text = [output.stdout, output.stderr].map(|said| String::from_utf8(said).unwrap()).concat();
@@ -198,13 +198,13 @@ fn unknown_names_and_damaged_progress_are_told() {
     let (code, text) = said(class.path(), &["next"]);
     assert_eq!(code, 2);
     assert!(text.contains("is damaged"), "{text}");
-    // An attempt is judged all the same.
+    // Damaged progress does not prevent the check of an attempt.
     let (code, text) = said(class.path(), &["check", "change_one_number"]);
     assert_eq!(code, 1);
     assert!(text.contains("is damaged") && text.contains("not yet: beams/change_one"), "{text}");
 }
 
-/// The lines that a process prints, as they come.
+/// Lines of the output of a process, as they arrive.
 fn lines(output: impl std::io::Read + Send + 'static) -> Receiver<String> {
     let (send, receive) = channel();
     thread::spawn(move || {
@@ -288,7 +288,7 @@ fn watching_ends_when_all_is_passed() {
     assert!(text.contains("All exercises are passed"), "{text}");
 }
 
-/// A class: one has solved two, one has broken files of every kind, one has only begun.
+/// Class of three students: one has solved two exercises, one has damaged files of every kind, one has only started.
 fn class_of_three() -> TempDir {
     let class = classroom();
     let write = |student: &str, name: &str, content: &[u8]| {
@@ -371,11 +371,11 @@ fn a_folder_that_holds_no_submissions_is_refused() {
     assert!(text.contains("a folder for each student"), "{text}");
 }
 
-/// The name of a student, an attempt, and its mark.
+/// Name of a student, attempt, and mark.
 #[cfg(target_os = "linux")]
 type Poison = (&'static str, &'static str, &'static str);
 
-/// Attempts that wiped the marks of a class, or went on for ever: each with what it is marked. The exercise is knot_vector.
+/// Attempts that made the marks of a class unusable or did not terminate, with their marks. The exercise is knot_vector.
 #[cfg(target_os = "linux")]
 const POISONS: &[Poison] = &[
     ("wide", "let t = \"\"; t.pad(70000, 'x'); throw t;", "broken"),
@@ -418,7 +418,7 @@ fn poisoned_class(poisons: &[&Poison]) -> TempDir {
         let sparse = fs::File::create(class.path().join("sparse/sparse.rhai")).unwrap();
         sparse.set_len(2 << 30).unwrap();
     }
-    // Behind all of them.
+    // This student comes last.
     let honest = EXERCISES.iter().find(|it| it.name == "knot_vector").unwrap();
     fs::create_dir(class.path().join("zoe")).unwrap();
     fs::write(class.path().join("zoe/knot_vector.rhai"), honest.solution).unwrap();
@@ -428,14 +428,14 @@ fn poisoned_class(poisons: &[&Poison]) -> TempDir {
 #[cfg(target_os = "linux")]
 #[test]
 fn every_poison_costs_its_author_only() {
-    // What is to be stopped by the clock is stopped soon; all else has time however much the machine has to do.
+    // Attempts that exceed the time limit get a short limit, all others a long one for slow machines.
     let (endless, other): (Vec<&Poison>, Vec<&Poison>) =
         POISONS.iter().partition(|(_, _, mark)| *mark == "stopped");
     expect_marks(&endless, "3", None);
     expect_marks(&other, "120", Some("passed"));
 }
 
-/// Grades a class with these attempts and an honest one behind them, whose mark is given if it is known.
+/// Grades a class with these attempts and an honest last one. Checks the mark of the latter if given.
 #[cfg(target_os = "linux")]
 fn expect_marks(poisons: &[&Poison], time: &str, honest: Option<&str>) {
     let class = poisoned_class(poisons);
@@ -484,7 +484,7 @@ fn marks_come_one_by_one_and_outlast_a_kill() {
     assert_eq!(marks.matches("\"passed\"").count(), 2, "{marks}");
 }
 
-/// Grades a class whose only attempt has no end, until that runs; gives the process and the folder for temporary files.
+/// Starts to grade a class with a single, endless attempt, and waits until the attempt runs. Returns the process and its folder for temporary files.
 #[cfg(target_os = "linux")]
 fn grading_for_ever(class: &TempDir) -> (std::process::Child, std::path::PathBuf) {
     let temporary = class.path().join("tmp");
@@ -525,7 +525,7 @@ fn nothing_is_left_of_a_grading_that_was_ended_or_killed() {
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert_eq!(left(&temporary), 1, "nobody can clean up after SIGKILL");
-    // The process of the attempt is ended by the system.
+    // The operating system ends the process of the attempt.
     thread::sleep(Duration::from_millis(300));
     solve(&class.path().join("honest/bea"), 1);
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -554,13 +554,13 @@ fn marks_of_what_has_not_changed_are_kept() {
     let (second, told) = grade(&[]);
     assert!(told.contains(&format!("note: {all} marks were taken from 'marks.jsonl'")), "{told}");
     assert_eq!((second, lines()), (first, all), "the same marks, and nothing is written twice");
-    // As after a kill in the middle of the last line.
+    // Truncated last line, as after a kill during writing.
     let text = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
     fs::write(class.path().join("marks.jsonl"), &text[..text.len() - 20]).unwrap();
     fs::write(class.path().join("class/bea").join(EXERCISES[0].file()), "const EI = 5;").unwrap();
     let (third, told) = grade(&[]);
     assert!(told.contains(&format!("note: {} marks", all - 2)), "{told}");
-    // The line that was cut off is gone.
+    // The truncated line has been removed.
     assert!(third.contains("the tip of the strip does not sink by") && lines() == all + 1);
     let (_, told) = grade(&["--max-time", "19"]);
     assert!(told.is_empty(), "other limits may give other marks: {told}");

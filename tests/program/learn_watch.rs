@@ -1,5 +1,4 @@
-//! `withy learn watch` at a terminal, as a student uses it: all exercises from the first screen to the last solution; keys while an
-//! attempt runs for ever; the terminal as it was afterwards.
+//! `withy learn watch` at a terminal: all exercises from the first screen to the last solution, keys during an endless attempt, and the restored terminal.
 #![allow(clippy::unwrap_used)]
 #![cfg(unix)]
 
@@ -11,10 +10,10 @@ use rexpect::session::{PtySession, spawn_command};
 use withy::exercises::catalogue::EXERCISES;
 use withy::exercises::exercise::Exercise;
 
-/// Loaded machines stall.
+/// Time limit of a wait [ms], generous for loaded machines.
 const PATIENCE: u64 = 60_000;
 
-/// A student at a terminal of this size, in a folder with nothing in it; the shell says how it found the terminal afterwards.
+/// Student at a terminal of a given size in an empty folder. The shell reports the state of the terminal afterwards.
 struct Student {
     session: PtySession,
     folder: tempfile::TempDir,
@@ -49,7 +48,7 @@ impl Student {
         fs::write(self.folder.path().join("withy-exercises").join(exercise.file()), text).unwrap();
     }
 
-    /// The screen is gone and the terminal as it was.
+    /// Waits until the screen is closed and the terminal is restored.
     fn has_left(&mut self) {
         self.sees("\u{1b}[?25h");
         self.sees("\u{1b}[?1049l");
@@ -60,7 +59,7 @@ impl Student {
     }
 }
 
-/// A wrong but plausible attempt.
+/// Wrong but plausible attempt.
 fn attempt(exercise: &Exercise) -> String {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     fs::read_to_string(root.join("tests/attempts").join(exercise.file())).unwrap()

@@ -1,4 +1,4 @@
-//! What a script may use and where it may reach: limits with their flags, files, and errors across files.
+//! Resource limits and file access of scripts: limits with their flags, files, and errors across files.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// Far less than the endless inputs would take, and enough on a machine with ten times as many processes as cores.
+/// Time limit of a run: much shorter than the endless inputs, and sufficient with ten times as many processes as cores.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A scene that can be started.
+/// Scene that can be started.
 const SCENE: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene(\"a\");
 let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [10, 0]), basis: bspline(4), section: s, spin: 1 });
 ";
 
-/// A folder with scripts, of which `main.rhai` is run.
+/// Folder with scripts. `main.rhai` is the one to run.
 struct Home(TempDir);
 
 impl Home {
@@ -48,7 +48,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Refuses anything but exit code 2 with all of these words.
+/// Asserts exit code 2 and a message with all of these words.
 #[track_caller]
 fn expect(output: &Output, words: &[&str]) {
     let said = said(output);
@@ -83,7 +83,7 @@ fn steps_are_counted_over_all_simulations() {
     let output = home.run(&["--max-steps", "15"]);
     expect(&output, &["need more than 15 steps", "main.rhai:5:", "--max-steps N"]);
     assert_eq!(output.stdout, b"fine\n");
-    // A comment, the names, the start and the steps. The first run is complete.
+    // Lines: a comment, the column names, the start and the steps. The first run is complete.
     for (file, lines) in [("out/a-history.csv", 13), ("out/a-stopped.csv", 8)] {
         let kept = fs::read_to_string(home.0.path().join(file)).unwrap();
         assert_eq!(kept.lines().count(), lines, "{file}");
@@ -103,7 +103,7 @@ fn what_is_kept_of_a_stopped_run_is_held_by_the_limit_of_what_is_written() {
     let last: f64 =
         kept.lines().last().and_then(|row| row.split(',').next()).unwrap().parse().unwrap();
     assert!((last - 4.0).abs() < 1e-9, "{last}");
-    // What was printed leaves less.
+    // Printed output counts towards the same limit.
     let script = format!(
         "{SCENE}let sim = scene.start(#{{ dt: 1e-3 }}); sim.run_to(1); loop {{ print(\"{}\"); }}",
         "x".repeat(999)
@@ -201,7 +201,7 @@ fn a_load_cannot_use_the_simulation_that_it_is_called_by() {
     );
 }
 
-/// What is imported in the tests below.
+/// Imported file of the tests below.
 const LIBRARY: &str = "import \"below/deep\" as deep;
 const K = 3;
 fn bad(x) {
@@ -275,7 +275,7 @@ fn errors_in_imported_files_show_their_file_and_the_way_there() {
     for (main, steps) in cases {
         expect(&library(main).run(&[]), &[&bad, *steps].concat());
     }
-    // The way through a load is not gone when nothing is stepped.
+    // A dry run reports the same chain of calls across files.
     for (main, steps) in [&cases[0], &cases[1], &cases[4]] {
         expect(&library(main).withy(&["check", "main.rhai"]), &[&bad, *steps].concat());
     }
@@ -329,7 +329,7 @@ fn files_that_import_each_other_for_ever_are_an_error() {
     expect(&home.run(&[]), &["files import each other in a chain"]);
 }
 
-/// Ends within `seconds`, on a machine that may be busy, with exit code 2 and these words.
+/// Asserts exit code 2 and these words within the time limit.
 #[track_caller]
 fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
     let begun = Instant::now();
@@ -339,7 +339,7 @@ fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
 
 #[test]
 fn time_ends_what_does_not_hear_of_it() {
-    // Four to a line: a script may have 65 000 lines.
+    // Four statements per line, because a script may have 65 000 lines.
     let lets: String = (0..200_000)
         .map(|i| format!("let a{i} = {i};{}", if i % 4 == 3 { "\n" } else { " " }))
         .collect();
@@ -472,7 +472,7 @@ fn what_is_printed_and_written_is_limited() {
     expect(&home.run(&["--max-files", "3"]), &["writes more than 3 files", "--max-files N"]);
     let visible = |entry: &fs::DirEntry| entry.file_name().to_string_lossy().ends_with(".csv");
     let files = fs::read_dir(home.0.path().join("out")).unwrap().map(Result::unwrap);
-    // What was stopped keeps its history in one file more.
+    // The history of the stopped run is written in addition to the limit.
     assert_eq!(files.filter(visible).count(), 4);
 }
 

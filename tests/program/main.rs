@@ -1,4 +1,4 @@
-//! The program as a user has it: commands, exit codes, files, limits, pipes and terminals.
+//! The program as users run it: commands, exit codes, files, limits, pipes and terminals.
 
 mod cli;
 mod convert;

@@ -1,4 +1,4 @@
-//! Sessions without a terminal, through the binary: values, exit codes, no prompt and no colour.
+//! Sessions without a terminal, run with the binary: values, exit codes, no prompt and no colours.
 #![allow(clippy::unwrap_used)]
 
 use std::io::Write;
@@ -11,7 +11,7 @@ fn withy(folder: &Path) -> Command {
     command
 }
 
-/// What a session says that reads `input` from a pipe: exit code, replies, complaints.
+/// Runs a session with `input` from a pipe. Returns exit code, output and error output.
 fn piped_in(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, String) {
     let mut command = withy(folder);
     command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());

@@ -1,4 +1,4 @@
-//! A person at a terminal: the real binary in a pseudo-terminal.
+//! Interactive sessions: the binary in a pseudo-terminal.
 #![allow(clippy::unwrap_used)]
 #![cfg(unix)]
 
@@ -10,16 +10,16 @@ use std::time::Duration;
 use rexpect::ReadUntil;
 use rexpect::session::{PtySession, spawn_command};
 
-/// Loaded machines stall.
+/// Time limit of a wait [ms], generous for loaded machines.
 const PATIENCE: u64 = 60_000;
 
-/// The first two bytes of any braille dot: the terminal is read byte by byte.
+/// First two bytes of braille characters in UTF-8. The terminal is read byte by byte.
 const BRAILLE: &str = "\u{e2}[\u{a0}-\u{a3}]";
 
-/// What the editor sends when it has read a line: pastes are no longer bracketed.
+/// Sequence of the editor after it has read a line, which turns bracketed paste off.
 const NO_LONGER_READING: &str = "\u{1b}[?2004l";
 
-/// `withy` in a folder, as a person would start it; what it says of itself at the start is read.
+/// Starts `withy` in a folder and reads its greeting.
 fn start(folder: &Path, arguments: &[&str]) -> PtySession {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
     command.current_dir(folder).args(arguments);
@@ -41,7 +41,7 @@ fn ask(session: &mut PtySession, input: &str, reply: &str) {
     session.exp_string(reply).unwrap_or_else(|error| panic!("{input}: {error}"));
 }
 
-/// Types an input that has no reply, and sees that the next prompt appears.
+/// Types an input without a reply, and waits for the next prompt.
 fn tell(session: &mut PtySession, input: &str, next_line: usize) {
     ask(session, input, &format!("withy:{next_line}> "));
 }
@@ -60,7 +60,7 @@ fn a_person_throws_a_beam_and_goes_back() {
     tell(s, "scene.moment(rod.end, -80, hold_for(2.5));", 8);
     tell(s, "let sim = scene.start(#{ integrator: energy_momentum(), dt: 0.1 });", 9);
 
-    // Completion finds the only member of a beam that begins like this.
+    // Completion finds the only member of a beam with this prefix.
     s.send("rod.e\t\n").unwrap();
     s.exp_string("the end of beam 'beam1'").unwrap();
 
@@ -68,11 +68,11 @@ fn a_person_throws_a_beam_and_goes_back() {
     ask(s, ":invariants", "energy E - W + D");
     ask(s, ":back 5", "t = 0.5 after 5 steps");
 
-    // An error, and going on.
+    // The session continues after an error.
     ask(s, "rod.ende", "did you mean 'end'?");
     ask(s, "6 * 7", "42");
 
-    // A run that would take for ever is stopped, and the session lives.
+    // An interrupt stops an endless run, and the session continues.
     s.send_line(":run 1e7").unwrap();
     s.exp_string(NO_LONGER_READING).unwrap();
     sleep(Duration::from_millis(300));
@@ -81,7 +81,7 @@ fn a_person_throws_a_beam_and_goes_back() {
     ask(s, "sim.t > 0.5 && sim.t < 1e7", "true");
     ask(s, ":back 3", " steps");
 
-    // Ctrl-C at the prompt throws away what is typed.
+    // Ctrl-C at the prompt discards the typed text.
     s.send("let nonsense = (((").unwrap();
     s.flush().unwrap();
     s.exp_string("(((").unwrap();
@@ -118,7 +118,7 @@ fn what_is_typed_ahead_is_not_lost() {
     session.exp_string("withy:4> ").unwrap();
     ask(&mut session, "a + b + c", "7");
 
-    // Keys on which a terminal that assembles lines itself would act, while an input is evaluated.
+    // Control characters that a terminal in line mode would interpret, during the evaluation of an input.
     let begin = |session: &mut PtySession, last: &str| {
         let second = "let t = timestamp(); while t.elapsed < 1.0 {}";
         session.send_line(&format!("{second}; `${{2 * 300}} {last}`")).unwrap();
@@ -182,7 +182,7 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
     session.exp_eof().unwrap();
 }
 
-/// `withy` on a terminal of 80 columns and 20 lines, with other variables of the environment.
+/// Starts `withy` on a terminal of 80 columns and 20 lines, with additional environment variables.
 fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
     let mut command = Command::new("sh");
     let start = format!("stty rows 20 cols 80; exec {}", env!("CARGO_BIN_EXE_withy"));
@@ -198,7 +198,7 @@ fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
     session
 }
 
-/// Presses a key.
+/// Sends a key.
 fn press(session: &mut PtySession, key: &str) {
     session.send(key).unwrap();
     session.flush().unwrap();
@@ -210,7 +210,7 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1")]);
     let s = &mut session;
     const STATUS: &str = "space: next page";
-    // On to a word, and out.
+    // Searches for a word, and quits.
     s.send_line(":help topics").unwrap();
     let first = s.exp_string(STATUS).unwrap();
     assert!(first.contains("The language") && !first.contains("From Rhai"), "{first}");
@@ -220,7 +220,7 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     press(s, "q");
     s.exp_string("withy:1> ").unwrap();
     ask(s, "6 * 7", "42");
-    // Ctrl-C.
+    // Quits with Ctrl-C.
     s.send_line("sim?").unwrap();
     s.exp_string("there is no help on 'sim'").unwrap();
     s.send_line(":help topics").unwrap();
@@ -228,17 +228,17 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
     s.send_control('c').unwrap();
     s.exp_string("withy:2> ").unwrap();
     ask(s, "6 * 8", "48");
-    // The end of the text.
+    // Goes to the end of the text.
     s.send_line(":help topics").unwrap();
     s.exp_string(STATUS).unwrap();
     press(s, "G");
     s.exp_string("withy:3> ").unwrap();
     ask(s, "6 * 9", "54");
-    // What is short is printed, and so is what was asked for ahead.
+    // Short help is printed without the pager.
     s.send_line("?TAU").unwrap();
     s.exp_string(NO_LONGER_READING).unwrap();
     assert!(!s.exp_string("withy:4> ").unwrap().contains(STATUS));
-    // What was typed ahead is not lost: whether pages come depends on who has read the keys already.
+    // Input that is typed ahead is not lost. Whether the pager appears depends on which reader receives the keys.
     s.send("let t = timestamp(); while t.elapsed < 0.5 {}\n:help topics\n70 + 7\n").unwrap();
     let either = vec![ReadUntil::String(STATUS.into()), ReadUntil::String("77\r\n".into())];
     if s.exp_any(either).unwrap().1 == STATUS {

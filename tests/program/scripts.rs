@@ -1,4 +1,4 @@
-//! Every script of `scripts/` runs through the real binary, passes its own checks and writes the files it names.
+//! Every script of `scripts/` runs with the binary, passes its checks and writes the files that it names.
 
 #![allow(clippy::unwrap_used)]
 
@@ -14,7 +14,7 @@ fn scripts() -> Vec<PathBuf> {
     scripts
 }
 
-/// The names of files that a script writes: texts that end like one.
+/// File names in the strings of a script, by their extensions.
 fn named_files(script: &str) -> Vec<&str> {
     let texts = script.split('"').skip(1).step_by(2);
     texts
@@ -22,7 +22,7 @@ fn named_files(script: &str) -> Vec<&str> {
         .collect()
 }
 
-/// A drawing says what its axes show and has lines, pixels are a picture with a size, and a table has rows of numbers below its names.
+/// Checks the content of a file: a drawing has axis labels and lines, a picture has a size, and a table has rows of numbers below its column names.
 fn expect_content(file: &str, bytes: &[u8]) {
     if file.ends_with(".png") {
         assert_eq!(&bytes[1..4], b"PNG", "{file}");

@@ -1,4 +1,4 @@
-//! `withy study` as a user has it: tables, files, references, rivals; interrupted and gone on with; studies of the project checked.
+//! `withy study`: tables, files, references, rivals, interrupted and continued studies, and checks of the studies of the project.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -24,7 +24,7 @@ fn printed(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// A study of a spinning rod, in a folder of its own.
+/// Study of a rotating beam, in its own folder.
 fn script(options: &str, after: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("script.rhai");
@@ -43,7 +43,7 @@ fn script(options: &str, after: &str) -> (TempDir, PathBuf) {
     (folder, file)
 }
 
-/// Where the tip of the rod is after a turn by one radian; it stretches a little, which the bound of the error covers.
+/// Position of the tip of the beam after a rotation by one radian. The error bound allows for the small elongation.
 const TURNED: &str = "# turned by t radians\nt,xtip,ytip,thtip,d_pos\n1,1.0806,1.6829,1,0.5\n";
 
 #[test]
@@ -129,7 +129,7 @@ fn what_ran_out_of_patience_is_tried_again() {
     let journal = folder.path().join("out").join("rod.journal");
     let output = withy(&["study", "--max-steps", "300"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
-    // The first case is short; the others do not come to their end.
+    // The first case is short, and the others exceed the limit.
     let known = Journal::open(&journal).unwrap().len();
     assert_eq!(known, 1);
     let output = withy(&["study"], &file).output().unwrap();
@@ -139,10 +139,10 @@ fn what_ran_out_of_patience_is_tried_again() {
     assert!(!printed(&output).contains("by a limit"), "{}", printed(&output));
 }
 
-/// Two short cases, and one that takes for ever.
+/// Two short cases and an endless one.
 const ENDLESS: &str = "meshes: [bspline(2)], dts: [0.1, 0.05, 1e-8], times: [1], repeats: 1, reference: \"turned.csv\"";
 
-/// Waits until so many cases are in a journal.
+/// Waits until a journal has the given number of cases.
 fn wait_for(journal: &Path, cases: usize) {
     let begun = Instant::now();
     while Journal::open(journal).unwrap().len() < cases {
@@ -180,7 +180,7 @@ fn an_interrupted_study_goes_on_where_it_was() {
     assert_eq!(goes_on, "study 'rod' continues: 2 of 3 runs are known from an earlier run");
     assert_eq!(known(&["study", "--max-time", "1", "--fresh"]), None);
 
-    // The same with an end: the endless case is replaced, the others are known, and so are they after a limit.
+    // The endless case is replaced by a short one. The other cases are still known, also after a run that a limit has stopped.
     let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, text.replace("1e-8", "0.025")).unwrap();
     let output = withy(&["study"], &file).output().unwrap();

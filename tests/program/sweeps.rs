@@ -1,4 +1,4 @@
-//! Sweeps as a user has them: the same bytes on one core and on all, interrupted and gone on with, and what they take.
+//! Sweeps: equal bytes on one core and on all, interrupted and continued sweeps, and memory use.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used)]
 
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-/// A sweep of so many flights of a beam, some of which fail.
+/// Sweep of flights of a beam, some of which fail.
 fn flights(rows: usize) -> String {
     format!(
         "let s = section(#{{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 }});
@@ -47,7 +47,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// The table that a run wrote.
+/// Table that a run has written.
 fn table(file: &Path, out: &str) -> Vec<u8> {
     fs::read(file.with_file_name(out).join("flights.csv")).unwrap()
 }
@@ -92,7 +92,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
             assert!(said(&output).contains("finished cases are kept"), "{}", said(&output));
         }
     }
-    // A record that was cut off is lost, and no other.
+    // Only the truncated record is lost.
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 3]).unwrap();
     let output = withy(&file, "out").output().unwrap();
@@ -120,7 +120,7 @@ fn a_journal_of_another_sweep_is_not_taken() {
     assert!(!said(&output).contains("are known"), "{}", said(&output));
 }
 
-/// Three parts in folders of their own, the second killed on its way, made by machines of another name.
+/// Three parts in separate folders, from machines with other names. The second one is killed and continued.
 #[test]
 fn parts_are_joined_to_the_bytes_of_one_machine() {
     let (folder, file) = script(&flights(300));
@@ -152,7 +152,7 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
     };
     refused(&["a", "b"], "of the 3 parts of the study 'flights' these are missing: 2");
     refused(&["nowhere"], "no part of the study 'flights'");
-    // Cut off in the middle, as by a kill: it goes on there.
+    // The part is truncated in the middle, as by a kill, then refused, then continued.
     let second = part(2, "c").output().unwrap();
     assert_eq!(second.status.code(), Some(0), "{}", said(&second));
     let kept = file.with_file_name("c").join("flights.2-of-3.part");
@@ -174,7 +174,6 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
     refused(&["a", "b", "c"], "is not a part of this study");
 }
 
-/// The studies that were there before sweeps: their cases are divided and joined too.
 #[test]
 fn parts_of_maps_and_orders_are_joined_to_the_bytes_of_one_machine() {
     let text = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
@@ -232,7 +231,7 @@ fn steps_of_all_runs_count_and_a_check_makes_one() {
     assert!(check.stdout.is_empty() && fs::read_dir(folder.path()).unwrap().count() == 1);
 }
 
-/// Many points are drawn by lot and many cells together, which the pictures say; those of some rows stand beside those of all.
+/// Scatter plots select points at random and maps average cells, as the pictures state. Pictures of selected rows have names of their own.
 #[test]
 fn pictures_are_of_all_rows_and_have_names_of_their_own() {
     let (_folder, file) = script(
@@ -256,7 +255,7 @@ fn pictures_are_of_all_rows_and_have_names_of_their_own() {
     let [scatter, matrix] = ["lots-a-b", "lots-matrix"].map(picture);
     assert!(scatter.contains("2000 of 4000 points, selected at random"));
     assert!(matrix.contains("lots: 500 of 4000 runs, selected at random"));
-    // The smallest of the points is no reason for a logarithmic axis.
+    // The axis is not logarithmic because of its smallest point alone.
     assert!(!scatter.contains("10⁻"), "{}", &scatter[..2000]);
     let map = picture("grid-a-b-y");
     assert!(map.contains("each drawn cell is the mean of 3 × 3"));
@@ -265,7 +264,7 @@ fn pictures_are_of_all_rows_and_have_names_of_their_own() {
     assert!(all != low && low != high && high != all);
 }
 
-/// When no run came to its end, the first is made again to find the place of its error; neither prints nor writes.
+/// If all runs fail, the first one is repeated to locate its error. It neither prints nor writes.
 #[test]
 fn runs_that_all_fail_leave_nothing_behind() {
     let (_folder, file) = script(
@@ -288,7 +287,6 @@ fn runs_that_all_fail_leave_nothing_behind() {
     assert!(!file.with_file_name("out").join("written.csv").exists());
 }
 
-/// Rows that failed are left out of what a result depends on, and that is told.
 #[test]
 fn sensitivity_tells_how_many_rows_it_leaves_out() {
     let (_folder, file) = script(
@@ -308,7 +306,7 @@ fn sensitivity_tells_how_many_rows_it_leaves_out() {
     assert!(told.contains("of 256 rows") && told.contains("blocks are left out"), "{told}");
 }
 
-/// In full a million rows within 200 MB, in short a tenth of them within 100: a limit that is passed ends the run.
+/// In the long test a million rows within 200 MB, in the short test a tenth of them within 100 MB. A run beyond the limit fails.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_million_rows_fit_into_200_megabytes() {

@@ -1,4 +1,4 @@
-//! `withy view`, and its page in a browser, where there is one.
+//! `withy view`, and its page in a browser, if one is installed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// A folder with the script in it.
+/// Folder with the script.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::write(folder.path().join("swing.rhai"), SCRIPT).expect("the script is written");
@@ -66,7 +66,7 @@ fn what_cannot_be_viewed_is_told() {
     assert!(!home.join("out/swing.html").exists());
 }
 
-/// A browser that can be driven from here.
+/// Browser that can run headless.
 fn browser() -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     let names = ["chromium", "chromium-browser", "google-chrome"];
@@ -74,7 +74,7 @@ fn browser() -> Option<PathBuf> {
     all.into_iter().find(|program| program.is_file())
 }
 
-/// What the page says about itself when a script is added to it: the text of the element `found`, and what the console got.
+/// Adds a script to a page. Returns its result, the text of the element `found`, and the output of the console.
 fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value, String) {
     let home = tempfile::tempdir().expect("a temporary folder");
     let added = format!(
@@ -82,7 +82,7 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
          const element = document.body.appendChild(document.createElement('pre'));
          element.id = 'found'; element.textContent = JSON.stringify(found); }})</script></body>"
     );
-    // Without a screen nothing asks for frames: a clock does.
+    // A timer replaces animation frames, which a headless browser does not request.
     let clock = "<body><script>window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 16);</script>";
     let text = fs::read_to_string(page).expect("a page");
     let text = text.replace("<body>", clock).replace("</body>", &added);
@@ -100,7 +100,7 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
         .expect("the browser starts");
     let dom = String::from_utf8_lossy(&output.stdout).into_owned();
     let said = said(&output);
-    // That the test looks at many pixels is a remark on the test.
+    // The remark on repeated pixel reads is caused by the test itself.
     let is_told = |line: &&str| line.contains("CONSOLE") && !line.contains("Multiple readback");
     let console = said.lines().filter(is_told).collect::<Vec<_>>();
     let found = dom.split_once("id=\"found\">").and_then(|(_, rest)| rest.split_once("</pre>"));
@@ -109,7 +109,7 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
     (serde_json::from_str(&found).expect("JSON"), console.join("\n"))
 }
 
-/// As wide as a phone that lies, the page keeps its width, and what is seldom used waits behind a button.
+/// In the width of a phone the page is not cut off, and rarely used controls are behind a button.
 #[test]
 fn a_narrow_page_is_not_cut() {
     let Some(browser) = browser() else { return };
@@ -145,7 +145,7 @@ fn the_tip_on_the_screen_is_where_the_solver_says() {
         .map(|line| line.split(' ').map(|number| number.parse().expect("a number")).collect())
         .collect();
     assert_eq!(tips.len(), 4);
-    // It plays; then, at each time, a pixel is taken at the tip that the solver has printed, and four beyond it along the rod.
+    // Plays the motion. Then, at each time, reads a pixel at the tip position of the solver, and one 4 pixels beyond it along the beam.
     let script = format!(
         "document.dispatchEvent(new KeyboardEvent('keydown', {{ key: ' ' }}));
          await new Promise((done) => setTimeout(done, 1000));

@@ -1,4 +1,4 @@
-//! Blows at the ends of beams: against Saint-Venant's bar and rigid bodies, at any step, on any mesh.
+//! Impacts at the ends of beams: compared with Saint-Venant's bar and with rigid bodies, at any step size, on any mesh.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::bead;
@@ -10,17 +10,17 @@ use withy::joints::{EndAction, JointKind, Partner};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
 use withy::system::Scene;
 
-/// How a bar is held at the end that is not struck.
+/// Support of the bar at the end without impact.
 #[derive(Clone, Copy, PartialEq)]
 enum Foot {
     Clamped,
     Free,
 }
 
-/// The speed of a bead, over that of waves.
+/// Speed of the bead, relative to the wave speed `c`.
 const SPEED: f64 = 2e-3;
 
-/// A bar of length 1 and mass 1 and a bead of some mass that is about to strike its end, in 10 `L/c`.
+/// Bar of length 1 and mass 1, and a bead that reaches its end after 10 `L/c`.
 fn bar(foot: Foot, axial: f64, mass: f64, spans: usize) -> Scene {
     let mut scene = Scene::new("bar");
     let section = Section {
@@ -40,7 +40,7 @@ fn bar(foot: Foot, axial: f64, mass: f64, spans: usize) -> Scene {
     scene
 }
 
-/// The velocity of the bead after the blow, over that before, and for how many `L/c` it leant on the stop, in steps of so many `L/c`.
+/// Velocity of the bead after the impact, relative to that before, and the duration of the contact [`L/c`], with steps of `step` `L/c`.
 fn struck(scene: Scene, step: f64) -> (f64, f64, Simulation) {
     let speed = (scene.beams[0].section.mean().axial_stiffness).sqrt();
     let dt = step / speed;
@@ -61,10 +61,10 @@ fn struck(scene: Scene, step: f64) -> (f64, f64, Simulation) {
     (after / (SPEED * speed), leant * speed, simulation)
 }
 
-/// The velocity of a mass that has struck the end of a clamped bar, over that before, and how many `L/c` the first contact lasts, by the method of
-/// characteristics: the force of the bar is `out(t) + back(t)`, what runs away and what has come back, `back(t) = out(t - 2 L/c)`, and its end moves with
-/// `(out - back)/Z`, `Z = ρA c` (Saint-Venant 1883; Timoshenko & Goodier, section 167). A wave that comes back later may have the end strike once more. `bar` is
-/// the mass of the bar over that of the mass.
+/// Velocity of a mass after the impact on the end of a clamped bar, relative to that before, and the duration of the first contact [`L/c`], by the method of
+/// characteristics. The force of the bar is `out(t) + back(t)`, the sum of the outgoing wave and the reflected wave `back(t) = out(t - 2 L/c)`. The velocity
+/// of its end is `(out - back)/Z` with `Z = ρA c` (Saint-Venant 1883; Timoshenko & Goodier, section 167). A later reflected wave may cause another contact.
+/// `bar` is the mass of the bar relative to the impacting mass.
 fn by_characteristics(bar: f64) -> (f64, f64) {
     const STEPS: usize = 4000;
     let h = 1.0 / STEPS as f64;
@@ -84,7 +84,7 @@ fn by_characteristics(bar: f64) -> (f64, f64) {
         }
         out.push(if touches { bar * v + now } else { -now });
         if touches {
-            // The trapezoidal rule of v' = -(Z v + 2 back)/m.
+            // Trapezoidal rule for v' = -(Z v + 2 back)/m.
             v = (v * (1.0 - 0.5 * h * bar) - h * (now + next)) / (1.0 + 0.5 * h * bar);
         }
     }
@@ -93,7 +93,7 @@ fn by_characteristics(bar: f64) -> (f64, f64) {
 
 #[test]
 fn the_method_of_characteristics_finds_the_classical_figures() {
-    // Timoshenko & Goodier, section 167: contact of a mass as heavy as the bar, twice and four times as heavy ends at these times.
+    // Timoshenko & Goodier, section 167: end times of the contact for masses of one, two and four times the mass of the bar.
     for (bar, expected) in [(1.0, 3.068), (0.5, 4.708), (0.25, 5.900)] {
         let (_, lasts) = by_characteristics(bar);
         assert!((lasts - expected).abs() < 1e-3, "{bar}: {lasts}");
@@ -115,10 +115,10 @@ fn what_steps_and_mesh_resolve_rebounds_as_from_the_bar_of_saint_venant() {
                     "{bar_mass:5} {spans:5} {step:6}  {found:.4}   {leant:.3}  {arrivals} arrivals"
                 );
                 assert!(arrivals <= 40);
-                // The mass of the node at the end, and what a step takes.
+                // Errors due to the mass of the end node and to the step size.
                 let close = tolerance + 0.25 * bar_mass * (0.5 / spans as f64 + step);
                 assert!((found - velocity).abs() < close, "{found} {velocity}");
-                // On finer meshes the end rings with what the mesh makes of the jump, and the bead leaves and comes back.
+                // On finer meshes, mesh-dependent oscillations after the velocity jump interrupt the contact.
                 assert!(spans != 10 || (leant - lasts).abs() < 0.2, "{leant} {lasts}");
             }
         }
@@ -143,7 +143,7 @@ fn what_steps_do_not_resolve_rebounds_as_from_a_rigid_body_at_any_step_on_any_me
     for exponent in [4, 6, 8, 10, 12] {
         for spans in [4, 10, 40] {
             let axial = 10_f64.powi(exponent);
-            // Steps of 10 L/c and more; free bars of the mass of the bead, and three times as heavy as it.
+            // Steps of at least 10 L/c, for a clamped bar and for free bars of one third of the mass of the bead and of its mass.
             for step in [10.0, 30.0] {
                 let (clamped, _, simulation) = struck(bar(Foot::Clamped, axial, 1.0, spans), step);
                 let kinds: Vec<_> = simulation.arrivals().iter().map(|a| a.kind).collect();
@@ -160,7 +160,7 @@ fn what_steps_do_not_resolve_rebounds_as_from_a_rigid_body_at_any_step_on_any_me
 
 #[test]
 fn a_ring_on_a_steel_rod_leaves_its_stop_in_any_steps() {
-    // 1 kg on a rod of 1 m and 1 cm², held at its start: the wave needs 0.2 ms. Half of the speed is given back in each blow.
+    // 1 kg on a clamped rod of 1 m and 1 cm²: a wave needs 0.2 ms. With the restitution 0.5 each impact halves the speed.
     let steel = Section {
         axial_stiffness: 2.1e7,
         shear_stiffness: 6.7e6,

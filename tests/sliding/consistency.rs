@@ -1,4 +1,4 @@
-//! The laws of sliding at states that are no solutions: derivatives, and the identities from which the rules follow.
+//! Laws of sliding at states that are no solutions: derivatives, and the identities that the conservation properties follow from.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::probe::{self, STEP, differences};
@@ -24,7 +24,7 @@ const LAWS: [(&str, &dyn SlidingLaw); 7] = [
     ("released", &Released),
 ];
 
-/// A random contact: the master before and how it moves, the slave (at the origin) moves, and the unknowns.
+/// Random contact: positions of the master before the step and their increments, the displacement of the slave from the origin, and the unknowns.
 #[derive(Clone)]
 struct State {
     name: String,
@@ -35,11 +35,11 @@ struct State {
     from: f64,
     length: f64,
     mesh: Mesh,
-    /// Kink length [length], compliance [1/force] and jump of the tangent (as a force) at the start of the step, where the mesh has kink lengths.
+    /// Kink length [length], compliance [1/force] and tangent jump (as a force) at the start of the step, for meshes with kink lengths.
     kink: Option<(PiecewisePolynomial, f64, Vec2)>,
 }
 
-/// The kink lengths of a mesh of an axis of that length.
+/// Kink lengths of a mesh with an axis of a given length.
 fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
     let axis = Curve::line(Vec2::zeros(), Vec2::new(length, 0.0)).unwrap();
     unresolved_kink(mesh, &interpolate(&axis, mesh.basis()).unwrap())
@@ -47,13 +47,13 @@ fn kink_of(mesh: &Mesh, length: f64) -> Option<PiecewisePolynomial> {
         .map(|kink| kink.length)
 }
 
-/// The arc length along a mesh of a straight axis of that length.
+/// Arc length along a mesh with a straight axis of a given length.
 fn arc_of(mesh: &Mesh, length: f64) -> PiecewisePolynomial {
     PiecewisePolynomial::integral(&mesh.basis().spans(), 2, |_, xi| length * (1.0 + 0.2 * xi))
 }
 
 impl State {
-    /// `f` of the contact, with everything that may vary taken from a row of numbers: slave, master, `λ`, `η`, `Δξ`.
+    /// Evaluates `f` for the contact with all variables from a list of numbers: slave, master, `λ`, `η`, `Δξ`.
     fn with<T>(&self, numbers: &[f64], f: impl FnOnce(&Contact<'_>, &ContactPath) -> T) -> T {
         let vector = |at: usize| Vec2::new(numbers[at], numbers[at + 1]);
         let last = numbers.len() - 5;
@@ -92,7 +92,7 @@ impl State {
     }
 }
 
-/// Contacts on every mesh: within a span, across knots, over almost nothing, over nothing, from a knot on.
+/// Contacts on every mesh: within a span, across knots, for tiny and zero increments, and starting at a knot.
 fn states() -> Vec<State> {
     let mut random = Random(31);
     let mut states = Vec::new();
@@ -131,7 +131,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
     for state in states() {
         let numbers = state.numbers();
         for (law_name, law) in LAWS {
-            // The gap of the start, over a way of nothing, has no direction.
+            // The relaxed rule is not differentiable at the zero increment.
             if law_name == "relaxed" && state.unknowns.increment.abs() < 1e-3 {
                 continue;
             }
@@ -157,7 +157,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
             let expected = differences(&numbers, 1e-4, &mut |numbers| {
                 state.with(numbers, |contact, _| law.equations(contact).map(|e| e.value).to_vec())
             });
-            // Second derivatives of quadratic and linear elements jump at knots: the last column sees both sides there.
+            // Second derivatives of quadratic and linear elements jump at knots, so differences with respect to `Δξ` are wrong there.
             let smooth = state.from != 0.5 && state.unknowns.increment.abs() > 1e-3;
             let columns = if smooth { numbers.len() } else { numbers.len() - 1 };
             let label = format!("{law_name}, {}", state.name);
@@ -186,7 +186,7 @@ fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
     }
 }
 
-/// Force, moment and work of what a contact does to slave and master in their mean places, without the gap.
+/// Force, moment and work of a contact on slave and master at their mean positions, without the gap.
 fn balance(state: &State, contact: &Contact<'_>, passage: &ContactPath) -> (Vec2, f64, f64) {
     let force = contact.unknowns.force;
     let mean_slave = state.slave_moved * 0.5;
@@ -242,7 +242,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
 
             close("exact sliding", Exact.equations(contact)[4].value * length, lambda.dot(&tau));
 
-            // Without a couple the relaxed rule leaves nothing but its own equations.
+            // Without the couple, the balances of the relaxed rule follow from its equations.
             if way.abs() > 1e-3 {
                 let [x, y, .., sliding] = Relaxed.equations(contact).map(|e| e.value);
                 let mean_gap = Vec2::new(x, y);
@@ -259,7 +259,7 @@ fn what_a_contact_does_is_what_its_equations_leave() {
     }
 }
 
-/// Moves the slave, and changes couple and force along the master, until all equations of a law with a kink hold.
+/// Changes the position of the slave, the couple and the tangential force until all equations of a law with a kink hold.
 fn solve_kinked(state: &mut State, law: &dyn SlidingLaw) {
     let start_gap = |state: &State| state.with(&state.numbers(), |contact, _| contact.start_gap());
     let (length, compliance, before) = state.kink.clone().unwrap();
@@ -293,7 +293,7 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
     let laws: [&dyn SlidingLaw; 2] = [&Kinked, &Frozen];
     let states = states().into_iter().filter(|state| state.kink.is_some());
     for (mut state, law) in states.flat_map(|state| laws.map(|law| (state.clone(), law))) {
-        // A beam of this world: little moves, the kink is small.
+        // Scales the state to small increments and small kinks, as on realistic beams.
         let count = state.before.len();
         for (at, point) in state.before.iter_mut().enumerate() {
             *point = *point * 0.03 + Vec2::new(at as f64 / (count - 1) as f64 * 2.5, 0.0);
@@ -356,7 +356,7 @@ fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
     }
 }
 
-/// Advances with random contact forces and ways.
+/// Advances with random contact forces and increments `Δξ`.
 fn advance_sliders(model: &mut System, increments: &[f64], random: &mut Random) {
     model.begin_step(STEP, &Stage::ALL).unwrap();
     let contacts = random.vector(model.constraint_shape().width, 0.1);
@@ -374,7 +374,7 @@ fn advance_sliders(model: &mut System, increments: &[f64], random: &mut Random) 
 fn assert_border(label: &str, model: &mut System, random: &mut Random) {
     let (movements, shape) = (model.unknowns(), model.constraint_shape());
     let mut unknowns = random.vector(movements + shape.width, 0.05);
-    // Ways long enough for differences of the relaxed rule, forces of some size.
+    // Increments must be large enough for differences of the relaxed rule, and forces not too small.
     for (index, value) in unknowns[movements..].iter_mut().enumerate() {
         *value = if index % 5 == 4 { *value + 0.02 * value.signum() } else { 40.0 * *value };
     }
@@ -387,7 +387,7 @@ fn assert_border(label: &str, model: &mut System, random: &mut Random) {
     model.add_constraints(increments, contacts, &mut plain);
     assert_eq!(out, plain, "{label}");
     let size = movements + shape.width;
-    // The derivatives of the forces by the movements are left out, being zero: `λ` and `η` are unknowns.
+    // Derivatives of the contact forces with respect to displacements vanish and are left out, because `λ` and `η` are unknowns.
     let found = DMatrix::from_fn(size, size, |i, j| tangent.get(i, j));
     let expected = differences(&unknowns, 1e-5, &mut |unknowns| {
         let (increments, contacts) = unknowns.split_at(movements);
@@ -401,7 +401,7 @@ fn assert_border(label: &str, model: &mut System, random: &mut Random) {
 
 #[test]
 fn the_equations_of_a_law_have_the_units_that_they_say() {
-    // Lengths twice as large: equations of lengths double, those of forces stay. Twice the force: the other way round.
+    // Doubled lengths double equations with the unit length only, and doubled forces double equations with the unit force only.
     for state in states() {
         for (name, law) in LAWS {
             if name == "relaxed" && state.unknowns.increment == 0.0 {

@@ -1,4 +1,4 @@
-//! What happens where a slider reaches the end of its beam: at the exact time, with energy and momenta kept.
+//! Sliders at the ends of beams: exact arrival times, and conservation of energy and momenta.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, bouncing_bead, clamped_rail, rail};
@@ -18,7 +18,7 @@ fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
 }
 
-/// Methods that keep everything, the second one with parts of steps that go back in time.
+/// Methods that conserve all invariants. The second one has backward substeps.
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
 
 fn start(scene: Scene, method: Method, dt: f64) -> Simulation {
@@ -72,7 +72,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
             let force = force.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
             assert_eq!(arrival.end, Some(MasterEnd::Start));
             println!("{action:?}: time off by {error:.1e}, ξ by {off:.1e}, force {force:.1e}");
-            // The force of nothing is what rounding leaves of the gap, over the square of the duration of a part.
+            // The contact force vanishes up to the rounding error of the gap over the square of the substep.
             let nothing = if method == Method::FourthOrder { 1e-9 } else { 1e-10 };
             assert!(
                 error.abs() < 1e-13 && off < 1e-13 && force < nothing,
@@ -96,7 +96,7 @@ fn a_bead_on_a_beam_at_rest_arrives_at_the_exact_time() {
                     assert_eq!(simulation.slider_state(0), SliderState::Released);
                     assert_eq!(speed(&simulation), 0.0);
                     assert!(position(&simulation).abs() < 1e-14);
-                    // It flies on in a straight line.
+                    // The released bead moves in a straight line.
                     let bead = simulation.model().control_points().last().unwrap()[0];
                     let expected = at(3.0, 1.0).normalize() * (0.95 * length - 5.0 * 0.7);
                     assert!((bead - expected).norm() < 1e-12, "{bead:?}");
@@ -171,7 +171,7 @@ fn a_bead_that_starts_at_an_end_leaves_it_or_arrives_at_once() {
     }
 }
 
-/// A bead at rest against the stop at the lower end of a vertical rail, and a force that lifts it from t = 0.5 on.
+/// Bead that rests at the lower end of a vertical beam, with a force that lifts it from t = 0.5 on.
 fn resting(mut scene: Scene, lift: f64) -> Scene {
     bead(&mut scene, 1.0, 2.0, at(0.0, 0.0), EndAction::Bounce);
     scene.gravity = at(0.0, -9.81);
@@ -226,7 +226,7 @@ fn a_bead_on_the_stop_of_a_hanging_beam_is_shaken_and_keeps_energy_and_momenta()
             let mut scene = rail(&mesh, at(0.0, -1.0));
             let top = scene.station(0, 0.0).unwrap();
             scene.join(JointKind::Rigid, top, Partner::Ground).unwrap();
-            // Gravity sets in at once: waves run through the beam and throw the bead up.
+            // Gravity starts suddenly and causes waves in the beam that throw the bead up.
             let simulation = simulated(resting(scene, 30.0), method, 0.01, 1.0);
             let kinds = kinds(&simulation);
             println!("{} arrivals, then at ξ = {}", kinds.len(), position(&simulation));
@@ -239,7 +239,7 @@ fn a_bead_on_the_stop_of_a_hanging_beam_is_shaken_and_keeps_energy_and_momenta()
 #[test]
 fn a_bead_arrives_late_in_a_long_run_as_it_does_early() {
     for method in METHODS {
-        // At t = 1000 times are multiples of 1e-13, and the bead goes 8e-13 between two of them.
+        // At t = 1000 the spacing of floating-point numbers is 1e-13, in which the bead moves by 8e-13.
         let mut scene = clamped_rail(&smooth(2), at(3.0, 1.0));
         let velocity = at(3.0, 1.0).normalize() * 7.1;
         bead(&mut scene, 0.3, 0.5, velocity, EndAction::Bounce);
@@ -287,8 +287,8 @@ fn beads_a_million_times_lighter_or_heavier_bounce_and_leave_as_well() {
                     let mut scene = bouncing_bead(&mesh, mass);
                     scene.sliders[0].ends = action;
                     let simulation = simulated(scene, method, 0.02, 2.0);
-                    // Dozens of bounces, each followed by parts of steps that are a thousandth of a step, by whose duration what
-                    // rounding leaves of the gap is divided (theory.md, section 16).
+                    // The substeps after the many bounces are a thousandth of a step. The rounding error of the gap is divided by their duration (theory.md,
+                    // section 16).
                     let tolerance = match (method, action) {
                         (Method::FourthOrder, EndAction::Bounce) => 2e-11,
                         _ => ROUNDING,
@@ -322,7 +322,7 @@ fn a_bead_leaves_a_swinging_beam_without_a_jump_of_energy_or_momentum() {
             let at = rows.iter().position(|row| row.measures.time == time).unwrap();
             assert!(at > 1 && at + 2 < rows.len());
             assert_kept("released", &simulation, ROUNDING);
-            // Flying, it has the velocity with which it left.
+            // The bead moves with the velocity of its release.
             let path = |index: usize| {
                 let numbers = simulation.trajectory().configuration(index);
                 let [.., x, y] = numbers else { unreachable!() };

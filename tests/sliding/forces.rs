@@ -1,4 +1,4 @@
-//! Forces of sliders: at which time they are told, and with which order in the step size.
+//! Forces of sliders: their times, and their order in the step size.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::sliding::reference_scene;
@@ -9,10 +9,10 @@ use withy::integrators::{INTEGRATORS, IntegratorEntry, Method};
 use withy::joints::{SLIDING_RULES, SlidingRule};
 use withy::simulation::{NoMonitor, Simulation, StepControl, StepSize};
 
-/// A time at which the force is smooth.
+/// Time at which the force is smooth.
 const TIME: f64 = 0.2;
 
-/// What is told of the force, from so many steps up to the time: at the present moment, and the mean of a step of which it is the middle.
+/// Present force at `TIME` after the given number of steps, and mean force of a step with `TIME` as its midpoint.
 fn told(reference: &str, rule: SlidingRule, entry: &IntegratorEntry, steps: usize) -> [Vec2; 2] {
     let start = |dt: f64| {
         let scene = reference_scene(reference, 4, rule);
@@ -27,7 +27,7 @@ fn told(reference: &str, rule: SlidingRule, entry: &IntegratorEntry, steps: usiz
     [whole.instant().unwrap().contact(0), half.model().contact_force(0)]
 }
 
-/// The slope from the first to the last change, steps being halved.
+/// Mean observed order of differences when steps are halved.
 fn slope(changes: &[f64]) -> f64 {
     (changes[0] / changes[changes.len() - 1]).log2() / (changes.len() - 1) as f64
 }
@@ -35,7 +35,7 @@ fn slope(changes: &[f64]) -> f64 {
 #[test]
 fn forces_at_the_present_moment_have_the_order_of_the_motion_with_every_rule_and_method() {
     for reference in ["P7b", "P8s_hinged"] {
-        // With the relaxed rule the second one has no solution.
+        // With the relaxed rule, the second reference has no solution.
         let rules = SLIDING_RULES.iter().filter(|rule| rule.claims.gap || reference == "P7b");
         for rule in rules {
             for entry in INTEGRATORS {
@@ -58,16 +58,16 @@ fn forces_at_the_present_moment_have_the_order_of_the_motion_with_every_rule_and
                 let is_kinked = rule.rule == SlidingRule::Kinked;
                 let found = match is_fourth && rule.claims.gap {
                     true => slope(&present) > 3.2,
-                    // The kink swings faster than the largest of these steps follow: one of the slopes may be a matter of chance.
+                    // The largest steps do not resolve the fast oscillation of the kink, so the first observed order may be too small.
                     false if is_kinked => slope(&present).max(slope(&present[1..])) > 1.2,
                     false => slope(&present) > 1.4,
                 };
                 assert!(found, "{label}");
-                // What a step has found belongs to its middle: where it is a force of the whole step, and has no sawtooth.
+                // The force of a second-order step belongs to its midpoint, if it is the mean force of the step and does not alternate.
                 let is_of_middle = entry.claims.momentum && entry.claims.order == 2;
                 let is_mean = ["conserving", "exact"].contains(&rule.name);
                 assert!(!(is_of_middle && is_mean) || slope(&in_step) > 1.7, "{label}");
-                // What is not claimed is seen to fail: the sawtooth of the relaxed rule.
+                // The relaxed rule alternates, so the check must fail for it.
                 let is_rough = rule.name == "relaxed" && entry.claims.momentum;
                 assert!(!is_rough || slope(&in_step) < 0.0, "{label}");
             }
@@ -75,13 +75,13 @@ fn forces_at_the_present_moment_have_the_order_of_the_motion_with_every_rule_and
     }
 }
 
-/// The mean force of a step times its length is the momentum that the bead gets, whatever the rule, the method and the step.
+/// The mean force times the step equals the change of the momentum of the bead, for every rule, method and step size.
 #[test]
 fn the_mean_force_of_a_step_changes_the_momentum_of_the_bead() {
     let steps: [StepSize; 2] = [0.01.into(), StepControl::to(1e-4).into()];
     for rule in SLIDING_RULES {
         for entry in INTEGRATORS.iter().filter(|entry| entry.claims.momentum) {
-            // Adaptive steps of the relaxed rule end where it has no solution.
+            // The relaxed rule has no solution for small adaptive steps.
             for dt in steps.into_iter().take(if rule.claims.gap { 2 } else { 1 }) {
                 let scene = reference_scene("P7b", 4, rule.rule);
                 let mut simulation = Simulation::start(scene, settings(entry.method, dt)).unwrap();
@@ -116,7 +116,7 @@ fn the_first_row_has_the_present_force() {
         simulation.step(&mut NoMonitor).unwrap();
         let second = simulation.model().contact_force(0);
         println!("{:12} {first} {second}", rule.name);
-        // Under a slider of this speed a kink begins without load; the force of the relaxed rule is a sawtooth.
+        // At this speed of the slider, kinks start without load, and the force of the relaxed rule alternates.
         if ["conserving", "exact"].contains(&rule.name) {
             assert!(first.norm() > 0.05, "{}", rule.name);
             assert!((second - first).norm() < 0.01 * first.norm(), "{}", rule.name);

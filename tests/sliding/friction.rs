@@ -1,4 +1,4 @@
-//! Coulomb friction of sliders: closed forms, orders, ledgers and transitions.
+//! Coulomb friction of sliders: closed forms, orders, energy balances and transitions.
 #![allow(clippy::unwrap_used)]
 
 use std::rc::Rc;
@@ -41,7 +41,7 @@ fn incline(degrees: f64, friction: f64) -> Scene {
     scene
 }
 
-/// Bead at a distance of 1 from the axis of a bar that turns with the rate 1, with a start velocity along the bar.
+/// Bead at a distance of 1 from the axis of a bar that rotates at the rate 1, with a start velocity along the bar.
 fn turning_bar(friction: f64, velocity: f64) -> Scene {
     let mut scene = Scene::new("turning bar");
     let rod = add_beam(&mut scene, line(at(-3.0, 0.0), at(3.0, 0.0)), &mesh(), STIFF);
@@ -57,7 +57,7 @@ fn turning_bar(friction: f64, velocity: f64) -> Scene {
     scene
 }
 
-/// Bead that slides with the speed 2 along a flexible beam that flies and turns.
+/// Bead that slides with the speed 2 along a free, rotating flexible beam.
 fn flying(friction: f64, rotation: f64) -> Scene {
     let mut scene = Scene::new("flying");
     let section = Section {
@@ -96,7 +96,7 @@ fn assert_dissipation_grows(label: &str, simulation: &Simulation) {
     assert!(lost.windows(2).all(|pair| pair[1] >= pair[0] - 1e-14 * scale), "{label}");
 }
 
-/// Places along an incline (closed form): the block slides back at 30° and stays at 15°.
+/// Positions along an incline (closed form): the block slides back at 30° and stays at 15°.
 #[test]
 fn a_block_on_an_incline_turns_back_or_stays() {
     let places = [
@@ -118,7 +118,6 @@ fn a_block_on_an_incline_turns_back_or_stays() {
     }
 }
 
-/// A block that sticks keeps its place to rounding, with any number of steps.
 #[test]
 fn a_block_that_sticks_does_not_creep() {
     let mut simulation = Simulation::start(incline(15.0, 0.3), settings(METHOD, 0.05)).unwrap();
@@ -128,14 +127,14 @@ fn a_block_that_sticks_does_not_creep() {
     assert!((place(&simulation) - before).abs() < 1e-14, "{:e}", place(&simulation) - before);
     let after = simulation.history().column("dissipated").unwrap();
     assert!((after.last().unwrap() - lost.last().unwrap()).abs() < 1e-14);
-    // The friction force on the beam holds the weight component m g sin 15°.
+    // The friction force on the beam balances the weight component m g sin 15°.
     let force = simulation.history().column("slider1.friction").unwrap();
     let exact = -9.81 * 15.0_f64.to_radians().sin();
     let mean = force.iter().rev().take(200).sum::<f64>() / 200.0;
     assert!((mean / exact - 1.0).abs() < 1e-3, "{mean} {exact}");
 }
 
-/// Distances from the axis at t = 2 (Runge–Kutta, tolerance 1e-13): with slip in one direction, and with a turn.
+/// Distances from the axis at t = 2 (Runge–Kutta, tolerance 1e-13): with slip in one direction, and with a reversal.
 #[test]
 fn a_bead_on_a_turning_bar_converges_with_second_order() {
     for (friction, velocity, exact) in [(0.3, -1.5, -0.2576974203), (0.8, 0.0, 2.1271833188)] {
@@ -153,7 +152,7 @@ fn a_bead_on_a_turning_bar_converges_with_second_order() {
     }
 }
 
-/// A bar moves across itself with an acceleration of 2 that ends within a step. This leaves a velocity error of the bead across the bar, whose sign
+/// A bar has a transverse acceleration of 2 that ends within a step. This leaves a velocity error of the bead across the bar, whose sign
 /// alternates from step to step, and a contact force that reverses it. The bead no longer presses against the bar, so there is no friction.
 #[test]
 fn friction_does_not_follow_the_alternating_part_of_the_contact_force() {
@@ -240,7 +239,7 @@ fn other_methods_and_rules_are_refused() {
     }
 }
 
-/// Friction with a step of one second on a block that would come to rest after a quarter of it.
+/// A step of one second is divided where the block stops after a quarter of it.
 #[test]
 fn a_transition_cuts_the_step() {
     let mut simulation = Simulation::start(incline(15.0, 0.3), settings(METHOD, 1.0)).unwrap();

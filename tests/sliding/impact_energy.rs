@@ -1,4 +1,4 @@
-//! Energy of impacts at ends of masters: no impact adds energy, for any restitution and any velocities across the masters.
+//! Energy of impacts at ends of masters: no impact adds energy, for any restitution and any transverse velocities of the masters.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::{add_beam, line};
@@ -40,7 +40,7 @@ fn add_bead(scene: &mut Scene, frame: Frame, [place, speed, mass]: [f64; 3]) -> 
 }
 
 /// Light clamped beam with a light bead that is released at the ends, a bead with restitution 0, and a heavy bead on a spring with restitution 0.5.
-/// The steps are far too long for the vibrations of the beam, so the velocities across the beam alternate strongly from step to step.
+/// The steps are far too long for the vibrations of the beam, so the transverse velocities alternate strongly from step to step.
 fn shaken_beam(frame: Frame) -> Scene {
     let mut scene = Scene::new("shaken beam");
     let section = Section {
@@ -115,7 +115,7 @@ fn a_beam_with_strongly_alternating_velocities_gets_no_energy_from_impacts() {
 }
 
 /// Random scenes with stops of random restitution, of which every second scene has elastic stops too.
-/// Every impact loses energy or conserves it, and the ledgers of energy and momenta close.
+/// Every impact loses energy or conserves it, and the balances of energy and momenta close.
 #[test]
 fn impacts_of_random_scenes_add_no_energy() {
     let seeds = if std::env::var("WITHY_LONG").is_ok() { 1140 } else { 60 };

@@ -1,4 +1,4 @@
-//! What each sliding rule claims to keep, in every way in which a slider may be part of a mechanism.
+//! Claimed invariants of each sliding rule, for all uses of a slider in a mechanism.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::sliding::{
@@ -24,7 +24,7 @@ fn drifts(simulation: &Simulation) -> [f64; 4] {
     Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant))
 }
 
-/// What a rule claims, in the order of the invariants.
+/// Claims of a rule, in the order of the invariants.
 fn claimed(claims: RuleClaims) -> [bool; 4] {
     [claims.energy, true, claims.angular_momentum, claims.gap]
 }
@@ -56,7 +56,7 @@ fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
                     assert!(support == Support::Free || factor > 1.0 || counts.steps > 50);
                     let rows = &flight.history().samples()[1..];
                     assert!(counts.newton_max <= 5, "{label}: {} iterations", counts.newton_max);
-                    // No step failed, but for those that led beyond the end.
+                    // No step fails, except at the end of the beam.
                     let retries = rows.split_last().unwrap().1.iter().map(|row| row.retries);
                     assert_eq!(retries.sum::<usize>(), 0, "{label}");
                     assert!(counts.arrival_tries <= 10, "{label}: {} tries", counts.arrival_tries);
@@ -97,7 +97,7 @@ fn every_rule_keeps_what_it_claims_and_nothing_else() {
             for support in [Support::Free, Support::Hinged] {
                 let scene = free_sliding_mass([&ab, &cm], 1e2, support, entry.rule);
                 let mut flight = start(scene, PAPER_STEP);
-                // The relaxed rule stops where it does.
+                // The relaxed rule may stop because a step has no solution.
                 let ended = run(&mut flight, 1.0);
                 assert!(ended.is_ok() || !entry.claims.gap, "{}: {ended:?}", entry.name);
                 let label = format!("{:10} {name:14} {support:6?}", entry.name);
@@ -159,7 +159,7 @@ fn the_trapezoidal_rule_keeps_the_gap_and_the_momentum_under_every_rule_that_clo
     }
 }
 
-/// What is done to a slider between steps.
+/// Action on a slider between steps.
 type Deed = fn(&mut System, usize);
 
 const DEEDS: [(&str, Deed); 4] = [
@@ -209,7 +209,7 @@ fn a_restored_state_goes_on_bit_for_bit_whatever_sliders_did() {
                 assert_eq!(model.state(), state, "{label}");
                 advance(&mut model, 3..6);
                 assert_eq!(model.state(), later, "{label}");
-                // What was done is undone by the state before.
+                // The earlier state reverts the action.
                 model.restore(&sliding);
                 advance(&mut model, 3..6);
                 assert_eq!(model.state(), first, "{label}");

@@ -1,4 +1,4 @@
-//! Kinks begin with the contact force of the moment: carts press on stiff bridges with *kinked* as with *conserving*.
+//! Kinks start with the present contact force: on stiff bridges, the contact forces of *kinked* equal those of *conserving*.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::FRAC_PI_2;
@@ -29,7 +29,7 @@ pub const SECTION: Section = Section {
     rotary_inertia: 0.2,
 };
 
-/// A cart of 20 m/s on a bridge of 10 m, and where it starts [mass, length].
+/// Cart of 20 m/s on a bridge of 10 m, with its start position [mass, length].
 #[derive(Debug, Clone, Copy)]
 pub struct Cart {
     pub mass: f64,
@@ -41,7 +41,7 @@ fn bridge(cart: Cart, spans: usize, rule: SlidingRule) -> Scene {
     bridge_of_bending(cart, SECTION.bending_stiffness, spans, rule)
 }
 
-/// Bridge with a bending stiffness. Weight and speed keep the deflection and the time in periods of the bridge.
+/// Bridge with a bending stiffness. Weight and speed are scaled such that the deflection and the number of periods do not change.
 pub fn bridge_of_bending(cart: Cart, bending: f64, spans: usize, rule: SlidingRule) -> Scene {
     let Cart { mass, start, is_curved } = cart;
     let ratio = bending / SECTION.bending_stiffness;
@@ -81,7 +81,7 @@ fn extremes(values: &[f64]) -> [f64; 2] {
     [range.0, range.1]
 }
 
-/// Forces of both rules over the weight, after the first row.
+/// Contact forces of both rules relative to the weight, after the first row.
 fn both(cart: Cart, spans: usize, dt: f64, end: f64) -> [Vec<f64>; 2] {
     [SlidingRule::Conserving, SlidingRule::Kinked].map(|rule| {
         let scene = bridge(cart, spans, rule);
@@ -104,7 +104,7 @@ pub fn rms(found: &[f64], expected: &[f64]) -> f64 {
 
 #[test]
 fn carts_press_on_stiff_bridges_as_with_the_conserving_rule() {
-    // From an unloaded kink the extremes differed by 1. Amid a span the load is sudden, and its waves are not resolved.
+    // If kinks started unloaded, the extremes would differ by 1. A start within a span is a sudden load, whose waves are not resolved.
     let meshes = [(8, 1e-3), (16, 1e-2), (16, 1e-3), (64, 1e-2), (64, 1e-3), (128, 1e-2)];
     let mut most = 0.0_f64;
     for is_curved in [false, true] {
@@ -147,7 +147,7 @@ fn the_force_of_a_row_is_the_mean_of_its_step() {
                 let off = change - at(0.0, -WEIGHT) + simulation.model().contact_force(0);
                 assert!(off.norm() < 1e-9 * WEIGHT, "{rule:?}: {off:?}");
             }
-            // The first row of a kinked slider has the force with which its kink begins.
+            // The first row of a kinked slider has the initial force of the kink.
             let first = forces(&simulation)[0];
             assert!(rule != SlidingRule::Kinked || (first - 1.0).abs() < 0.5, "{first}");
         }
@@ -206,7 +206,7 @@ fn beads_that_bounce_keep_energy_and_momenta_with_loaded_kinks() {
     }
 }
 
-/// Flexible beam that flies, turned by an angle. A heavy bead with a given speed reaches its end and bounces there. A light bead slides on it.
+/// Free flexible beam, rotated by an angle. A heavy bead with a given speed reaches its end and bounces there. A light bead slides on it.
 fn turned_beam(rotation: f64, speed: f64) -> Scene {
     let (sine, cosine) = rotation.sin_cos();
     let turned = |x: f64, y: f64| at(cosine * x - sine * y, sine * x + cosine * y);
@@ -233,7 +233,7 @@ fn turned_beam(rotation: f64, speed: f64) -> Scene {
     scene
 }
 
-/// Rounding moves a slider at an end by a few units in the last place, in some frames out of the range of the axis.
+/// Rounding changes the position of a slider at an end by a few units in the last place, in some frames beyond the end of the axis.
 #[test]
 fn kinks_after_bounces_are_alike_in_turned_frames() {
     let places = |rotation: f64, speed: f64| {

@@ -1,4 +1,4 @@
-//! Sliders on kinked axes: what comes nearer to the references with a moving mesh, contact forces and all.
+//! Sliders on kinked axes: smaller errors of positions and contact forces with respect to the references with a moving mesh.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, clamped_rail};
@@ -10,7 +10,7 @@ use withy::integrators::Method;
 use withy::joints::{EndAction, SlidingRule};
 use withy::simulation::{Invariant, Simulation, Warning};
 
-/// Root mean squares, over the times of a reference, of the errors of place, contact point, end of the beam and contact force.
+/// Root mean squares of the errors of slider position, contact point, end of the beam and contact force, over the times of a reference.
 fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4] {
     let table = Table::read(&format!("{reference}.csv"));
     let settings = settings(Method::FourthOrder, 0.0025);
@@ -61,7 +61,7 @@ fn on_kinked_axes_contacts_come_nearer_to_the_references() {
         assert!(place > 1.45 && point > 1.4 && force > 0.5, "{reference}: {place} {point} {force}");
         assert!(times_nearer(1) > if is_slow { 40.0 } else { 2.5 }, "{reference}");
         if is_long && is_slow {
-            // Without the inertia that quadrature leaves to the kink this was two, and was to become one.
+            // Without the kink inertia that the quadrature misses, this order would be two, and approach one on finer meshes.
             let last = orders(&kinked[1])[2];
             assert!(last > 2.8 && times_nearer(1) > 200.0, "{reference}: {last}");
         }
@@ -94,7 +94,7 @@ fn present_contact_forces_have_the_order_of_the_method() {
 
 #[test]
 fn several_sliders_on_a_beam_converge_at_third_order_also_in_one_span() {
-    // Four spans are few for three beads; the finest mesh stands for the truth.
+    // Four spans are few for three beads. The finest mesh is the reference solution.
     let places = |spans: usize| {
         let scene = sliding_scenes::abacus(&smooth(spans), SlidingRule::Kinked);
         let flight = simulate(scene, Method::EnergyMomentum, 0.001, 0.3);
@@ -114,7 +114,7 @@ fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told
     for (speed, is_told) in [(3.0, false), (5.0, true)] {
         let mut scene = clamped_rail(&smooth(6), at(1.0, 0.0));
         let mut section = scene.beams[0].section.mean();
-        // Shear waves run at 6.
+        // The speed of shear waves is 6.
         (section.axial_stiffness, section.shear_stiffness) = (1e3, 36.0);
         scene.beams[0].section = section.into();
         let slider = bead(&mut scene, 0.1, 0.3, at(speed, 0.0), EndAction::Bounce);

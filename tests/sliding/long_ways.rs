@@ -1,4 +1,4 @@
-//! Long ways and long times: a thousand element boundaries, a hundred thousand steps.
+//! Long paths and long runs: a thousand element boundaries, a hundred thousand steps.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, bouncing_bead};
@@ -16,7 +16,7 @@ fn drifts(simulation: &Simulation) -> [f64; 4] {
     Invariant::ALL.map(|(_, invariant)| simulation.history().drift(invariant))
 }
 
-/// A bead runs along a free beam of 1010 spans that turns and bends.
+/// Bead that slides along a free beam of 1010 spans, which rotates and bends.
 fn long_way(mesh: &Mesh) -> Scene {
     let mut scene = Scene::new("long way");
     let length = 20.2;
@@ -58,7 +58,7 @@ fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_ste
     }
 }
 
-/// A bead between two springs on a free beam that turns and bends.
+/// Bead between two springs on a free beam that rotates and bends.
 fn shuttle(spans: usize, stiffness: f64) -> Scene {
     let mut scene = Scene::new("shuttle");
     let section =
@@ -84,7 +84,7 @@ fn on_kinked_axes_a_bead_goes_to_and_fro_for_a_hundred_thousand_steps() {
         let settings = settings(Method::EnergyMomentum, dt);
         let mut simulation = Simulation::start(shuttle(3, stiffness), settings).unwrap();
         run(&mut simulation, 0.5 * steps * dt).unwrap();
-        // From a file it goes on with the same bits.
+        // The restored simulation continues with the same bits.
         let file = simulation.to_bytes("half way").unwrap();
         run(&mut simulation, steps * dt).unwrap();
         let at_end = simulation.model().slider_position(0).to_bits();

@@ -1,4 +1,4 @@
-//! What slides: laws of sliding joints, their ends, invariants and orders.
+//! Sliding joints: laws, ends, invariants and orders of convergence.
 
 #[path = "../common/mod.rs"]
 mod common;

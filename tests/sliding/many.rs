@@ -1,4 +1,4 @@
-//! Many sliders: their contacts are eliminated where they touch the band, with the same solution as in a border, and all is kept as with few.
+//! Many sliders: the elimination of contacts within the band gives the same solution as the border, and all invariants hold as with few sliders.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{Random, meshes, simulate, sliding_scenes};
@@ -11,7 +11,7 @@ use withy::system::{MasterEnd, MasterLimit, Scene, System};
 
 const DT: f64 = 0.01;
 
-/// A model that has moved for some steps.
+/// Model after some steps.
 fn moved(scene: &Scene) -> System {
     let mut model = System::assemble(scene).unwrap();
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
@@ -22,7 +22,7 @@ fn moved(scene: &Scene) -> System {
     model
 }
 
-/// What a matrix with the tangent of the next step in it makes of a right-hand side.
+/// Solution of a linear system with the tangent of the next step for a right-hand side.
 fn solution(model: &mut System, mut tangent: BorderedMatrix, right: &[f64]) -> Vec<f64> {
     let (movements, width) = (model.unknowns(), model.constraint_shape().width);
     let interval = Interval::between(model.time(), model.time() + DT);
@@ -85,7 +85,7 @@ fn few_sliders_have_a_border() {
 
 #[test]
 fn all_is_kept_with_beads_eyelets_and_rings_by_the_dozen() {
-    // An eyelet of the last one comes off the ground and is a bead from then on.
+    // An eyelet of the last scene is released from the ground, and then moves as a bead.
     let mut loose = sliding_scenes::eyelets(20, 6);
     let (hold, trigger) = (Releasable::Joint(2), Trigger::Time(0.05));
     loose.add_release(Release { object: hold, trigger }).unwrap();
@@ -105,7 +105,7 @@ fn all_is_kept_with_beads_eyelets_and_rings_by_the_dozen() {
             assert!(kept.iter().all(|drift| *drift < 1e-11), "{name}, {method:?}: {kept:?}");
             let work = flight.counts();
             assert_eq!(work.retries, 0, "{name}, {method:?}");
-            // As many as with few.
+            // The number of iterations is the same as with few sliders.
             let most = 4 * if method == Method::FourthOrder { 7 } else { 1 };
             assert!(work.newton_iterations <= most * work.steps, "{name}, {method:?}: {work:?}");
         }

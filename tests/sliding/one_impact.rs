@@ -1,4 +1,4 @@
-//! Seams and ends that sliders reach at one time are one impact: against a rigid frame, mirrored, in any order, with impulses told.
+//! Simultaneous arrivals at seams and ends are one impact: comparison with a rigid frame, symmetry, independence of the order, and reported impulses.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead as on_rail, clamped_rail};
@@ -15,12 +15,11 @@ use withy::system::Scene;
 const INVARIANTS: [Invariant; 3] =
     [Invariant::Energy, Invariant::AngularMomentum, Invariant::Momentum];
 
-/// The masses of the beads that come to the corners and to the ends, and their speeds.
+/// Mass and speed of the beads that move to the corners, and of those that move to the ends.
 const TO_CORNERS: (f64, f64) = (0.7, 1.0);
 const TO_ENDS: (f64, f64) = (0.4, 0.8);
 
-/// A tray that flies freely: a floor from -1 to 1, and walls that rise from its ends by 45°. Two beads come to its corners and two to its ends, all at 0.5,
-/// mirror images of each other.
+/// Free tray: a floor from -1 to 1, and walls that rise from its ends at 45°. Two beads reach its corners and two reach its ends at 0.5, symmetrically.
 fn tray(order: [usize; 4], stiffness: f64, restitution: f64) -> Scene {
     let mut scene = Scene::new("tray");
     let corners = [at(-2.0, 1.0), at(-1.0, 0.0), at(1.0, 0.0), at(2.0, 1.0)];
@@ -49,7 +48,7 @@ fn tray(order: [usize; 4], stiffness: f64, restitution: f64) -> Scene {
     scene
 }
 
-/// Of each bead, by the number in its name.
+/// Values for each bead, by the number in its name.
 fn by_bead<T: Copy + Default>(simulation: &Simulation, of: impl Fn(usize) -> T) -> [T; 4] {
     let mut found = [T::default(); 4];
     for (index, slider) in simulation.scene().sliders.iter().enumerate() {
@@ -70,18 +69,18 @@ fn a_corner_and_a_stop_that_are_met_at_one_time_share_one_impact() {
         let [bounced, passed] = [ArrivalKind::Bounced, ArrivalKind::Passed].map(Some);
         assert_eq!(kinds, [bounced, passed, bounced, passed]);
 
-        // The tray as a rigid body that moves up with V; what comes to its ends leaves them with e u, what comes to corners goes on up along the walls with s:
-        // momentum  (2 m + 2 n + M) V = √2 (n u (1 + e) - m s),  energy kept but for n u² (1 - e²).
+        // The tray is a rigid body with the velocity V after the impact. Beads leave its ends with e u, and pass its corners up the walls with s.
+        // Momentum: (2 m + 2 n + M) V = √2 (n u (1 + e) - m s). The energy decreases by n u² (1 - e²).
         let whole = 2.0 * (m + n) + 2.0 + 2.0 * 2.0_f64.sqrt();
         let (root, e) = (2.0_f64.sqrt(), restitution);
-        // As functions of s: V, and the energy less that before.
+        // V, and the change of energy, as functions of s.
         let rises = |s: f64| root * (n * u * (1.0 + e) - m * s) / whole;
         let surplus = |s: f64| {
             let rise = rises(s);
             let bead = |mass: f64, speed: f64| mass * (speed * speed + root * speed * rise);
             bead(m, s) + bead(n, -e * u) + 0.5 * whole * rise * rise - m * v * v - n * u * u
         };
-        // The stop's loss is -P ½ (w⁻ + w⁺) = ½ (1 - e) u P each, with the impulse P as what changes the bead along the wall.
+        // The loss of each stop is -P ½ (w⁻ + w⁺) = ½ (1 - e) u P, with the impulse P that changes the momentum of the bead along the wall.
         let loss = |s: f64| (1.0 - e) * u * n * (u * (1.0 + e) - rises(s) / root);
         let (mut low, mut high) = (0.5 * v, 1.5 * v);
         for _ in 0..60 {
@@ -94,7 +93,7 @@ fn a_corner_and_a_stop_that_are_met_at_one_time_share_one_impact() {
         for (found, expected) in speeds.iter().zip([e * u, low, e * u, low]) {
             assert!((found.abs() - expected).abs() < 5e-6, "{speeds:?}: {expected}");
         }
-        // What the beads give the tray is all that it gets.
+        // The impulses of the beads are the whole momentum of the tray.
         let given: Vec2 = simulation.arrivals().iter().map(|arrival| arrival.impulse).sum();
         let mass_of_tray = whole - 2.0 * (m + n);
         assert!((given - at(0.0, mass_of_tray * rises(low))).norm() < 2e-5, "{given:?}");
@@ -149,6 +148,6 @@ fn a_bounce_tells_its_impulse() {
     on_rail(&mut scene, 0.5, 0.3, at(2.0, 0.0), EndAction::Bounce);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.1, 0.5);
     let [bounce] = simulation.arrivals() else { panic!("{:?}", simulation.arrivals()) };
-    // Twice its momentum, on the rail.
+    // The impulse on the rail is twice the momentum of the bead.
     assert!((bounce.impulse - at(1.2, 0.0)).norm() < 1e-6, "{:?}", bounce.impulse);
 }

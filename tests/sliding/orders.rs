@@ -1,4 +1,4 @@
-//! Convergence of sliding joints in time and space, against own fine runs and the references with a moving mesh.
+//! Convergence of sliding joints in time and space, with respect to fine runs and to the references with a moving mesh.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::Table;
@@ -14,7 +14,7 @@ fn position(simulation: &Simulation, station: &Station) -> Vec2 {
     simulation.model().position(&simulation.place(station).unwrap())
 }
 
-/// Where on beam AB the contact is.
+/// Arc length of the contact on beam AB.
 fn contact_length(simulation: &Simulation) -> f64 {
     10_f64.sqrt() * simulation.model().slider_position(0)
 }
@@ -54,7 +54,7 @@ fn sliders_converge_in_time_at_second_order() {
             method.entry().name,
             sci(&changes)
         );
-        // The relaxed rule comes close to having no solution: its ways are rough.
+        // The relaxed rule comes close to having no solution, so its increments are irregular.
         let margin = match rule {
             SlidingRule::Relaxed => 0.5,
             SlidingRule::Kinked => 0.3,
@@ -72,7 +72,7 @@ fn sliders_converge_in_time_at_second_order() {
     check(Method::EnergyMomentum, SlidingRule::Relaxed, "P8s_free", 0.4);
 }
 
-/// Errors of contact length, contact point and a third point with more and more spans.
+/// Errors of the contact length, the contact point and a third point, for increasing numbers of spans.
 fn errors_in_space(
     reference: &str,
     end: f64,
@@ -96,24 +96,24 @@ fn errors_in_space(
     errors
 }
 
-/// The slope from the first to the last error, spans being doubled.
+/// Mean observed order of errors when spans are doubled.
 fn slope(errors: &[f64]) -> f64 {
     (errors[0] / errors[errors.len() - 1]).log2() / (errors.len() - 1) as f64
 }
 
-/// Whether errors fall at an order of at least that much, unless already those of the coarsest mesh are small.
+/// Returns true if the errors decrease with at least this order, or if all errors are small.
 fn converges(errors: &[f64], order: f64, small: f64) -> bool {
     slope(errors) > order || errors.iter().all(|error| *error < small)
 }
 
 #[test]
 fn a_sliding_particle_converges_to_the_references_at_first_order_in_space() {
-    // The exact tangent jumps at a loaded contact; a mesh that is smooth there smears the jump over its spans.
+    // The exact tangent jumps at a loaded contact. A mesh that is smooth there distributes the jump over its spans.
     let b = ("xB", "yB", Station::on_beam(0, 10_f64.sqrt()));
     for (reference, end) in [("P7b", 0.2), ("P7b", 0.4), ("P7c", 0.4), ("P7c", 1.0), ("P7d", 0.3)] {
         let [length, point, tip] = errors_in_space(reference, end, 0.0005, b, &[8, 16, 32, 64]);
         assert!((0.75..1.35).contains(&slope(&point)), "{reference}: {point:?}");
-        // The error of the place changes its sign on the way to finer meshes.
+        // The error of the contact length changes its sign during refinement.
         assert!(converges(&length, 0.6, 1.2e-3), "{reference}: {length:?}");
         assert!(converges(&tip, 0.75, 0.0), "{reference}: {tip:?}");
         assert!(length[3] < 5e-4 && point[3] < 1e-3 && tip[3] < 3e-3, "{reference}");
@@ -127,7 +127,7 @@ fn two_beams_converge_to_the_references_at_first_order_in_space() {
         for (end, farthest) in [(0.1, 1e-3), (0.2, 5e-3), (0.3, 6e-3)] {
             let [length, point, mass] =
                 errors_in_space(reference, end, 0.0005, m, &[8, 16, 32, 64]);
-            // The contact itself comes nearer more slowly and not evenly, as with the fixed-mesh solver of the references.
+            // The contact point converges more slowly and irregularly, as with the fixed-mesh solver of the references.
             assert!(converges(&mass, 0.8, 2e-5), "{reference}: {mass:?}");
             assert!(mass[3] < 2e-3 && length[3] < farthest && point[3] < farthest, "{reference}");
         }
@@ -160,7 +160,7 @@ fn energies_converge_to_those_of_the_references() {
 
 #[test]
 fn sliders_turn_round_without_noticing() {
-    // ξ at which they turn, and when they pass 0.95 on the way out: P7c, P8s hinged (README of the references).
+    // Turning point ξ, and time of passing 0.95 on the way out: P7c, P8s hinged (README of the references).
     for (reference, turning, end, back) in
         [("P7c", 0.42165, 1.2, 1.101_05), ("P8s_hinged", 0.2687, 0.7, 0.628_61)]
     {

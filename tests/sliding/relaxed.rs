@@ -1,4 +1,4 @@
-//! Where the relaxed rule stops, its steps have no solution: shown by solving them for every way `Δξ` instead.
+//! Steps of the relaxed rule that fail have no solution. The residual for all prescribed increments `Δξ` shows this.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::fixed_way::FixedWay;
@@ -13,7 +13,7 @@ fn interval(step: u32) -> Interval {
     Interval::between(f64::from(step) * PAPER_STEP, f64::from(step + 1) * PAPER_STEP)
 }
 
-/// How often the sliding equation changes its sign along all ways from 1e-7 to 0.3, in both directions.
+/// Number of sign changes of the sliding equation for increments from 1e-7 to 0.3 in both directions.
 fn solutions(model: &mut System, interval: Interval) -> usize {
     let mut found = 0;
     for direction in [-1.0, 1.0] {
@@ -34,7 +34,7 @@ fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
     let mut ends = Vec::new();
     for support in [Support::Free, Support::Hinged] {
         for (name, meshes) in paper_meshes() {
-            // The quadrature of the paper.
+            // Quadrature of the paper.
             let [ab, cm] = meshes.map(|mesh| points(mesh, 3));
             let scene = free_sliding_mass([&ab, &cm], 1e2, support, SlidingRule::Relaxed);
             let mut model = System::assemble(&scene).unwrap();
@@ -63,7 +63,7 @@ fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
             ends.push(if at_the_end { None } else { Some(xi) });
         }
     }
-    // With A free both splines come to the end of AB; cubic Lagrange does not, nor anything with A hinged.
+    // With A free, the runs with splines reach the end of AB. All other runs stop before.
     let [free_c1, free_c2, free_lagrange, hinged @ ..] = ends.as_slice() else { unreachable!() };
     assert!(free_c1.is_none() && free_c2.is_none());
     assert!((free_lagrange.unwrap() - 0.656).abs() < 1e-3);

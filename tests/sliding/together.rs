@@ -1,4 +1,4 @@
-//! All that arrives at one time is one impact: symmetric scenes stay symmetric, and nothing depends on the order in which sliders are declared.
+//! Simultaneous arrivals are one impact: symmetric scenes stay symmetric, and the order of declaration of sliders has no effect.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::{bead, clamped_rail, rail};
@@ -17,7 +17,7 @@ use withy::system::{
 
 const METHODS: [Method; 2] = [Method::EnergyMomentum, Method::FourthOrder];
 
-/// Beads on a free beam along x of length 1: where they are, their masses and speeds, mirror images of each other.
+/// Positions, masses and speeds of symmetric beads on a free beam along x of length 1.
 const BEADS: [(f64, f64, f64); 4] =
     [(0.25, 0.4, -1.0), (0.75, 0.4, 1.0), (0.4, 0.1, -1.6), (0.6, 0.1, 1.6)];
 
@@ -42,7 +42,7 @@ fn simulated(scene: Scene, method: Method, dt: f64, end: f64) -> Simulation {
     simulation
 }
 
-/// Where each bead is on its way, by the number in its name, and where the middle of the beam is.
+/// Position of each bead, by the number in its name, and of the middle of the beam.
 fn places(simulation: &Simulation) -> ([f64; 4], f64) {
     let mut places = [0.0; 4];
     for (index, slider) in simulation.scene().sliders.iter().enumerate() {
@@ -59,7 +59,7 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
         for (axial, dt) in [(1e2, 0.002), (1e4, 0.01), (1e8, 0.01)] {
             for restitution in [1.0, 0.6, 0.0] {
                 for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
-                    // Parts of steps that go back in time stir up the kink beside a soft end, and magnify rounding.
+                    // Backward substeps excite the kink beside a soft end and amplify rounding errors.
                     if rule == SlidingRule::Kinked && method == Method::FourthOrder {
                         continue;
                     }
@@ -76,7 +76,7 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
                     assert!(energy < 1e-11 && momentum < 1e-12, "{label}: {energy:e} {momentum:e}");
                     println!("{label}: asymmetry {off:.1e}, {} arrivals", first.arrivals().len());
                     assert!(off < 1e-12, "{label}: {off:e}");
-                    // They arrive in pairs, at one time.
+                    // Arrivals come in pairs at equal times.
                     for pair in first.arrivals().chunks(2) {
                         assert!(pair.len() == 2 && pair[0].time == pair[1].time, "{label}");
                         assert_eq!(pair[0].kind, pair[1].kind, "{label}");
@@ -84,7 +84,7 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
                     for order in [[1, 0, 3, 2], [3, 1, 2, 0]] {
                         let other = mirrored(order, axial, restitution, rule);
                         let (other, _) = places(&simulated(other, method, dt, 0.6));
-                        // Who rests without a force at the stop of a stiff beam leaves it by rounding.
+                        // A bead that rests without a contact force at the stop of a stiff beam leaves it because of rounding.
                         let least = if restitution == 0.0 && axial == 1e8 { 1e-8 } else { 1e-12 };
                         for (one, other) in found.iter().zip(other) {
                             assert!(
@@ -101,8 +101,8 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
 
 #[test]
 fn a_stiff_beam_hands_a_blow_on_from_bead_to_bead() {
-    // As in Newton's cradle: beads and beam weigh the same, and in steps that do not resolve waves the beam is a rigid body. The third bead
-    // rests at the other end, the second one is struck by nobody.
+    // Newton's cradle: beads and beam have equal masses. The steps do not resolve waves, so the beam acts as a rigid body. The third bead rests at the other
+    // end, and the second one takes no part.
     for dt in [0.01, 0.1] {
         let mut scene = rail(&Mesh::bspline(6, 3, 2).unwrap(), at(1.0, 0.0));
         let mut section = scene.beams[0].section.mean();
@@ -115,7 +115,7 @@ fn a_stiff_beam_hands_a_blow_on_from_bead_to_bead() {
         let beads: Vec<Vec2> =
             simulation.model().control_points().skip(1).map(|points| points[0]).collect();
         println!("dt = {dt}: {beads:?}, {:?}", simulation.arrivals());
-        // The first comes to rest where it struck, the last goes on with its velocity.
+        // The first bead stops where it strikes, and the last one moves on with its velocity.
         let expected = [1.0, 0.5, 0.25];
         for (bead, x) in beads.iter().zip(expected) {
             assert!((bead.x - x).abs() < 1e-3, "{bead:?} {x}");
@@ -129,7 +129,7 @@ fn a_stiff_beam_hands_a_blow_on_from_bead_to_bead() {
 fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
     for method in METHODS {
         for restitution in [0.0, 0.3, 0.8] {
-            // A fall of 0.5 under g = 1: it arrives at t = 1 and bounces for 2 e/(1 - e).
+            // Fall of 0.5 under g = 1: the bead arrives at t = 1 and bounces for 2 e/(1 - e).
             let mut scene = clamped_rail(&Mesh::bspline(4, 3, 2).unwrap(), at(0.0, -1.0));
             bead(&mut scene, 0.5, 1.0, at(0.0, 0.0), EndAction::Bounce);
             scene.sliders[0].restitution = restitution;
@@ -146,14 +146,14 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
                 last.time
             );
             assert_eq!(last.kind, ArrivalKind::Held);
-            // What is left of the series takes a few steps.
+            // The remaining bounces of the series end within a few steps.
             assert!(last.time <= end + 1e-3 && last.time > end - 0.15, "{} {end}", last.time);
             assert!(simulation.arrivals().len() < 40);
             let row = simulation.history().samples().last().unwrap();
-            // But for what the beam, on which gravity sets in at once, adds and takes.
+            // The tolerance allows for the energy exchange with the beam, on which gravity starts suddenly.
             assert!((row.measures.dissipated - 0.5).abs() < 1e-3, "{}", row.measures.dissipated);
             assert!(simulation.history().drift(Invariant::Energy) < 1e-12);
-            // From t = 12 on the load lifts it: it leaves at once, with an acceleration of 1.
+            // From t = 12 on the load lifts the bead, which leaves at once with an acceleration of 1.
             let place = simulation.model().slider_position(0);
             assert!((place - 0.5).abs() < 1e-3, "{place}");
             let lost = simulation.history().column("dissipated.slider1").unwrap();
@@ -164,7 +164,7 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
 
 #[test]
 fn whatever_happens_in_one_step_keeps_everything() {
-    // In the step from 0.3 on: a bead strikes an end, another leaves at the other one, a third turns round, a load jumps, and the foot of the beam lets go.
+    // In the step from 0.3 on, one bead strikes an end, one is released at an end, one reverses, a load jumps, and the foot of the beam is released.
     for method in METHODS {
         for dt in [0.3, 0.1, 0.02] {
             let mut scene = clamped_rail(&Mesh::bspline(5, 3, 2).unwrap(), at(1.0, 0.0));
@@ -194,7 +194,7 @@ fn whatever_happens_in_one_step_keeps_everything() {
 fn what_leans_loses_and_leaves_goes_on_bit_for_bit_from_files_and_after_going_back() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     for method in METHODS {
-        // Steps that resolve blows, in which sliders lean, and steps that do not.
+        // Steps that resolve impacts, in which sliders stay in contact with stops, and steps that do not.
         for (dt, end) in [(5e-4, 0.12), (0.01, 0.6)] {
             let scene = sliding_scenes::losing_abacus(&mesh, SlidingRule::Conserving);
             let mut first = Simulation::start(scene, settings(method, dt)).unwrap();
@@ -236,7 +236,7 @@ fn what_leans_loses_and_leaves_goes_on_bit_for_bit_from_files_and_after_going_ba
     }
 }
 
-/// A soft beam on springs, at whose end two beads come to rest again and again, turned about the origin.
+/// Soft beam on springs, rotated about the origin. Two beads repeatedly come to rest at its end.
 fn resting_beads(angle: f64) -> Scene {
     let turned = |point: Vec2| Rotation2::new(angle) * point;
     let mut scene = Scene::new("resting beads");

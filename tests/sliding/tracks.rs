@@ -1,4 +1,4 @@
-//! Tracks: from beam to beam over smooth seams and corners, round and round, against closed forms and against one beam.
+//! Tracks: passages over smooth seams and corners, and closed tracks, compared with closed forms and with a single beam.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -45,7 +45,7 @@ fn a_bead_goes_round_a_rigid_ring_a_hundred_times_at_its_speed() {
     let ring = bead(&mut scene, track, 0.0, 1.0, at(0.0, 1.0));
     let (dt, end) = (0.05, 200.0 * PI);
     let simulation = simulate(scene, Method::EnergyMomentum, dt, end);
-    // A step is a chord along the mean of two velocities of the same size: it turns by 2 atan(v Δt/2 r).
+    // A step is a chord, and its displacement is the mean of two velocities of equal size times Δt: the bead rotates by 2 atan(v Δt/2 r).
     let found = arc_length(&simulation, ring);
     let expected = end / dt * 2.0 * (0.5 * dt).atan();
     println!("ring: {found} for {end}, by chords {expected}");
@@ -56,7 +56,7 @@ fn a_bead_goes_round_a_rigid_ring_a_hundred_times_at_its_speed() {
     assert!(simulation.model().slider_speed(ring) - 1.0 < 1e-4);
 }
 
-/// A bead that crosses a hinged beam along x from 0 to 2, of one piece or of two that join at `seam`; `turned` ones are drawn the other way round.
+/// Bead that crosses a hinged beam along x from 0 to 2, of one piece or of two that join at `seam`. Pieces that are `turned` have the opposite direction.
 fn crossing(spans: usize, seam: Option<f64>, turned: [bool; 2]) -> (Scene, usize) {
     let mut scene = Scene::new("crossing");
     let cuts: Vec<f64> = std::iter::once(0.0).chain(seam).chain([2.0]).collect();
@@ -132,7 +132,7 @@ fn beams_may_be_drawn_either_way() {
     }
 }
 
-/// A ramp of 45° down to the floor, of stiff beams; its corner is held or not.
+/// Ramp of 45° and floor, both stiff beams, with a supported or a free corner.
 fn ramp(stiffness: f64, held: bool) -> (Scene, usize) {
     let mut scene = Scene::new("ramp");
     let slope = line(at(0.0, 1.0), at(1.0, 0.0));
@@ -170,7 +170,7 @@ fn a_corner_of_a_stiff_ramp_keeps_the_speed_with_every_method() {
 
 #[test]
 fn a_free_rigid_corner_turns_the_relative_velocity_in_the_kinetic_metric() {
-    // An angle of two stiff bars of lengths 1 and 2 in free space; the bead comes along the one, and all is at rest before it passes.
+    // Free angle of two stiff bars of lengths 1 and 2, initially at rest. The bead moves along the first one.
     let mut scene = Scene::new("angle");
     let (inner, outer) = (at(0.0, 0.0), at(1.2, 1.6));
     let one = add_beam(&mut scene, line(at(-1.0, 0.0), inner), &smooth(6), section(1e8, 1e8));
@@ -178,11 +178,11 @@ fn a_free_rigid_corner_turns_the_relative_velocity_in_the_kinetic_metric() {
     let track = track(&mut scene, &[one, two], TrackEnd::Open);
     let mass = 0.7;
     let slider = bead(&mut scene, track, 0.5, mass, at(1.0, 0.0));
-    // It comes to the corner at 0.5.
+    // The bead reaches the corner at 0.5.
     let simulation = simulate(scene, Method::EnergyMomentum, 0.025, 0.5 + 1e-7);
     assert_eq!(simulation.arrivals().len(), 1);
 
-    // The frame as a rigid body, with the inertia of the sections.
+    // Frame as a rigid body, with the rotary inertia of the sections.
     let bars = [(at(-0.5, 0.0), 1.0), (outer * 0.5, 2.0)];
     let centre = (bars[0].0 + bars[1].0 * 2.0) / 3.0;
     let inertia = bars.map(|(own, mass): (Vec2, f64)| {
@@ -274,7 +274,7 @@ fn beads_that_meet_a_seam_together_pass_it_together() {
     assert!((one[0] - other[1]).abs() < 1e-12, "{one:?} {other:?}");
 }
 
-/// On a flying track of three beams: one bead comes to its end, one to a corner, and one to a smooth seam, when a load jumps and a third beam is let go; all at 0.5.
+/// Free track of three beams. At 0.5 one bead reaches its end, one a corner, and one a smooth seam, a load jumps, and another beam is released.
 fn everything_at_once(order: [usize; 3]) -> Scene {
     let mut scene = Scene::new("everything at once");
     let corners = [at(0.0, 0.0), at(1.0, 0.0), at(2.0, 0.0), at(2.0, 1.0)];
@@ -340,7 +340,7 @@ fn a_bead_that_turns_round_at_a_seam_comes_back() {
     }
     let track = track(&mut scene, &[low, high], TrackEnd::Open);
     scene.gravity = at(0.0, -10.0);
-    // It comes up to the seam, and no further.
+    // The energy of the bead is just sufficient to reach the seam.
     let speed = 10.0_f64.sqrt();
     let slider = bead(&mut scene, track, 0.0, 1.0, at(speed, speed));
     let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.5);
@@ -370,7 +370,7 @@ fn a_bead_in_a_valley_stays_there_and_leaves_with_what_it_had() {
     assert!(matches!(simulation.slider_state(slider), SliderState::Held(_)));
     assert!((arc_length(&simulation, slider) - 2.0_f64.sqrt()).abs() < 1e-14);
     run(&mut simulation, 0.7).unwrap();
-    // 30 along x and -10 along y drive it up the right side.
+    // Forces of 30 along x and -10 along y accelerate the bead up the right side.
     let up = 0.5 * (20.0 / 2.0_f64.sqrt()) * 0.04;
     let found = arc_length(&simulation, slider) - 2.0_f64.sqrt();
     assert!((found - up).abs() < 1e-3 * up, "{found} {up}");

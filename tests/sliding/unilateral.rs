@@ -1,4 +1,4 @@
-//! Sliders that only push: take-off, flight, landing and their ledgers.
+//! Unilateral sliders: take-off, flight, landing and their balances.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::scenes::{add_beam, line};
@@ -21,7 +21,7 @@ const METHOD: Method = Method::EnergyMomentum;
 /// Angle of the start of the circle [°].
 const SPHERE_START: f64 = 120.0;
 
-/// Section that hardly moves because of its mass. Its vibrations are slow, so steps resolve them.
+/// Section of such a large mass that the beam hardly moves. Its vibrations are slow, so steps resolve them.
 const HEAVY: Section = Section {
     axial_stiffness: 1e9,
     shear_stiffness: 1e9,
@@ -132,7 +132,7 @@ fn a_moving_mass_takes_off_near_the_end_of_a_beam() {
     assert!(places.iter().all(|place| (place - 0.9374).abs() < 2e-3), "{places:?}");
 }
 
-/// A bead drops on a fixed beam. The times of the impacts follow from Newton's law of restitution.
+/// A bead falls on a fixed beam. The times of the impacts follow from Newton's law of restitution.
 #[test]
 fn a_bead_bounces_on_a_beam() {
     for (restitution, dt) in [(0.8, 0.05), (0.8, 0.01), (0.5, 0.01), (1.0, 0.013), (0.0, 0.01)] {
@@ -166,7 +166,7 @@ fn a_bead_bounces_on_a_beam() {
     }
 }
 
-/// Flexible cantilever under its weight, with a bead that drops on it, turned by an angle and optionally mirrored.
+/// Flexible cantilever under its weight, with a bead that falls on it, rotated by an angle and optionally mirrored.
 fn cantilever(turn: f64, side: Side, restitution: f64) -> Scene {
     let mut scene = Scene::new("cantilever");
     let place = |x: f64, y: f64| {
@@ -217,7 +217,6 @@ fn a_flexible_beam_keeps_its_ledger_through_many_landings() {
     }
 }
 
-/// A beam and a bead fly freely and meet repeatedly: both momenta are kept.
 #[test]
 fn a_free_beam_and_a_bead_keep_their_momenta() {
     for restitution in [0.0, 0.7] {
@@ -272,7 +271,7 @@ fn a_landing_leaves_another_slider_behind() {
     assert!((gaps.last().unwrap() / exact - 1.0).abs() < 0.02, "{:?} {exact}", gaps.last());
 }
 
-/// Beyond the end of a beam there is no landing, also when the slave returns from the other side.
+/// No landing occurs beyond the end of a beam, even if the slave returns from the other side.
 #[test]
 fn a_bead_passes_beyond_the_end_of_a_beam() {
     let mut scene = Scene::new("passing");
@@ -316,7 +315,7 @@ fn adaptive_steps_keep_the_ledger() {
     assert!(take_offs(&simulation) > 1);
 }
 
-/// Particles at the start and above a hinged beam. Their landings separate each other from the beam in turn.
+/// Particles at the start and above a hinged beam. Each landing separates the other particle from the beam.
 fn two_on_a_beam(mass_per_length: f64) -> Scene {
     let mut scene = Scene::new("two on a beam");
     let section = Section {
@@ -380,7 +379,7 @@ fn take_offs_and_landings_are_events() {
     }
 }
 
-/// A saved run is repeated bit for bit, row by row, as conversions do.
+/// A saved run is repeated bit for bit in single rows, as in conversions.
 #[test]
 fn saved_runs_are_repeated_through_landings() {
     for scene in [cantilever(0.0, Side::Left, 0.5), two_on_a_beam(0.1)] {
@@ -397,7 +396,6 @@ fn saved_runs_are_repeated_through_landings() {
     }
 }
 
-/// A run with derivatives has the take-offs and landings of a run without them.
 #[test]
 fn runs_with_derivatives_take_off_as_others() {
     let scene = || sphere(0.3);

@@ -1,4 +1,4 @@
-//! Rigid bodies at rest and in small vibration, against closed forms.
+//! Equilibria and small vibrations of rigid bodies, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge, point};
@@ -13,7 +13,7 @@ use withy::vibration::Modes;
 
 const GRAVITY: f64 = 9.81;
 
-/// The root of a function that rises through zero.
+/// Root of a function that changes from negative to positive.
 fn root(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (from + to);
@@ -22,7 +22,7 @@ fn root(f: impl Fn(f64) -> f64, mut from: f64, mut to: f64) -> f64 {
     0.5 * (from + to)
 }
 
-/// A body of mass 1 and inertia 0.2 on a hinge at the origin, held by a torsion spring, drawn along x with its centre at 0.8.
+/// Rigid body of mass 1 and inertia 0.2 on a hinge at the origin with a torsion spring, initially along x with its centre at 0.8.
 fn lamp(stiffness: f64) -> Scene {
     let mut scene = Scene::new("lamp");
     let body = add_body(&mut scene, at(0.8, 0.0), 0.0, (1.0, 0.2), &[at(-0.8, 0.0), at(0.5, 0.3)]);
@@ -58,7 +58,7 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
             };
             let points = rest.model().control_points().next().unwrap();
             assert!((points[2] - frame(1.3, 0.3)).norm() < 1e-12 && points[1].norm() < 1e-12);
-            // The turning weight makes the spring stiffer or softer: the force of the lever is a part of the stiffness.
+            // The potential energy of the weight contributes to the tangent stiffness.
             let expected = (stiffness - torque * turned.sin()) / (0.2 + 0.64);
             let [square] = squares(rest.model(), 1)[..] else { panic!() };
             assert!((square / expected - 1.0).abs() < 1e-7, "{square} {expected}");
@@ -67,7 +67,7 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
             let (force, moment) = rest.reaction(&place).unwrap();
             assert!((force - at(0.0, GRAVITY)).norm() < 1e-10 && moment == 0.0, "{force} {moment}");
         }
-        // There is no second mode: a hinge leaves one movement.
+        // A body on a hinge has only one mode.
         let model = System::assemble(&lamp(stiffness)).unwrap();
         assert!(Modes::of(&model, 2, &mut || true).is_err());
     }
@@ -88,7 +88,7 @@ fn a_body_that_nothing_but_its_weight_holds_hangs_and_one_that_nothing_holds_fal
     assert!(matches!(refused, StaticsError::Unrestrained { movements: 3, .. }), "{refused}");
 }
 
-/// A slender clamped beam of length 2 with a rigid body at its tip, whose centre is `offset` beyond it.
+/// Slender clamped beam of length 2 with a rigid body at its tip, whose centre is `offset` beyond the tip.
 fn with_tip_body(mass: f64, inertia: f64, offset: f64) -> (Scene, usize) {
     let mut scene = Scene::new("tip body");
     let section = Section {
@@ -109,12 +109,12 @@ fn with_tip_body(mass: f64, inertia: f64, offset: f64) -> (Scene, usize) {
     (scene, body)
 }
 
-/// The characteristic function of bending of such a beam: `w = a (cos - cosh) + b (sin - sinh)`, with the balance of the body at the tip.
+/// Characteristic function of bending for this beam: `w = a (cos - cosh) + b (sin - sinh)`, with the equations of motion of the body at the tip.
 fn characteristic(mass: f64, inertia: f64, offset: f64, omega: f64) -> f64 {
     let (length, stiffness) = (2.0, 5.0_f64);
     let beta = (omega * omega / stiffness).powf(0.25);
     let z = beta * length;
-    // Displacement and its first three derivatives of both functions.
+    // Displacement and its first three derivatives for both functions.
     let even = [
         z.cos() - z.cosh(),
         -beta * (z.sin() + z.sinh()),
@@ -151,7 +151,7 @@ fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equati
             let (below, above) = (omega * (1.0 - 2e-6), omega * (1.0 + 2e-6));
             assert!(f(below) * f(above) < 0.0, "{mass}, {inertia}, {offset}: {omega} is no root");
         }
-        // All movements of the body are those of the beam's end; its rigid links have four forces, body and second point four movements.
+        // The body adds no degrees of freedom: its four displacements are fixed by the four forces of its rigid links.
         let finite = model.unknowns() - 8;
         assert!(Modes::of(&model, finite + 1, &mut || true).is_err());
     }

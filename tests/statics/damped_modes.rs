@@ -1,4 +1,4 @@
-//! Damped vibration against closed forms: what couples modes, what is overdamped, a bar with a dashpot, Kelvin–Voigt beams.
+//! Damped vibration against closed forms: coupled modes, overdamped modes, a bar with a dashpot, and Kelvin–Voigt beams.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -22,7 +22,7 @@ fn connect(scene: &mut Scene, anchors: [Anchor; 2], stiffness: f64, damping: f64
     scene.add_spring(spring).unwrap();
 }
 
-/// Particles in a row on the x axis, with a spring and a damper from the ground to the first and from each to the next: mass, stiffness, damping.
+/// Particles in a row on the x axis, connected to the ground and to each other by springs with dampers: mass, stiffness, damping.
 fn row(members: &[(f64, f64, f64)]) -> Scene {
     let mut scene = Scene::new("row");
     let mut before = Anchor::Ground(at(0.0, 0.0));
@@ -40,7 +40,7 @@ fn close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{found} {expected}");
 }
 
-/// The roots of `(2 λ² + 1.5 λ + 50)(λ² + 20) - 400`, by the iteration of Durand and Kerner in Python.
+/// Roots of `(2 λ² + 1.5 λ + 50)(λ² + 20) - 400`, by Durand–Kerner iteration in Python.
 #[test]
 fn a_damper_at_one_of_two_masses_couples_their_modes() {
     let found = damped(&row(&[(2.0, 30.0, 1.5), (1.0, 20.0, 0.0)]), 2).unwrap();
@@ -52,7 +52,7 @@ fn a_damper_at_one_of_two_masses_couples_their_modes() {
         close(found.decay_rate, decay, 1e-12);
         close(found.angular_frequency, frequency, 1e-12);
     }
-    // To first order in the damping the modes would say otherwise.
+    // A perturbation of first order in the damping has a significant error.
     let scene = row(&[(2.0, 30.0, 1.5), (1.0, 20.0, 0.0)]);
     let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
     let apart = (modes.decay_rates()[0] - expected[0].0).abs() / expected[0].0;
@@ -66,13 +66,13 @@ fn an_overdamped_mass_has_two_rates_and_swings_with_none() {
         close(found.decay_rate, expected, 1e-12);
         assert_eq!((found.angular_frequency, found.damping_ratio()), (0.0, 1.0));
     }
-    // At critical damping both are one.
+    // At critical damping both roots are equal.
     let critical = damped(&row(&[(2.0, 18.0, 12.0)]), 1).unwrap();
     close(critical[0].decay_rate, 3.0, 1e-7);
     assert!(damped(&row(&[(2.0, 18.0, 20.0)]), 3).is_err());
 }
 
-/// A bar that only stretches, clamped, with a dashpot at its end: `tanh(λ L/a) = -Z/c`, `Z = EA/a`.
+/// Clamped bar with axial vibrations and a dashpot at its end: `tanh(λ L/a) = -Z/c`, `Z = EA/a`.
 #[test]
 fn a_bar_with_a_dashpot_at_its_end_has_the_rates_of_its_transcendental_equation() {
     let strong = [30.0, 1e3, 1e5, 1e8, 1e12].map(|damping| (damping, false));
@@ -103,7 +103,7 @@ fn a_bar_with_a_dashpot_at_its_end_has_the_rates_of_its_transcendental_equation(
     }
 }
 
-/// However strong it is: a dashpot at the end of a coarse cantilever is a support that gives way by its force over `c` times the frequency.
+/// A dashpot of any strength at the end of a coarse cantilever acts as a support. Its velocity is the support force over `c`.
 #[test]
 fn a_strong_dashpot_is_a_support_that_creeps() {
     let mesh = Mesh::bspline(8, 3, 2).unwrap();
@@ -119,7 +119,7 @@ fn a_strong_dashpot_is_a_support_that_creeps() {
         let beyond = Anchor::Ground(at(10.0, 7.0));
         connect(&mut scene, [beyond, Anchor::Station(tip)], 0.0, damping);
         let found = damped(&scene, 6).unwrap();
-        // What the held end gives way by is of the second order.
+        // The motion of the dashpot changes the frequencies by second-order terms only.
         let (creeping, vibrating) = found.split_first().unwrap();
         assert!(creeping.angular_frequency == 0.0 && creeping.decay_rate > 0.0, "{creeping:?}");
         yielding.push((damping * creeping.decay_rate, damping * vibrating[0].decay_rate));
@@ -130,7 +130,7 @@ fn a_strong_dashpot_is_a_support_that_creeps() {
     }
     let (creep, yields) = yielding[2];
     yielding[2..].iter().for_each(|(found, _)| close(*found, creep, 1e-7));
-    // Beyond that it is less than rounding of the frequency.
+    // For stronger dashpots, the decay rate is smaller than the rounding of the frequency.
     yielding[2..4].iter().for_each(|(_, first)| close(*first, yields, 1e-4));
 }
 
@@ -195,8 +195,8 @@ fn what_is_not_damped_is_what_it_is_without() {
     assert!(matches!(damped(&large, 1), Err(VibrationError::LargeDamped { .. })));
 }
 
-/// All roots of all modes of a beam of a material with equal relaxation times, from fine meshes and beyond critical damping: the slow ones crowd at `1/τ`, and each is
-/// told to eight digits.
+/// All roots of all modes of a beam with equal relaxation times, from fine meshes and beyond critical damping. The slow roots accumulate at `1/τ`, and each
+/// has eight correct digits.
 #[test]
 fn strongly_damped_fine_meshes_have_the_slow_rates_of_their_modes() {
     for (spans, tau) in [(12, 1.0), (24, 100.0), (70, 1.0), (70, 1e4)] {
@@ -209,7 +209,7 @@ fn strongly_damped_fine_meshes_have_the_slow_rates_of_their_modes() {
         };
         let modes = Modes::of(&still, all, &mut || true).unwrap();
         scene.add_damping(0, Relaxation { axial: tau, shear: tau, bending: tau }).unwrap();
-        // The roots of λ² + τω² λ + ω², the small one without a difference.
+        // Roots of λ² + τω² λ + ω². The small root is computed without cancellation.
         let mut sizes: Vec<f64> = Vec::new();
         for mode in modes.all() {
             let omega = mode.angular_frequency();
@@ -229,14 +229,14 @@ fn strongly_damped_fine_meshes_have_the_slow_rates_of_their_modes() {
     }
 }
 
-/// What a strong dashpot lets creep back: its force over the stiffness that the beam has there.
+/// The slow decay rate with a strong dashpot is the static stiffness of the beam over `c`.
 #[test]
 fn a_beam_creeps_back_against_a_strong_dashpot() {
     let section = scenes::rod();
     let length: f64 = 2.0;
     let compliance =
         length.powi(3) / (3.0 * section.bending_stiffness) + length / section.shear_stiffness;
-    // With less of it inertia counts too.
+    // With weaker dashpots, inertia has an effect too.
     for damping in [1e4, 1e6, 1e8] {
         let mut scene = Scene::new("stay");
         let mesh = Mesh::bspline(40, 3, 2).unwrap();

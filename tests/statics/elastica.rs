@@ -1,8 +1,9 @@
-//! Elastic rods through frictionless sleeves, at rest: each sleeve is two rings at a distance, and the rods are those of Euler's elastica, integrated here
-//! by Runge–Kutta and closed by Newton's method.
+//! Equilibria of elastic rods in frictionless sleeves. Each sleeve is two rings at a distance. The reference is Euler's elastica, integrated here by a
+//! Runge–Kutta method and solved by Newton's method.
 //!
 //! The problems are the elastica arm scale (Bosi, Misseroni, Dal Corso & Bigoni, Proc. R. Soc. A 470, 2014), the elastica sling (Cazzolli & Dal Corso, Eur. J.
-//! Mech. A/Solids 105, 2024) and the blade in a sleeve on a spring (Bigoni, Bosi, Misseroni, Dal Corso & Noselli, 2014–15), whose sleeves have no length.
+//! Mech. A/Solids 105, 2024) and the blade in a sleeve on a spring (Bigoni, Bosi, Misseroni, Dal Corso & Noselli, 2014–15). The sleeves of the publications
+//! have zero length.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -19,7 +20,7 @@ use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::statics::{Equilibrium, Loading, Stability};
 use withy::system::{Anchor, Scene, SpringKind, SpringLaw};
 
-/// `EI = 1`; strain and shear change what follows by a millionth.
+/// Axial and shear stiffness for `EI = 1`. Elongation and shear change the results by about 1e-6.
 const STIFF: f64 = 1e7;
 
 fn rod(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize) -> usize {
@@ -33,7 +34,7 @@ fn rod(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize) -> usize {
     add_beam(scene, line(from, to), &Mesh::bspline(spans, 3, 2).unwrap(), section)
 }
 
-/// A ring through which a rod goes, so far from its start; it moves by so much while the loads are put on.
+/// Ring through which the rod slides, at the distance `along` from its start. It is displaced by `by` while the loads increase.
 fn ring(scene: &mut Scene, rod: usize, place: Vec2, along: f64, by: Vec2) {
     let station = particle(scene, place, 1.0);
     let motion = |by: f64| PrescribedMotion::Position(growing(by));
@@ -42,7 +43,7 @@ fn ring(scene: &mut Scene, rod: usize, place: Vec2, along: f64, by: Vec2) {
     scene.add_slider(Slider { name, ..slider(station, rod, along, SlidingRule::Kinked) }).unwrap();
 }
 
-/// From rest at t = 0 to a value at t = 1.
+/// Schedule from zero at t = 0 to a value at t = 1.
 fn growing(to: f64) -> Schedule {
     let rows = vec![(0.0, 0.0), (0.5, 0.0), (1.0, to)];
     Schedule::table(rows).unwrap()
@@ -58,7 +59,7 @@ fn push(scene: &mut Scene, station: withy::beams::Station, force: Vec2) {
     scene.add_load(kind, Schedule::constant(1.0).unwrap());
 }
 
-/// Place, angle and curvature of an elastica.
+/// Position, angle and curvature of an elastica.
 #[derive(Clone, Copy)]
 struct Point([f64; 4]);
 
@@ -67,7 +68,7 @@ impl Point {
         at(self.0[0], self.0[1])
     }
 
-    /// `EI κ' = n × x'`, with the force `n` of what follows.
+    /// `EI κ' = n × x'`, with the force `n` of the part beyond.
     fn rates(&self, force: Vec2) -> [f64; 4] {
         let [_, _, angle, curvature] = self.0;
         let (sine, cosine) = angle.sin_cos();
@@ -78,7 +79,7 @@ impl Point {
         Self(std::array::from_fn(|at| self.0[at] + by * rates[at]))
     }
 
-    /// The point so far on, by Runge–Kutta of order 4.
+    /// Point at a distance along the elastica, by the Runge–Kutta method of order 4.
     fn on(mut self, force: Vec2, length: f64) -> Self {
         let steps = 400;
         let h = length / f64::from(steps);
@@ -94,14 +95,14 @@ impl Point {
         self
     }
 
-    /// The force that follows behind a ring that pushes across the rod.
+    /// Section force behind a ring that pushes transversely on the rod.
     fn behind(&self, force: Vec2, push: f64) -> Vec2 {
         let (sine, cosine) = self.0[2].sin_cos();
         force - at(-sine, cosine) * push
     }
 }
 
-/// Where the equations hold, from near there on.
+/// Solution of the equations near an initial guess, by Newton's method.
 fn solve(mut unknowns: Vec<f64>, equations: &mut dyn FnMut(&[f64]) -> Vec<f64>) -> Vec<f64> {
     for _ in 0..30 {
         let value = DVector::from_vec(equations(&unknowns));
@@ -117,7 +118,7 @@ fn solve(mut unknowns: Vec<f64>, equations: &mut dyn FnMut(&[f64]) -> Vec<f64>) 
 
 #[test]
 fn the_sling_is_an_elastica() {
-    // Sleeves of length a, mouths at ±d/2 = ±0.5, inclined by 45°; the middle is held along x.
+    // Sleeves of length a with mouths at ±d/2 = ±0.5, inclined by 45°. The middle is supported along x.
     let (half, length) = (1.6, 0.2);
     let mut scene = Scene::new("sling");
     let rod = rod(&mut scene, at(-half, 0.0), at(half, 0.0), 257);
@@ -167,13 +168,14 @@ fn the_sling_is_an_elastica() {
     assert!((arc - 2.0 * found[4]).abs() < 2e-6);
     assert!((rise - crown.0[1]).abs() < 2e-6);
     assert!((thrust.abs() - force.x.abs()).abs() < 1e-4 * force.x.abs());
-    // Sleeves of no length: P d²/EI = 1.1079741491, arc/d 1.11634123; those of length a are off by their flexibility.
+    // For sleeves of zero length: P d²/EI = 1.1079741491, arc/d 1.11634123. The flexibility within sleeves of length a changes both.
     assert!((arc - 1.11634123).abs() < 0.03 && (thrust.abs() - 1.1079741491).abs() < 0.2);
 }
 
 #[test]
 fn the_arm_scale_is_an_elastica() {
-    // A sleeve of length a inclined by 30°, 4 on the right arm, 1 on the left one. That rest is not stable, so the right tip is held along x, where no force is needed for it.
+    // Sleeve of length a, inclined by 30°, with forces of 4 on the right arm and 1 on the left arm. This equilibrium is unstable, so the right tip is
+    // supported along x, where the reaction vanishes.
     let (inclination, right, left, length, arm) = (PI / 6.0, 4.0, 1.0, 0.2, 0.62);
     let along = at(inclination.cos(), inclination.sin());
     let held = |moved: f64| {
@@ -243,14 +245,14 @@ fn the_arm_scale_is_an_elastica() {
     );
     assert!((1.0 - middle - exact).abs() < 5e-6);
     assert!((end_angle - tip.0[2]).abs() < 1e-5 && (start_angle - found[2]).abs() < 1e-5);
-    // The balance of arms in a sleeve of any length: P1 sin(-θ1) = P2 sin(-θ2).
+    // Equilibrium of the arms for sleeves of any length: P1 sin(-θ1) = P2 sin(-θ2).
     let balance = right * (-end_angle).sin() - left * start_angle.sin();
     assert!(balance.abs() < 5e-5, "{balance}");
 }
 
 #[test]
 fn a_blade_in_a_sleeve_on_a_spring_is_stable_unstable_and_stable_again() {
-    // Behind the mouth the blade is b + P/k long, with an end that slides and does not turn: it holds the free part like a spring.
+    // Behind the mouth, the blade has the length b + P/k and an end that slides without rotation. It acts as a torsion spring on the free part.
     let (spring_stiffness, behind) = (15.0, 0.05);
     let criterion = |load: f64| {
         let (wave, free) = (load.sqrt(), 1.0 - load / spring_stiffness);

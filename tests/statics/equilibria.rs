@@ -155,7 +155,7 @@ fn reissners_cantilever_has_the_tip_of_the_exact_solution() {
 #[test]
 fn a_quarter_arc_unrolls_to_a_line() {
     let radius = LENGTH / FRAC_PI_2;
-    // A mesh with zero-energy modes has no equilibrium that one could find: its stiffness is singular.
+    // A mesh with zero-energy modes has a singular stiffness, so no equilibrium can be found.
     let is_stiff = |(name, _): &(&str, Mesh)| *name != "cubic C1, 2 points";
     for (name, mesh) in crate::common::meshes(32).into_iter().filter(is_stiff) {
         let arc = Curve::arc(at(0.0, radius), radius, -FRAC_PI_2, 0.0).unwrap();
@@ -188,7 +188,7 @@ fn along(steps: usize, points: usize) -> Loading {
     Loading { steps, control, ..Loading::default() }
 }
 
-/// A circular arch of 215°, clamped at one end and hinged at the other, with a force downwards at its crown.
+/// Circular arch of 215°, clamped at one end and hinged at the other, with a downward force at its crown.
 fn deep_arch(force: f64) -> Scene {
     let (radius, lean) = (100.0, 17.5_f64.to_radians());
     let axis = Curve::arc(Vec2::zeros(), radius, -lean, PI + lean).unwrap();
@@ -201,15 +201,15 @@ fn deep_arch(force: f64) -> Scene {
     with_force(scene, crown, at(0.0, -force))
 }
 
-/// D. A. DaDeppo & R. Schmidt, Instability of clamped-hinged circular arches subjected to a point load, J. Appl. Mech. 42
-/// (1975) 894–896: 897 without extension and shear.
+/// D. A. DaDeppo & R. Schmidt, Instability of clamped-hinged circular arches subjected to a point load, J. Appl. Mech. 42 (1975) 894–896: limit load 897
+/// without extension and shear.
 #[test]
 fn the_deep_arch_of_dadeppo_and_schmidt_buckles_at_897() {
     let rest = find(deep_arch(1000.0), along(20, 150)).unwrap();
     let limits = rest.path().limit_points();
     println!("deep arch: limit points {limits:.5?}, {} points", rest.path().points().len());
     assert!((limits[0] * 1000.0 / 897.0 - 1.0).abs() < 2e-3, "{limits:?}");
-    // Beyond it no load step finds anything near; short of it every one does.
+    // Load steps succeed up to the limit load, and find no equilibrium beyond it.
     let under = |factor| Loading { steps: 20, factor, ..Loading::default() };
     find(deep_arch(1000.0), under(0.99 * limits[0])).unwrap();
     let beyond = find(deep_arch(1000.0), under(1.01 * limits[0])).map(|_| ()).unwrap_err();
@@ -217,7 +217,7 @@ fn the_deep_arch_of_dadeppo_and_schmidt_buckles_at_897() {
     assert!(reached > 0.98 * limits[0] && reached <= 1.001 * limits[0], "{reached}");
 }
 
-/// Two hinged legs, joined rigidly at a corner, with a force downwards at a fifth of the upper one.
+/// Two hinged legs with a rigid corner, and a downward force at a fifth of the upper leg.
 fn lees_frame(force: f64) -> Scene {
     let side = 120.0;
     let section = Section { bending_stiffness: 14400.0, ..section(4.32e4, 4.32e6) };
@@ -265,7 +265,7 @@ fn a_configuration_between_limit_points_is_unstable() {
     assert_eq!(modes.all()[0].angular_frequency(), 0.0);
 }
 
-/// The patch test: a constant strain is found exactly, on spans of any length.
+/// Patch test: a constant strain is exact on spans of any length.
 #[test]
 fn a_bar_under_tension_is_exact_on_every_mesh_with_the_patch_rule() {
     let graded = [0.0, 0.0, 0.0, 0.0, 0.1, 0.25, 0.3, 0.7, 1.0, 1.0, 1.0, 1.0];
@@ -274,7 +274,7 @@ fn a_bar_under_tension_is_exact_on_every_mesh_with_the_patch_rule() {
         ("with a break", smooth(9).with_breaks(&[0.4]).unwrap()),
     ]);
     for (name, mesh) in meshes {
-        // Even degrees have a point too many for weights of their own; two points a C1 span leave modes without stiffness.
+        // The patch rule does not apply to even degrees, which have an extra quadrature point. Two points per C1 span leave zero-energy modes.
         if ["quadratic C1", "degree 4, C3", "cubic C1, 2 points"].contains(&name) {
             continue;
         }
@@ -301,7 +301,7 @@ fn reactions_balance_the_loads() {
     assert_eq!(rest.reaction(&end), None);
 }
 
-/// Bending resists 1e-14 times as much as stretching: rounding hides it in the stiffness, and Newton finds it all the same.
+/// The bending stiffness is 1e-14 of the axial stiffness and is lost in rounding, but Newton's method converges.
 #[test]
 fn a_beam_that_is_all_but_inextensible_is_held_and_bends_as_it_should() {
     let bend = |stiffness: f64| {
@@ -327,8 +327,8 @@ fn stability_is_that_of_eulers_column_or_not_known() {
     assert_eq!(at_part(0.5, LoadFrame::Follower), Stability::Follower);
 }
 
-/// A column that is pushed a little to the side buckles to that side, however coarse the steps and small the push: beside the load of
-/// Euler's column there are two more branches, to which a step may lead.
+/// A column with a small lateral force buckles in the direction of this force, for any step and force. Near the Euler load there are two more branches, on
+/// which a step may end.
 #[test]
 fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
     let critical = PI.powi(2) * BENDING / (4.0 * LENGTH * LENGTH);
@@ -350,7 +350,7 @@ fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
     }
 }
 
-/// Two beams from one clamped corner: whichever is asked, the ground holds both.
+/// Two beams joined at one clamped corner: the reaction at either beam is the same total reaction.
 #[test]
 fn a_support_holds_all_that_is_tied_to_it_and_nothing_beside_it() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
@@ -371,10 +371,10 @@ fn a_support_holds_all_that_is_tied_to_it_and_nothing_beside_it() {
     assert_eq!(rest.reaction(&beside), None);
 }
 
-/// Two shallow bars that meet under a force: beyond the limit load they snap through.
+/// Two shallow bars that meet under a force, and snap through beyond the limit load.
 fn truss(force: f64) -> Scene {
     let mut scene = Scene::new("truss");
-    // Stiff enough against bending that the bars do not buckle before the truss snaps.
+    // The bending stiffness prevents buckling of the bars before the snap-through.
     let section = Section { bending_stiffness: 1e4, ..section(1e4, 1e4) };
     let top = at(10.0, 1.0);
     let bars = [(Vec2::zeros(), top), (top, at(20.0, 0.0))].map(|(from, to)| {
@@ -456,7 +456,7 @@ fn a_search_stops_within_an_iteration() {
         [(&clamped, Control::Load), (&clamped, arc), (&load(hanging), Control::Load)]
     {
         let loading = Loading { steps: 1, control, ..Loading::default() };
-        // The search is stopped at each call in turn, until it ends before.
+        // Interrupts the search at each call in turn, until it completes.
         for stop in 1.. {
             let mut calls = 0;
             let found = Equilibrium::find(scene.clone(), loading, &mut |_| {

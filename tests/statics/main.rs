@@ -1,4 +1,4 @@
-//! What is at rest: equilibria, paths, and vibration about them.
+//! Statics: equilibria, load paths, and vibrations about equilibria.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! Small vibration: frequencies of exact solutions, and no modes that should not be there.
+//! Small vibrations: exact frequencies, and no spurious modes.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::reference::{number, text};
@@ -54,7 +54,7 @@ fn cases() -> Vec<Case> {
                 },
                 support: case["bc"].as_str().unwrap().to_owned(),
                 flexural: numbers(&case["flexural"]),
-                // Of simply supported beams they depend on the support: here both ends are held.
+                // The axial frequencies depend on the supports. Here both ends are fixed axially.
                 axial: case["axial"]
                     .as_array()
                     .map(|_| numbers(&case["axial"]))
@@ -64,7 +64,7 @@ fn cases() -> Vec<Case> {
         .collect()
 }
 
-/// A beam of length 10 with these supports.
+/// Beam of length 10 with the given supports.
 fn supported(support: &str, mesh: &Mesh, section: Section) -> Scene {
     let mut scene = Scene::new(support);
     let beam =
@@ -83,7 +83,7 @@ fn supported(support: &str, mesh: &Mesh, section: Section) -> Scene {
     scene
 }
 
-/// Modes that cost no energy, and the relative errors of the first six flexural and three axial frequencies.
+/// Number of zero-energy modes, and relative errors of the first six flexural and three axial frequencies.
 fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
     let found = frequencies(&supported(&case.support, mesh, case.section));
     let zeros = found.iter().filter(|f| **f == 0.0).count();
@@ -95,7 +95,7 @@ fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
 fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
-            // Two points in C1 cubic spans are too few by one strain: two hourglass modes (design, section 1.2).
+            // Two quadrature points per cubic C1 span integrate one strain too few: two hourglass modes (docs/theory.md, section 4).
             let hourglass = if name == "cubic C1, 2 points" { 2 } else { 0 };
             let rigid = match case.support.as_str() {
                 "free-free" => 3,
@@ -127,7 +127,7 @@ fn frequencies_agree_with_the_exact_ones() {
             assert!(flexural[0] < allowed && axial < 1e-2, "{}, {name}", case.name);
             if name == "cubic C2" {
                 assert!(flexural.iter().all(|error| *error < 1.2e-2), "{}", case.name);
-                // A constant section force is in balance: waves along the axis meet no wall at the ends of the patch.
+                // The patch rule balances constant section forces, so axial waves are not reflected at the ends of the patch.
                 assert!(axial < 1e-5, "{}: {axial}", case.name);
             }
         }
@@ -145,8 +145,8 @@ fn frequencies_of_smooth_cubics_converge_at_third_order_or_better() {
     }
 }
 
-/// Cubic splines whose sections stay normal, the limit of these beams, bound the sixth frequency of the slender free beam from
-/// above by 1.8e-3 with 16 spans, whatever the quadrature: (β₆ h)⁴/1440 with β₆ L = 20.42. So few spans need a higher degree.
+/// Cubic splines without shear deformation, the limit of these beams, overestimate the sixth frequency of the slender free beam by 1.8e-3 with 16 spans, for
+/// any quadrature: (β₆ h)⁴/1440 with β₆ L = 20.42. This number of spans needs a higher degree.
 #[test]
 fn sixteen_quintic_spans_of_continuity_two_have_the_first_six_frequencies() {
     let mesh = Mesh::bspline(16, 5, 2).unwrap();
@@ -168,7 +168,7 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// A chain of beams is found at once, and again as a part of a scene that is too large for that.
+/// Modes of a small beam by a dense solver, and of a finer one by iteration.
 #[test]
 fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
     for support in ["free-free", "cantilever", "simply-supported"] {
@@ -184,7 +184,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
         println!(
             "{support}: 76 spans at once, 80 by iteration: squares differ by {difference:.1e}"
         );
-        // The meshes differ by 20 % in their errors, which are about 1e-6.
+        // The discretisation errors are about 1e-6 and differ by 20 % between the meshes.
         assert!(difference < 1e-5, "{dense:?} {sparse:?}");
     }
     let scene = supported(
@@ -203,7 +203,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
     assert!(difference < 2e-6, "{difference}");
 }
 
-/// Shear stiffness over rotary inertia is so large that rounding of that size would hide all bending.
+/// The ratio of shear stiffness to rotary inertia is so large that its rounding error exceeds the bending frequencies.
 #[test]
 fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
     let (modulus, density, thickness, width, length) = (210e9, 7850.0, 1e-3, 0.02, 4.0);
@@ -229,7 +229,7 @@ fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
     }
 }
 
-/// Beside many soft modes a single unstable one, far below them, must not be passed by.
+/// The search must not miss a single unstable mode far below many soft modes.
 #[test]
 fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
     let of = |spans: usize| {
@@ -257,7 +257,7 @@ fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
     assert!(many.map_or(true, |modes| !modes.is_stable()));
 }
 
-/// Euler's column: clamped and free, it loses its stiffness at π² EI/(4 L²), and its lowest square falls about linearly.
+/// Euler's column, clamped and free: the stiffness vanishes at π² EI/(4 L²), and the lowest squared frequency decreases almost linearly.
 #[test]
 fn a_column_loses_its_stiffness_at_eulers_load() {
     let (bending, length) = (100.0, 10.0_f64);
@@ -330,7 +330,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
     assert!(matches!(error, VibrationError::Follower { .. }), "{error}");
 }
 
-/// Without rotary inertia sections turn with no inertia of their own: these movements have no finite frequency.
+/// Without rotary inertia, section rotations have no inertia, and the corresponding modes have no finite frequency.
 #[test]
 fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
     let section = Section { rotary_inertia: 0.0, ..scenes::spaghetti_section(1e6, 100.0) };

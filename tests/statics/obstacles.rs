@@ -1,4 +1,4 @@
-//! Equilibria in contact with obstacles, against closed forms.
+//! Equilibria in contact with obstacles, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};

@@ -1,4 +1,4 @@
-//! Section forces: against balance, on every mesh, turned and mirrored, where beams are cut, and on a bar that turns.
+//! Section forces: equilibrium on every mesh, rotated and mirrored, at supports within beams, and in a rotating bar.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, meshes, orders, scenes, sci, settings};
@@ -27,7 +27,7 @@ fn turned(v: Vec2, angle: f64) -> Vec2 {
     at(angle.cos() * v.x - angle.sin() * v.y, angle.sin() * v.x + angle.cos() * v.y)
 }
 
-/// Drawn from the origin in a direction, clamped there, with a force at its tip.
+/// Cantilever from the origin in a direction, with a force at its tip.
 fn loaded(mesh: &Mesh, direction: f64, force: Vec2) -> Equilibrium {
     let mut scene = Scene::new("cantilever");
     let axis = Curve::line(Vec2::zeros(), turned(at(LENGTH, 0.0), direction)).unwrap();
@@ -42,7 +42,7 @@ fn loaded(mesh: &Mesh, direction: f64, force: Vec2) -> Equilibrium {
         .unwrap_or_else(|error| panic!("{}: {error}", mesh.describe()))
 }
 
-/// The largest errors along the beam of moment and force, relative to their largest, and that of the moment at the clamp.
+/// Largest relative errors of moment and force along the beam, and relative error of the moment at the clamp.
 fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
     let position = |s: f64| {
         let station = withy::beams::Station::on_beam(0, s);
@@ -68,7 +68,7 @@ fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
 #[test]
 fn balance_is_found_along_a_strongly_bent_cantilever() {
     let force = at(-1.0, 6.0);
-    // Of M, over the last doubling; the force is constant, and found to rounding.
+    // Orders of M at the last doubling of spans. The force is constant, and exact up to rounding.
     let least_order = [
         ("cubic C2", 2.2),
         ("cubic C1", 2.2),
@@ -82,7 +82,7 @@ fn balance_is_found_along_a_strongly_bent_cantilever() {
     ];
     let all = [16, 32, 64].map(|spans| {
         let with = |(_, mesh): (_, Mesh)| errors(&loaded(&mesh, 0.3, force), force);
-        // Two points a span leave modes without energy, in which nothing rests.
+        // Two points per span leave zero-energy modes, so no equilibrium exists.
         let held = meshes(spans).into_iter().filter(|(name, _)| !name.ends_with("2 points"));
         held.map(with).collect::<Vec<_>>()
     });
@@ -94,7 +94,7 @@ fn balance_is_found_along_a_strongly_bent_cantilever() {
         for (what, label) in [(0, "M"), (2, "M at the clamp")] {
             let order = orders(&errors_of(what));
             println!("{name:20} {label:14} {} orders {order:.2?}", sci(&errors_of(what)));
-            // At the clamp degree 4 happens to be better by far from the start.
+            // At the clamp, degree 4 is already very accurate on the coarsest mesh.
             if order[1] < least && errors_of(what)[2] > 1e-7 {
                 missed.push(format!("{name}: {label} of order {order:.2?}"));
             }
@@ -142,7 +142,7 @@ fn the_law_of_the_material_holds_between_the_points_as_at_them() {
     }
 }
 
-/// A straight beam on two supports with a third between, where the shear force jumps.
+/// Straight beam on three supports. The shear force jumps at the middle one.
 #[test]
 fn where_a_support_cuts_the_beam_both_sides_are_told() {
     let mut scene = Scene::new("continuous beam");
@@ -159,7 +159,7 @@ fn where_a_support_cuts_the_beam_both_sides_are_told() {
     let middle: Vec<_> = along.iter().filter(|sample| sample.arc_length == 1.0).collect();
     assert_eq!(middle.len(), 2);
     let [before, behind] = [middle[0].forces, middle[1].forces];
-    // Of two spans ql²/8 over the support with shear rigidity; 5/8 ql of shear on either side, but for the shear's own share.
+    // Without shear deformation, the moment over the support is ql²/8, and the shear force on either side 5/8 ql.
     assert!((before.shear + behind.shear).abs() < 1e-9 && behind.shear * before.shear < 0.0);
     assert!((before.moment - behind.moment).abs() < 1e-9);
     let jump = (behind.shear - before.shear).abs();
@@ -178,7 +178,7 @@ fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
         scene.join(JointKind::Hinge, start, Partner::Ground).unwrap();
         scene.beams[0].motion =
             StartMotion { spin: 0.5, centre: Some(Vec2::zeros()), ..StartMotion::default() };
-        // The stretch is put on suddenly: it rings until that is damped.
+        // The sudden elongation causes vibrations, which numerical damping removes.
         let damped = Method::EnergyDecaying { chi: 1.0 };
         let mut simulation = Simulation::start(scene, settings(damped, 0.02)).unwrap();
         simulation.run_to(4.0, &mut NoMonitor).unwrap();
@@ -193,6 +193,6 @@ fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
         errors.fold(0.0, f64::max)
     });
     println!("turning bar, N against ½ρAω²(L² - s²): {}", sci(&errors));
-    // The exact solution is that of a bar that does not stretch: by 1.2e-5 here.
+    // The exact solution is for an inextensible bar, with a relative difference of 1.2e-5.
     assert!(errors.iter().all(|error| *error < 1e-4), "{errors:?}");
 }

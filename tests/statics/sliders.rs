@@ -1,4 +1,4 @@
-//! Sliders at rest: tangents, places and forces, stops, stability, modes, and starts from there.
+//! Sliders in equilibria: tangents, positions and forces, stops, stability, modes, and starts of simulations.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -39,7 +39,7 @@ fn rests(scene: Scene, steps: usize) -> Result<Equilibrium, StaticsError> {
     Equilibrium::find(scene, Loading { steps, ..Loading::default() }, &mut |_| true)
 }
 
-/// A particle on a beam, so far along it as drawn.
+/// Adds a particle on a beam, at an arc length in the undeformed configuration.
 fn bead(scene: &mut Scene, master: usize, along: f64, mass: f64, rule: SlidingRule) -> Station {
     let axis = &scene.beams[master].axis;
     let xi = axis.parameter_at(along).unwrap();
@@ -50,7 +50,7 @@ fn bead(scene: &mut Scene, master: usize, along: f64, mass: f64, rule: SlidingRu
     station
 }
 
-/// A beam between two hinges, with a bead on it.
+/// Beam between two hinges with a bead.
 fn sag(spans: usize, shear: f64, along: f64, mass: f64, rule: SlidingRule) -> Scene {
     let mut scene = Scene::new("sag");
     let section = Section { mass_per_length: 1e-6, rotary_inertia: 1e-8, ..section(shear) };
@@ -100,7 +100,7 @@ fn assert_tangent(label: &str, model: &mut System, unknowns: &[f64]) {
         out.truncate(size);
         out
     });
-    // What beams resist with is the affair of other tests; contacts have no share in it, as forces are unknowns.
+    // Other tests check the tangent of beams. Contacts do not contribute to it, because their forces are unknowns.
     let is_ours = |row: usize, column: usize| row >= movements || column >= movements;
     let ours = |matrix: &dyn Fn(usize, usize) -> f64| {
         DMatrix::from_fn(size, size, |i, j| if is_ours(i, j) { matrix(i, j) } else { 0.0 })
@@ -136,7 +136,7 @@ fn a_bead_sinks_into_the_sag_of_its_wire_and_rests_there_in_a_simulation() {
 
 #[test]
 fn a_load_on_a_slender_beam_sinks_as_timoshenko_says_and_far_nearer_where_the_axis_is_kinked() {
-    // P L³/48 EI + P L/4 GA in the middle, of a load that is so small that nothing else matters.
+    // P L³/48 EI + P L/4 GA in the middle, for a load in the linear range.
     let (mass, shear) = (1e-6, 2e3);
     let load = mass * GRAVITY;
     let exact = load * (64.0 / 4800.0 + 4.0 / (4.0 * shear));
@@ -144,7 +144,7 @@ fn a_load_on_a_slender_beam_sinks_as_timoshenko_says_and_far_nearer_where_the_ax
         let errors = [5, 9, 17].map(|spans| {
             let rest = rests(sag(spans, shear, 1.7, mass, rule), 1).unwrap();
             let sunk = -rest.model().control_points().nth(1).unwrap()[0].y;
-            // The wire has a little weight, too: 5/384 and 1/8 of it.
+            // Deflection by the small weight of the wire, with the factors 5/384 and 1/8.
             let wire = 4e-6 * GRAVITY * (5.0 * 64.0 / 38400.0 + 4.0 / (8.0 * shear));
             ((sunk - wire) / exact - 1.0).abs()
         });
@@ -178,7 +178,7 @@ fn a_bead_in_a_stiff_arc_swings_as_a_pendulum() {
 
 #[test]
 fn a_disturbed_rest_swings_with_the_frequencies_of_its_modes() {
-    // A bead on a sagging wire, struck down: the second mode is that of wire and bead.
+    // Bead on a sagging wire with a short downward force. The second mode is that of wire and bead.
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         let mut scene = sag(8, 2e3, 1.0, 2.0, rule);
         scene.beams[0].section = section(2e3).into();
@@ -253,7 +253,7 @@ fn a_slider_leans_on_the_stop_below_and_leaves_where_there_is_none() {
 
 #[test]
 fn what_only_its_load_holds_sinks_to_its_rest() {
-    // A hinged rod, and a chain of three, drawn level: they hang, and stretch by their weight.
+    // A hinged beam, and a chain of three beams, both initially horizontal. They hang vertically and are elongated by their weight.
     for links in [1, 3] {
         let mut scene = Scene::new("chain");
         let axial = 1e4;
@@ -279,7 +279,7 @@ fn what_only_its_load_holds_sinks_to_its_rest() {
 
 #[test]
 fn a_ring_of_the_ground_lets_a_beam_through_until_it_hangs_where_forces_balance() {
-    // A heavy rod on a hinge, through a ring beside it: the ring pushes across the rod alone, so it lies on the line from hinge to ring.
+    // Heavy beam on a hinge that passes through a fixed ring. The contact force is transverse, so the beam lies on the line from the hinge to the ring.
     let mut scene = Scene::new("through a ring");
     let rod = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), &smooth(12), section(1e6));
     hinge_start(&mut scene, rod);
@@ -291,7 +291,7 @@ fn a_ring_of_the_ground_lets_a_beam_through_until_it_hangs_where_forces_balance(
     let rest = rests(scene, 2).unwrap();
     let force = rest.model().contact_force(0);
     let weight = 0.1 * 10.0_f64.sqrt() * GRAVITY;
-    // Moments about the hinge, but for what bends: F·ring = W·1.5 across.
+    // Moments about the hinge, neglecting bending: F·ring = W·1.5.
     assert!(force.dot(&at(3.0, 1.0).normalize()).abs() < 2e-2 * force.norm(), "{force}");
     assert!((force.norm() * along / (weight * 1.5) - 1.0).abs() < 2e-2, "{force}");
     assert!((rest.model().slider_position(0) - 0.5).abs() < 1e-2);
@@ -299,7 +299,7 @@ fn a_ring_of_the_ground_lets_a_beam_through_until_it_hangs_where_forces_balance(
 
 #[test]
 fn a_path_of_given_length_follows_a_slider_past_its_limit_load() {
-    // A shallow arch of two hinged ends, pushed down by a bead on it, snaps through: the load falls and rises again.
+    // Shallow arch with hinged ends, loaded by a bead. It snaps through: the load decreases and increases again.
     let arch = |control: Control, rule: SlidingRule| {
         let mut scene = Scene::new("arch");
         let axis = Curve::arc(at(0.0, -4.5), 5.0, FRAC_PI_2 + 0.4, FRAC_PI_2 - 0.4).unwrap();
@@ -309,7 +309,6 @@ fn a_path_of_given_length_follows_a_slider_past_its_limit_load() {
         scene.join(JointKind::Hinge, end, Partner::Ground).unwrap();
         let half = 0.5 * scene.beams[arch].axis.length();
         let station = bead(&mut scene, arch, half, 1.0, rule);
-        // A post holds the bead on a line, so that it goes down with the crown.
         let kind = LoadKind::Force { station, force: at(0.0, -1500.0), frame: LoadFrame::Dead };
         scene.add_load(kind, Schedule::constant(1.0).unwrap());
         Equilibrium::find(scene, Loading { steps: 40, control, ..Loading::default() }, &mut |_| {

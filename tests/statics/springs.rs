@@ -1,4 +1,4 @@
-//! Springs in equilibria and in modes, against closed forms.
+//! Springs in equilibria and vibration modes, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};
@@ -23,7 +23,7 @@ fn add(scene: &mut Scene, kind: SpringKind, law: Option<SpringLaw>, damping: f64
         .unwrap();
 }
 
-/// A slender cantilever of length 2 along x.
+/// Slender cantilever of length 2 along x.
 fn cantilever() -> (Scene, withy::beams::Station) {
     let mut scene = Scene::new("cantilever");
     let section = Section {
@@ -50,7 +50,7 @@ fn rest(scene: Scene) -> Equilibrium {
 fn a_spring_below_the_tip_shares_its_load() {
     for stiffness in [1e-3, 1.0, 1e6] {
         let (mut scene, tip) = cantilever();
-        // A spring that is long beside the deflection keeps its direction; at ease as drawn.
+        // A spring that is long compared with the deflection keeps its direction. It is initially unstrained.
         let below = Anchor::Ground(at(2.0, -1.0));
         let way = SpringKind::Length(vec![below, Anchor::Station(tip)]);
         add(&mut scene, way, linear(stiffness, 1.0), 0.0);
@@ -73,7 +73,7 @@ fn a_torsion_spring_turns_the_tip_back() {
     add(&mut scene, kind, linear(4.0, 0.0), 0.0);
     scene
         .add_load(LoadKind::Moment { station: tip, moment: 0.3 }, Schedule::constant(1.0).unwrap());
-    // Pure bending: θ = M L/EI of what the spring leaves, however large.
+    // Pure bending by the moment that the spring does not carry: θ = M L/EI, for any rotation.
     let angle = rest(scene).model().springs().next().unwrap().elongation;
     assert!((angle - 0.3 / (5.0 / 2.0 + 4.0)).abs() < 1e-9, "{angle}");
 }
@@ -84,7 +84,7 @@ fn a_hanging_mass_rests_where_the_spring_holds_it_and_dampers_have_no_say() {
     let pan = ParticleDefinition { name: "pan".to_owned(), position: at(0.0, -1.0) };
     let pan = Anchor::Station(scene.add_particle(pan, 3.0).unwrap());
     let from = |x: f64| SpringKind::Length(vec![Anchor::Ground(at(x, 0.0)), pan]);
-    // Its tension holds it against swinging from the start.
+    // The initial tension of the spring stabilises the lateral motion.
     add(&mut scene, from(0.0), linear(50.0, 0.9), 7.0);
     scene.gravity = at(0.0, -9.81);
     let rest = rest(scene);
@@ -100,7 +100,7 @@ fn frequencies(model: &System) -> Vec<f64> {
 
 #[test]
 fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_tension() {
-    // Two springs of 40 along x, stretched from 0.5 to 1: along x both resist, across it their tension does, 2 F/ℓ.
+    // Two springs of stiffness 40 along x, stretched from 0.5 to 1. Both act along x, and their tension acts across x with 2 F/ℓ.
     let mut scene = Scene::new("between");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(0.0, 0.0) };
     let bead = Anchor::Station(scene.add_particle(bead, 2.0).unwrap());

@@ -1,4 +1,4 @@
-//! Natural vibration of beams of any stiffness, against the exact frequencies of Timoshenko's beam.
+//! Natural frequencies of beams of any stiffness, compared with the exact solution for Timoshenko beams.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -49,7 +49,7 @@ impl Support {
         if self == Self::Free { 3 } else { 0 }
     }
 
-    /// The first angular frequencies that are not zero, axial ones among them.
+    /// First non-zero angular frequencies, including axial ones.
     fn exact(self, section: &Section, count: usize) -> Vec<f64> {
         let mut all = match self {
             Self::Simple => simply_supported(section, count + 1),
@@ -66,7 +66,7 @@ impl Support {
     }
 }
 
-/// Both branches of the closed form, and the shearing of all sections by the same angle.
+/// Both branches of the closed form, and the mode of uniform section rotation.
 fn simply_supported(section: &Section, count: usize) -> Vec<f64> {
     let Section { bending_stiffness: ei, shear_stiffness: ga, .. } = *section;
     let (mass, rotary) = (section.mass_per_length, section.rotary_inertia);
@@ -81,7 +81,7 @@ fn simply_supported(section: &Section, count: usize) -> Vec<f64> {
     all
 }
 
-/// Where the boundary conditions leave a solution of `GA (w'' - θ') + ρA ω² w = 0`, `EI θ'' + GA (w' - θ) + ρI ω² θ = 0`.
+/// Frequencies with a non-trivial solution of `GA (w'' - θ') + ρA ω² w = 0`, `EI θ'' + GA (w' - θ) + ρI ω² θ = 0` and the boundary conditions.
 fn roots(support: Support, section: &Section, count: usize) -> Vec<f64> {
     let wave = (section.bending_stiffness / section.mass_per_length).sqrt() / LENGTH.powi(2);
     let cut_off = (section.shear_stiffness / section.rotary_inertia).sqrt();
@@ -97,7 +97,7 @@ fn roots(support: Support, section: &Section, count: usize) -> Vec<f64> {
                 if sign(middle) * before > 0.0 { low = middle } else { high = middle }
             }
             let frequency = (0.5 * (low + high)).powi(2) * wave;
-            // There the second wave changes its kind, and both of its functions become one.
+            // At the cut-off frequency the second wave becomes oscillatory, and its two functions coincide.
             if (frequency / cut_off - 1.0).abs() > 1e-7 {
                 found.push(frequency);
             }
@@ -116,7 +116,7 @@ fn determinant(support: Support, section: &Section, omega: f64) -> f64 {
     let first = -half - (half * half - product).sqrt();
     let second = product / first;
     let shear = mass * square / ga;
-    // Displacement, rotation, moment and shear force of a function at a place; Q = -M' - ρI ω² θ.
+    // Displacement, rotation, moment and shear force of a function at a position; Q = -M' - ρI ω² θ.
     let state = |w: f64, angle: f64, slope: f64, p: f64| {
         [w, angle, ei * slope, -(ei * p + rotary * square) * angle]
     };
@@ -153,7 +153,7 @@ fn determinant(support: Support, section: &Section, omega: f64) -> f64 {
     Matrix4::from_row_slice(&rows).determinant()
 }
 
-/// `EI = 100`, `ρA = 1`; rotary inertia relative to `ρA L²`, that of a solid strip where none is given.
+/// `EI = 100`, `ρA = 1`. The rotary inertia is relative to `ρA L²`, with that of a solid strip as default.
 fn section(ratio: f64, rotary: Option<f64>) -> Section {
     let bending_stiffness = 100.0;
     let axial_stiffness = ratio * bending_stiffness / (LENGTH * LENGTH);
@@ -171,7 +171,7 @@ fn modes(scene: &Scene, count: usize) -> Result<Modes, VibrationError> {
     Modes::of(&System::assemble(scene).unwrap(), count, &mut || true)
 }
 
-/// Relative errors of the first six frequencies; the modes themselves.
+/// Relative errors of the first six frequencies, and the modes.
 fn errors(
     support: Support,
     mesh: &Mesh,
@@ -218,13 +218,13 @@ fn the_exact_frequencies_are_those_of_the_reference() {
     assert!(checked >= 36, "{checked}");
 }
 
-/// A beam of any stiffness is as good as its mesh: ten times its error at moderate stiffness, and a floor for rounding.
+/// Allowed error at any stiffness: ten times the mesh error at moderate stiffness, and a floor for rounding.
 fn allowed(mode: usize, spans: usize) -> f64 {
     let wave = (mode as f64 + 1.0) * PI / spans as f64;
     10.0 * MESH_ERROR * wave.powi(4) + 1e-8
 }
 
-/// The largest error of a frequency over `(β h)⁴` that cubic splines have where stiffness is moderate.
+/// Largest frequency error of cubic splines at moderate stiffness, over `(β h)⁴`.
 const MESH_ERROR: f64 = 1.0 / 100.0;
 
 fn check(ratio: f64, rotary: Option<f64>, spans: usize, support: Support) -> Option<f64> {
@@ -238,7 +238,7 @@ fn check(ratio: f64, rotary: Option<f64>, spans: usize, support: Support) -> Opt
             let zeros = support.zeros();
             assert_eq!(found.all().iter().filter(|mode| mode.is_free()).count(), zeros, "{name}");
             assert!(residual <= 1e-6, "{name} {residual}");
-            // A mesh bends in about as many ways as it has spans; its other modes are those of what stretches.
+            // A mesh has about as many bending modes as spans. Its other modes are axial or shear modes.
             for (mode, error) in errors.iter().enumerate().take(spans) {
                 assert!(*error < allowed(mode, spans), "{name}: {}", sci(&errors));
             }
@@ -280,7 +280,7 @@ fn the_whole_grid() {
     check_all(&ratios, &[None, Some(1e-6), Some(1e-12)], &[4, 16, 64, 120, 400, 2000]);
 }
 
-/// More equal modes than the search has vectors in a block.
+/// The number of equal modes exceeds the block size of the search.
 #[test]
 fn all_of_many_equal_modes_are_found() {
     let (beams, mesh, section) = (7, Mesh::bspline(14, 3, 2).unwrap(), section(1e8, None));
@@ -302,7 +302,7 @@ fn all_of_many_equal_modes_are_found() {
     }
 }
 
-/// The highest modes of a small scene are as good as the lowest: waves along an axis go with the root of its stiffness.
+/// The highest modes of a small scene are as accurate as the lowest. Axial frequencies are proportional to the square root of the axial stiffness.
 #[test]
 fn all_modes_of_a_small_stiff_beam_are_found() {
     let axial = |ratio: f64| -> Vec<f64> {
@@ -324,7 +324,7 @@ fn all_modes_of_a_small_stiff_beam_are_found() {
     }
 }
 
-/// Prestress is a section force that balances a load, and that its strain does not hide.
+/// The prestress is the section force that balances the load. It must not be lost in the rounding of the strain.
 #[test]
 fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
     for (ratio, spans) in [(1e6, 20), (1e10, 20), (1e12, 100)] {
@@ -340,7 +340,7 @@ fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
             let rest = Equilibrium::find(scene, Loading::default(), &mut |_| true).unwrap();
             rest.modes(1, &mut || true).unwrap().all()[0].square
         };
-        // Shear makes the load of a column less by the load over the shear stiffness.
+        // Shear reduces the critical load of a column by the ratio of load to shear stiffness.
         let (below, half, above) = (lowest(0.9999), lowest(0.5), lowest(1.0001));
         println!("EA L²/EI {ratio:.0e}: {below:e} {half:e} {above:e}");
         if ratio > 1e7 {
@@ -351,7 +351,7 @@ fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
     }
 }
 
-/// Numbers without pattern.
+/// Pseudorandom numbers.
 struct Random(u64);
 
 impl Random {
@@ -362,7 +362,7 @@ impl Random {
     }
 }
 
-/// Plain scenes settle, and have what finer meshes or the exact solution have.
+/// Ordinary scenes converge, and agree with finer meshes or the exact solution.
 fn random_scenes(count: usize) {
     let mut random = Random(7);
     for number in 0..count {
@@ -380,7 +380,7 @@ fn random_scenes(count: usize) {
             Err(error) => panic!("{name}: {error}"),
         };
         assert_eq!(found.all().iter().filter(|mode| mode.is_free()).count(), zeros, "{name}");
-        // Odd degrees on enough spans are near the exact solution; what others have is the business of their rule.
+        // Meshes of odd degree with enough spans are near the exact solution. The accuracy of other meshes depends on their quadrature rule.
         if degree % 2 == 1 && spans >= 60 {
             let exact = support.exact(&section, 6);
             for (mode, (found, exact)) in found.all()[zeros..].iter().zip(exact).enumerate() {

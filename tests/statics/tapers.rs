@@ -1,4 +1,4 @@
-//! Beams whose section varies, at rest and vibrating, against closed forms.
+//! Equilibria and vibrations of beams with varying sections, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use crate::common::{at, scenes};
@@ -22,7 +22,7 @@ fn clamped(variation: SectionVariation, length: f64, spans: usize) -> Scene {
 
 #[test]
 fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
-    // EI = B (1 - a s): δ = F L³/B ∫ (1 - s)²/(1 - a s) ds; in shear F L/G, as GA is uniform.
+    // EI = B (1 - a s): δ = F L³/B ∫ (1 - s)²/(1 - a s) ds. The shear deflection is F L/G, as GA is uniform.
     let (stiffness, a, length, force) = (50.0, 0.8, 2.0, 1e-4);
     let section = |bending: f64| Section {
         axial_stiffness: 1e5,
@@ -48,7 +48,7 @@ fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
     assert!((sunk / expected - 1.0).abs() < 1e-6, "{sunk} {expected}");
 }
 
-/// `J_n(x)` by its series.
+/// `J_n(x)` by its power series.
 fn bessel(n: u32, x: f64) -> f64 {
     let mut term = (1..=n).fold(1.0, |product, k| product * 0.5 * x / f64::from(k));
     let mut sum = term;
@@ -59,7 +59,7 @@ fn bessel(n: u32, x: f64) -> f64 {
     sum
 }
 
-/// `I_n(x)` by its series.
+/// `I_n(x)` by its power series.
 fn modified_bessel(n: u32, x: f64) -> f64 {
     let mut term = (1..=n).fold(1.0, |product, k| product * 0.5 * x / f64::from(k));
     let mut sum = term;
@@ -70,7 +70,7 @@ fn modified_bessel(n: u32, x: f64) -> f64 {
     sum
 }
 
-/// The first root of Kirchhoff's wedge, `I1 J2 + J1 I2 = 0`: `ω = z²/4 · √(E h²/(12 ρ))/L²` with `h` at the clamp.
+/// First root of Kirchhoff's wedge, `I1 J2 + J1 I2 = 0`: `ω = z²/4 · √(E h²/(12 ρ))/L²` with `h` at the clamp.
 fn wedge_root() -> f64 {
     let f = |z: f64| modified_bessel(1, z) * bessel(2, z) + bessel(1, z) * modified_bessel(2, z);
     let (mut low, mut high) = (3.0, 6.0);
@@ -84,7 +84,7 @@ fn wedge_root() -> f64 {
 
 #[test]
 fn a_wedge_vibrates_as_kirchhoff_found() {
-    // His wedge has a sharp tip; this one's is a thousandth of the height at the clamp, and feels shear and rotary inertia: 0.2 % less.
+    // Kirchhoff's wedge has a sharp tip. Here the tip height is a thousandth of that at the clamp, and shear and rotary inertia reduce the frequency by 0.2 %.
     let (young, density, height, length) = (1e9, 1000.0, 0.01, 1.0);
     let solid = |part: f64| Solid {
         youngs_modulus: young,
@@ -105,7 +105,7 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
 
 #[test]
 fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
-    // A cone of a bar, area (1 - s/2)²: modes of u' with u = f/(1 - s/2), f'' + β² f = 0, f(0) = 0, (f/r)'(1) = 0, r = 1 - s/2.
+    // Conical bar with area (1 - s/2)²: modes u = f/(1 - s/2) with f'' + β² f = 0, f(0) = 0, (f/r)'(1) = 0, r = 1 - s/2.
     let (stiffness, mass, length) = (100.0, 2.0, 3.0);
     let solid = |radius: f64| Solid {
         youngs_modulus: stiffness / std::f64::consts::PI,
