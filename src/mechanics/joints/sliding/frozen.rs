@@ -1,8 +1,9 @@
 //! Sliding law for a master whose kink is kept constant in a step.
 
-use super::dual::{ContactDuals, Dual, DualVector, NO_SLOPES};
+use super::dual::{ContactDuals, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
+use crate::geometry::{Dual, DualVector};
 
 /// Sliding law for a master with a kink. In a step, the kink rotates with the master but does not depend on the contact force.
 /// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.

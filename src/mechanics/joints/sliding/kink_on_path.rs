@@ -1,8 +1,9 @@
 //! Kink on the path of a slider: equations shared by the sliding laws for masters with a kink.
 
-use super::dual::{ALL_SLOPES, ContactDuals, Dual, DualVector};
+use super::dual::{ALL_SLOPES, ContactDuals, path_dual};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
+use crate::geometry::{Dual, DualVector};
 
 /// Quantities of a kink in an iterate. They depend on the path of the slave.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
@@ -29,9 +30,9 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         let (along, arc) = (&kink.along, &kink.motion.arc);
         let offset_before = DualVector::constant(kink.before * (along.start * kink.compliance));
         Self {
-            length: Dual::path_dual(along.end, along.slope),
-            difference: Dual::path_dual(along.difference, along.change),
-            stretch: Dual::path_dual(arc.difference, arc.change),
+            length: path_dual(along.end, along.slope),
+            difference: path_dual(along.difference, along.change),
+            stretch: path_dual(arc.difference, arc.change),
             over_square: jets.tangent.dot(&jets.tangent).inverse(),
             offset_before,
             arm: jets.tangent_change * jets.increment + (offset_before + jets.offset) * 0.5,

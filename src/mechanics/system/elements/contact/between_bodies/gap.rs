@@ -12,11 +12,10 @@
 //! Each force acts along the line that connects the mean positions of its points, so both momenta are conserved.
 
 use std::array::from_fn;
-use std::ops::{Add, Div, Mul, Sub};
 
 use super::shape::Foot;
 use crate::beams::RotationIncrement;
-use crate::geometry::{Vec2, larger};
+use crate::geometry::{Dual, DualVector, Vec2, larger};
 
 /// Number of local coordinates: displacements of the point, of the feet `c(ξ₀)` and `c(ξ₁)`, and their derivative with respect to ξ at `ξ₁`.
 pub(super) const LOCAL: usize = 8;
@@ -26,107 +25,6 @@ const SAME_FOOT: f64 = 1e-14;
 
 /// Derivatives with respect to the local coordinates.
 pub(super) type Slope = [f64; LOCAL];
-
-/// Number with its derivatives.
-#[derive(Debug, Clone, Copy)]
-struct Dual {
-    value: f64,
-    slope: Slope,
-}
-
-impl Dual {
-    const fn constant(value: f64) -> Self {
-        Self { value, slope: [0.0; LOCAL] }
-    }
-
-    fn coordinate(value: f64, at: usize) -> Self {
-        Self { value, slope: from_fn(|other| if other == at { 1.0 } else { 0.0 }) }
-    }
-
-    /// Value with the given factors of the derivatives of two numbers.
-    fn join(value: f64, (a, by_a): (Self, f64), (b, by_b): (Self, f64)) -> Self {
-        Self { value, slope: from_fn(|at| by_a * a.slope[at] + by_b * b.slope[at]) }
-    }
-
-    fn sqrt(self) -> Self {
-        let value = self.value.sqrt();
-        let by = if value > 0.0 { 0.5 / value } else { 0.0 };
-        Self { value, slope: self.slope.map(|slope| by * slope) }
-    }
-}
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self::join(self.value + other.value, (self, 1.0), (other, 1.0))
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self::join(self.value - other.value, (self, 1.0), (other, -1.0))
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self::join(self.value * other.value, (self, other.value), (other, self.value))
-    }
-}
-
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        Self::join(value, (self, 1.0 / other.value), (other, -value / other.value))
-    }
-}
-
-/// Vector with the derivatives of its components.
-#[derive(Debug, Clone, Copy)]
-struct DualVector([Dual; 2]);
-
-impl DualVector {
-    fn constant(vector: Vec2) -> Self {
-        Self([Dual::constant(vector.x), Dual::constant(vector.y)])
-    }
-
-    fn coordinates(vector: Vec2, first: usize) -> Self {
-        Self([Dual::coordinate(vector.x, first), Dual::coordinate(vector.y, first + 1)])
-    }
-
-    fn dot(self, other: Self) -> Dual {
-        self.0[0] * other.0[0] + self.0[1] * other.0[1]
-    }
-
-    fn norm(self) -> Dual {
-        self.dot(self).sqrt()
-    }
-
-    fn scaled(self, by: Dual) -> Self {
-        Self(self.0.map(|component| component * by))
-    }
-
-    fn value(self) -> Vec2 {
-        Vec2::new(self.0[0].value, self.0[1].value)
-    }
-}
-
-impl Add for DualVector {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self([0, 1].map(|at| self.0[at] + other.0[at]))
-    }
-}
-
-impl Sub for DualVector {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self([0, 1].map(|at| self.0[at] - other.0[at]))
-    }
-}
 
 /// Point and curve at the start of a step.
 #[derive(Debug, Clone, Copy)]
@@ -184,12 +82,12 @@ impl GapTrial {
         rotations: RotationIncrement,
     ) -> Self {
         let [point, from, to] =
-            [0, 1, 2].map(|at| DualVector::coordinates(movement.moved[at], 2 * at));
+            [0, 1, 2].map(|at| DualVector::<LOCAL>::variable(movement.moved[at], 2 * at));
         let [tangent_before, tangent, _] = movement.tangents;
         let (a_start, b_start) = (start.apart, start.apart - movement.slid);
         let foot_slope = foot_slope(b_start + movement.moved[0] - movement.moved[2], movement);
-        let foot = Dual { value: 0.0, slope: foot_slope };
-        let slide = |tangent: Vec2| DualVector::constant(tangent).scaled(foot);
+        let foot = Dual { value: 0.0, slopes: foot_slope };
+        let slide = |tangent: Vec2| DualVector::constant(tangent) * foot;
         let a = DualVector::constant(a_start);
         let b = DualVector::constant(b_start) - slide(tangent_before);
         let a_end = a + (point - from);
@@ -198,10 +96,10 @@ impl GapTrial {
         let slid_end = slid + (to - from) + slide(tangent - tangent_before);
         let (before, after) = (Dual::constant(a_start.norm()), b_end.norm());
         // Differences of squared distances without cancellation.
-        let first = slid.dot(slid) - (a + a).dot(slid);
-        let last = slid_end.dot(a_end + b_end);
+        let first = slid.dot(&slid) - (a + a).dot(&slid);
+        let last = slid_end.dot(&(a_end + b_end));
         let both = before + after;
-        let change = ((a + a_end).dot(point - from) - last) / both;
+        let change = ((a + a_end).dot(&(point - from)) - last) / both;
         let moved = movement.moved.iter().map(Vec2::norm).fold(movement.increment, larger);
         let (at_start, at_end) = match rotations {
             RotationIncrement::TangentScaled => {
@@ -211,11 +109,11 @@ impl GapTrial {
                     false => Dual::constant(0.5),
                 };
                 let rest = Dual::constant(1.0) - share;
-                ((a + a_end).scaled(share / both), (b + b_end).scaled(rest / both))
+                ((a + a_end) * (share / both), (b + b_end) * (rest / both))
             }
             RotationIncrement::Angle => {
                 let none = DualVector::constant(Vec2::zeros());
-                (none, b_end.scaled(Dual::constant(1.0) / after))
+                (none, b_end * (Dual::constant(1.0) / after))
             }
         };
         let none = DualVector::constant(Vec2::zeros());
@@ -223,9 +121,12 @@ impl GapTrial {
         Self {
             change: change.value,
             moved,
-            slope: change.slope,
-            secant: forces.map(DualVector::value),
-            secant_slope: from_fn(|at| forces[at / 2].0[at % 2].slope),
+            slope: change.slopes,
+            secant: forces.map(|force| force.value()),
+            secant_slope: from_fn(|at| {
+                let DualVector { x, y } = forces[at / 2];
+                if at % 2 == 0 { x.slopes } else { y.slopes }
+            }),
             foot_slope,
         }
     }
