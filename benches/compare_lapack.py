@@ -27,7 +27,7 @@ FEWEST_REPEATS = 3
 
 
 def least_time(unknowns):
-    """The least time of dgbsv, of a diagonally dominant matrix, per unknown [ns]."""
+    """Smallest time of dgbsv for a diagonally dominant matrix, per unknown [ns]."""
     b = HALF_BANDWIDTH
     random = numpy.random.default_rng(1)
     band = numpy.zeros((3 * b + 1, unknowns), order="F")
