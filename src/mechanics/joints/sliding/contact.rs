@@ -43,7 +43,7 @@ impl ContactUnknowns {
     }
 }
 
-/// Position or direction on the path of a slave along its master [length], with a derivative.
+/// Position or tangent vector on the path of a slave along its master, with its derivative [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Position or direction [length].

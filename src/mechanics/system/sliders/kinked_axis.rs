@@ -103,7 +103,7 @@ impl KinkedAxis {
     }
 
     /// Returns true if a kink that moves along the master with this speed [length/time] begins with the contact force.
-    /// At larger speeds, unresolved waves beside the end would determine the load of the kink.
+    /// At larger speeds, unresolved waves near the end would determine the load of the kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }

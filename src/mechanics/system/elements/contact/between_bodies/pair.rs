@@ -315,7 +315,7 @@ impl ContactPair {
         self.normal.tension.correct(change);
     }
 
-    /// Adds forces on the point, on the foot at the start of the step and on another foot to `out`.
+    /// Adds three forces to `out`: on the point, on the foot at the start of the step, and on another foot.
     fn scatter(
         &self,
         shapes: &[Shape],

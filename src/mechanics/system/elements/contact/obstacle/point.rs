@@ -123,7 +123,7 @@ struct PointInertia {
     mobility: f64,
     /// Rate of rotation per unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
     angular_mobility: f64,
-    /// True for a point that a rigid link holds beside the centre of mass.
+    /// True for a point off the centre of mass, which a rigid link connects to the centre.
     is_linked: bool,
 }
 
