@@ -3,7 +3,7 @@
 //! The program consists of the following layers. A layer uses only layers to its right:
 //!
 //! ```text
-//! main → cli → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
+//! main → cli, playground → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
 //! ```
 //!
 //! The mechanics is a separate crate, so that changes of the language do not require compiling it again. The layers above include its main layers.
@@ -11,6 +11,8 @@
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+// Some functions of the lower layers are used only by the command line.
+#![cfg_attr(not(feature = "terminal"), allow(dead_code, unused_imports))]
 
 pub use withy_mechanics::{
     beams, elementary, geometry, integrators, joints, linalg, loads, newton, simulation, statics,
@@ -18,11 +20,14 @@ pub use withy_mechanics::{
 };
 
 pub mod analysis;
+#[cfg(feature = "terminal")]
 pub mod cli;
 pub mod exercises;
 mod fitting;
 pub mod output;
 mod panics;
+#[cfg(feature = "playground")]
+pub mod playground;
 pub mod repl;
 mod sampling;
 mod sandbox_fs;

@@ -8,12 +8,13 @@ use std::time::Duration;
 
 use super::Case;
 use crate::panics::caught;
-use crate::simulation::cores;
+use crate::simulation::{HAS_THREADS, cores};
 
 /// Interval of the periodic calls of `heed`.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all processor cores. Cases whose loads call script functions run last, on the calling thread.
+/// On a system without threads, all cases run on the calling thread.
 ///
 /// On the calling thread, the callback `heed` receives the index and the result of each completed case, and periodically `None`.
 /// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases.
@@ -24,7 +25,8 @@ pub fn on_all_cores<R: Send>(
     work: impl Fn(&Case) -> R + Sync,
     mut heed: impl FnMut(Option<(usize, &Result<R, String>)>) -> ControlFlow<()>,
 ) -> Vec<Option<Result<R, String>>> {
-    let portable: Vec<Option<Vec<u8>>> = cases.iter().map(Case::to_bytes).collect();
+    let to_bytes = |case: &Case| if HAS_THREADS { case.to_bytes() } else { None };
+    let portable: Vec<Option<Vec<u8>>> = cases.iter().map(to_bytes).collect();
     let queue: Vec<(usize, &[u8])> = portable
         .iter()
         .enumerate()

@@ -9,7 +9,7 @@ use super::input_options::InputOptions;
 use super::learn_options::LearnOptions;
 use super::limits::LimitOptions;
 use super::view_options::ViewOptions;
-use crate::repl::editor::Keys;
+use crate::repl::terminal::line_editor::Keys;
 use crate::script::state::parts::StudyPart;
 
 /// Simulates the planar dynamics of flexible beams from scripts.

@@ -8,7 +8,7 @@ use std::{process, thread};
 use super::Exit;
 use super::console::print_error;
 use super::tui::terminal;
-use crate::repl::editor::typed_ahead;
+use crate::repl::terminal::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
 /// Time in which a run must react to Ctrl-C.

@@ -14,7 +14,7 @@ use super::progress_display::{self, ProgressPreference};
 use super::watch::watch;
 use crate::output::{TextTable, write_atomic};
 use crate::panics;
-use crate::repl::editor::typed_ahead;
+use crate::repl::terminal::typed_ahead;
 use crate::sandbox_fs::read_file;
 use crate::script::diagnose::{Colours, Diagnostic};
 use crate::script::engine::runner::{self, Ending, RunOutcome};
@@ -260,14 +260,8 @@ pub(super) fn report_error(diagnostic: &Diagnostic) -> Exit {
 }
 
 pub(super) fn show_summary(outcome: &RunOutcome) {
-    for file in &outcome.files {
-        print_error(&format!("wrote {}\n", file.display()));
-    }
-    for line in &outcome.errors {
+    for line in outcome.summary() {
         print_error(&format!("{line}\n"));
-    }
-    if let Some(summary) = outcome.checks.summary() {
-        print_error(&format!("{summary}\n"));
     }
 }
 

@@ -12,11 +12,12 @@ use super::progress_display::{self, ProgressPreference};
 use super::run::{last_resort, report_error};
 use crate::output::{Glyphs, TerminalStyle};
 use crate::panics;
-use crate::repl::editor::{self, Editor};
-use crate::repl::pager::TerminalPager;
+use crate::repl::batch;
 use crate::repl::session::Session;
 use crate::repl::shell::{CommandOutcome, ReplyTarget, Shell};
-use crate::repl::{batch, prompt};
+use crate::repl::terminal::line_editor::{Editor, EditorOptions};
+use crate::repl::terminal::pager::TerminalPager;
+use crate::repl::terminal::prompt;
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::stack::on_large_stack;
 use crate::script::messages::stop::{MEGABYTE, Stop};
@@ -78,7 +79,7 @@ fn read_inputs(shell: &mut Shell, options: &SessionOptions) -> Result<(), Diagno
     if let Some(pager) = TerminalPager::of_environment(|name| std::env::var(name).ok()) {
         shell.page_with(Box::new(pager));
     }
-    let mut editing = editor::EditorOptions::from_environment(shell.colours());
+    let mut editing = EditorOptions::from_environment(shell.colours());
     if let Some(keys) = options.keys {
         editing.keys = keys.into();
     }

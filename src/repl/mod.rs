@@ -1,5 +1,5 @@
 //! Interactive sessions. Inputs are evaluated and recorded, and the effects of failed inputs are undone.
-//! [`session`] and [`shell`] do not depend on a terminal. [`editor`] provides line editing.
+//! [`editor`] provides completion, hints and highlighting. Only the module `terminal` depends on a terminal.
 
 pub(crate) mod batch;
 pub mod clock;
@@ -9,7 +9,6 @@ pub mod editor;
 mod effects;
 mod history_expression;
 pub mod pager;
-pub(crate) mod prompt;
 pub(crate) mod record;
 mod sampling;
 mod scope;
@@ -17,4 +16,6 @@ pub mod session;
 pub mod shell;
 mod statements;
 mod surroundings;
+#[cfg(feature = "terminal")]
+pub(crate) mod terminal;
 pub(crate) mod transcript;

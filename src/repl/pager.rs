@@ -1,13 +1,4 @@
-//! Display of long replies in pages, by an external program or by the built-in pager.
-
-mod keyboard;
-mod pages;
-mod program;
-
-use std::io::stdout;
-
-pub(crate) use keyboard::{Keyboard, Pressed};
-pub(crate) use pages::show_pages;
+//! Display of long replies in pages.
 
 /// Result of showing a text in pages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,83 +18,4 @@ pub trait Pager {
 
     /// Shows a long text in pages. `was_interrupted` returns true once after each Ctrl-C.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
-}
-
-/// Pager at a terminal.
-pub struct TerminalPager {
-    program: Option<String>,
-    size: (usize, usize),
-}
-
-impl TerminalPager {
-    /// Creates a pager with the program in the variable `PAGER`. Without this variable, the built-in pager is used.
-    /// Returns `None` if the variable is `cat` or empty, or if the terminal cannot move its cursor.
-    pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
-        let program = variable("PAGER");
-        let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
-        let is_dumb = matches!(variable("TERM").as_deref(), None | Some("" | "dumb"));
-        (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
-    }
-
-    /// Returns true if the text and the next prompt together do not fit on the terminal.
-    fn is_long(&self, text: &str) -> bool {
-        let (columns, lines) = self.size;
-        columns > 0 && lines > 1 && pages::rows(text, columns) >= lines
-    }
-}
-
-impl Pager for TerminalPager {
-    fn resize(&mut self, columns: usize, lines: usize) {
-        self.size = (columns, lines);
-    }
-
-    fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys typed during the evaluation belong to the prompt, not to the pager.
-        if !self.is_long(text) || keyboard::has_pending_keys() {
-            return PagerOutcome::NotPaged;
-        }
-        if let Some(name) = &self.program {
-            match program::show(name, text, was_interrupted) {
-                Ok(()) => return PagerOutcome::Shown,
-                Err(error) => eprintln!("note: cannot start the pager '{name}': {error}"),
-            }
-        }
-        let Some(mut keys) = keyboard::KeyboardTerminal::open() else {
-            return PagerOutcome::NotPaged;
-        };
-        let walked = show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
-        // If the terminal has been closed, the next prompt reports it.
-        walked.unwrap_or(PagerOutcome::Shown)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn pager(variables: &[(&str, &str)]) -> Option<TerminalPager> {
-        let value = |name: &str| variables.iter().find(|(other, _)| *other == name);
-        TerminalPager::of_environment(|name| value(name).map(|(_, value)| (*value).to_owned()))
-    }
-
-    #[test]
-    fn the_environment_says_whether_there_are_pages() {
-        let xterm = ("TERM", "xterm");
-        assert!(pager(&[xterm]).is_some_and(|pager| pager.program.is_none()));
-        assert!(pager(&[xterm, ("PAGER", "less -S")]).is_some_and(|pager| pager.program.is_some()));
-        for without in
-            [&[xterm, ("PAGER", "cat")][..], &[xterm, ("PAGER", "")], &[("TERM", "dumb")], &[]]
-        {
-            assert!(pager(without).is_none(), "{without:?}");
-        }
-    }
-
-    #[test]
-    fn what_fits_on_the_terminal_is_not_long() {
-        let mut pager = pager(&[("TERM", "xterm")]).expect("a pager");
-        assert!(!pager.is_long(&"a\n".repeat(1000)), "of unknown size");
-        pager.resize(20, 10);
-        assert!(!pager.is_long(&["a"; 9].join("\n")) && pager.is_long(&["a"; 10].join("\n")));
-        assert!(!pager.is_long(&"a".repeat(180)) && pager.is_long(&"a".repeat(181)));
-    }
 }

@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 use std::time::SystemTime;
 
+use super::dir::time_of_change;
 use super::folder::{Folder, is_plain};
 
 #[derive(Debug)]
@@ -24,13 +25,12 @@ impl Folder {
     /// # Errors
     /// Fails if the folder cannot be read.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
-        let entry = |entry: cap_std::fs::DirEntry| {
-            let about = self.0.symlink_metadata(entry.file_name()).ok()?;
-            let changed = about.modified().ok().map(cap_std::time::SystemTime::into_std);
-            let (name, length) = (entry.file_name(), about.len());
+        let entry = |name: OsString| {
+            let about = self.0.metadata(&name).ok()?;
+            let (length, changed) = (about.len(), time_of_change(&about));
             Some(FolderEntry { name, length, changed, is_folder: about.is_dir() })
         };
-        let mut all: Vec<_> = self.0.entries()?.flatten().filter_map(entry).collect();
+        let mut all: Vec<_> = self.0.names()?.into_iter().filter_map(entry).collect();
         all.sort_by(|a, b| a.name.cmp(&b.name));
         Ok(all)
     }

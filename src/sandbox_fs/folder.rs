@@ -5,10 +5,7 @@ use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Component, Path};
 
-use cap_fs_ext::{DirExt, FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
-use cap_std::ambient_authority;
-use cap_std::fs::{Dir, OpenOptions};
-
+use super::dir::Dir;
 use super::reading;
 
 /// Open folder. If the folder is renamed or replaced by a link, this value still refers to the original folder.
@@ -28,7 +25,7 @@ impl Folder {
     /// Fails if `path` is not the path of a folder.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-        Dir::open_ambient_dir(path, ambient_authority()).map(Self)
+        Dir::open(path).map(Self)
     }
 
     /// Opens a folder for writing. The folder and its parents are created if necessary.
@@ -62,8 +59,8 @@ impl Folder {
     }
 
     pub(super) fn enter(&self, name: &OsStr) -> io::Result<Self> {
-        self.0.open_dir_nofollow(name).map(Self).map_err(|error| {
-            match self.0.symlink_metadata(name).is_ok_and(|about| about.is_symlink()) {
+        self.0.open_dir(name).map(Self).map_err(|error| {
+            match self.0.metadata(name).is_ok_and(|about| about.is_symlink()) {
                 true => io::Error::other(format!(
                     "'{}' is a link, and links are not followed; give the folder itself",
                     name.display()
@@ -117,20 +114,20 @@ impl Folder {
     /// Fails if the file does not exist, or is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
-        let about = folder.0.symlink_metadata(name)?;
+        let about = folder.0.metadata(name)?;
         if about.is_symlink() {
             return Err(io::Error::other("it is a link, and links are not followed"));
         }
         reading::expect_ordinary(about.is_file())?;
-        let file = folder.0.open_with(name, &reading::options(FollowSymlinks::No))?;
+        let file = folder.0.open_file(name)?;
         reading::expect_ordinary(file.metadata()?.is_file())?;
-        Ok(file.into_std())
+        Ok(file)
     }
 
     /// Returns true if a file, a folder or a link of this name exists below this folder. The target of a link need not exist.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
-        found.is_ok_and(|(folder, name)| folder.0.symlink_metadata(name).is_ok())
+        found.is_ok_and(|(folder, name)| folder.0.metadata(name).is_ok())
     }
 
     /// Returns true if no other program has locked this regular file below the folder.
@@ -147,13 +144,7 @@ impl Folder {
     /// Fails if a file of this name exists or the file cannot be created.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
-        folder.create_here(name)
-    }
-
-    pub(super) fn create_here(&self, name: &OsStr) -> io::Result<fs::File> {
-        let mut options = OpenOptions::new();
-        options.write(true).create_new(true).follow(FollowSymlinks::No);
-        self.0.open_with(name, &options).map(|file| file.into_std())
+        folder.0.create_file(name)
     }
 
     /// Opens a regular file for appending. The file is created if it does not exist.
@@ -162,11 +153,9 @@ impl Folder {
     /// Fails if `name` is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
-        let mut options = OpenOptions::new();
-        options.append(true).create(true).nonblock(true).follow(FollowSymlinks::No);
-        let file = folder.0.open_with(name, &options)?;
+        let file = folder.0.append_to_file(name)?;
         reading::expect_ordinary(file.metadata()?.is_file())?;
-        Ok(file.into_std())
+        Ok(file)
     }
 
     /// Renames a file in this folder. An existing file with the new name is replaced.
@@ -174,7 +163,7 @@ impl Folder {
     /// # Errors
     /// Fails if the file cannot be renamed.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
-        self.0.rename(name, &self.0, new)?;
+        self.0.rename(name.as_os_str(), new.as_os_str())?;
         self.sync()
     }
 
@@ -183,21 +172,13 @@ impl Folder {
     /// # Errors
     /// Fails if the file cannot be removed.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
-        self.0.remove_file_or_symlink(name)
+        self.0.remove_file(name.as_os_str())
     }
 
     /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
     /// This function has no effect on systems that cannot write folders to disk.
     pub(super) fn sync(&self) -> io::Result<()> {
-        #[cfg(unix)]
-        {
-            let open = self.0.open(".")?.into_std();
-            match open.sync_all() {
-                Err(error) if error.kind() != ErrorKind::InvalidInput => return Err(error),
-                _ => (),
-            }
-        }
-        Ok(())
+        self.0.sync()
     }
 }
 

@@ -3,15 +3,7 @@
 use std::io::{self, Read};
 use std::path::Path;
 
-use cap_fs_ext::{FollowSymlinks, OpenOptionsFollowExt, OpenOptionsSyncExt};
-use cap_std::ambient_authority;
-use cap_std::fs::{File, OpenOptions};
-
-pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
-    let mut options = OpenOptions::new();
-    options.read(true).nonblock(true).follow(follow);
-    options
-}
+use super::dir::open_file;
 
 /// Reads a file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.
 ///
@@ -20,9 +12,7 @@ pub(super) fn options(follow: FollowSymlinks) -> OpenOptions {
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     // The type of the file is checked before it is opened, because opening a device may have side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
-    let options = options(FollowSymlinks::Yes);
-    let file = File::open_ambient_with(path, &options, ambient_authority())?;
-    read(file.into_std(), most)
+    read(open_file(path)?, most)
 }
 
 /// Reads a UTF-8 text file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.

@@ -30,7 +30,7 @@ impl Prepared {
     /// # Errors
     /// Fails if the file cannot be renamed. After a failure, nothing is changed.
     pub fn rename_to_final(self) -> io::Result<()> {
-        self.folder.0.rename(&self.partial, &self.folder.0, &self.name)?;
+        self.folder.0.rename(&self.partial, &self.name)?;
         self.folder.sync()
     }
 }
@@ -62,7 +62,7 @@ impl Folder {
         write: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> io::Result<Prepared> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
-        if let Ok(about) = folder.0.symlink_metadata(name)
+        if let Ok(about) = folder.0.metadata(name)
             && !about.is_symlink()
         {
             reading::expect_ordinary(about.is_file())?;
@@ -83,8 +83,8 @@ impl Folder {
             let count = COUNTER.fetch_add(1, Ordering::Relaxed);
             let mut partial = OsString::from(".");
             partial.push(name);
-            partial.push(format!(".{}-{count}.part", std::process::id()));
-            match self.create_here(&partial) {
+            partial.push(format!(".{}-{count}.part", process_id()));
+            match self.0.create_file(&partial) {
                 Ok(file) => {
                     // A failure is ignored. On a file system without locks, no temporary file counts as abandoned.
                     let _ = file.try_lock();
@@ -122,9 +122,9 @@ impl Folder {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
             // The new name is reserved by an empty file before the file is renamed, so that no other file is replaced.
-            match folder.create_here(kept) {
+            match folder.0.create_file(kept) {
                 Ok(_) => {
-                    folder.0.rename(own, &folder.0, kept)?;
+                    folder.0.rename(own, kept)?;
                     folder.sync()?;
                     return Ok(new);
                 }
@@ -142,11 +142,16 @@ impl Folder {
     pub fn restore_name(&self, kept: &Path, name: &Path) -> io::Result<()> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         let (_, kept) = self.parent_of(kept, Self::enter)?;
-        match folder.0.symlink_metadata(own) {
+        match folder.0.metadata(own) {
             Ok(_) => Err(ErrorKind::AlreadyExists.into()),
-            Err(_) => folder.0.rename(kept, &folder.0, own),
+            Err(_) => folder.0.rename(kept, own),
         }
     }
+}
+
+/// Number of this process. WebAssembly has no processes.
+fn process_id() -> u32 {
+    if cfg!(target_family = "wasm") { 0 } else { std::process::id() }
 }
 
 /// Returns true if `name` is the name of a temporary file: `.NAME.PROCESS-COUNT.part`.

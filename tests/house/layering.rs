@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Layers in the order of docs/architecture.md. A layer may use those of later groups and all of [`BRANCHES`].
 const CHAIN: &[&[&str]] = &[
-    &["cli"],
+    &["cli", "playground"],
     &["repl", "exercises"],
     &["script"],
     &["output", "analysis"],

@@ -1,7 +1,10 @@
-//! Available processor cores.
+//! Available processor cores and threads.
 
 use std::sync::LazyLock;
 use std::thread::available_parallelism;
+
+/// True if the system can start threads.
+pub const HAS_THREADS: bool = cfg!(not(target_family = "wasm"));
 
 /// Number of processor cores available to this process. The value is cached because the system query is slow.
 pub fn cores() -> usize {

@@ -37,7 +37,7 @@ pub use archive::ArchiveError;
 pub use arrival::{Arrival, ArrivalKind};
 pub use axis::{Axes, AxisStation};
 pub use columns::{Column, ExtraColumn};
-pub use cores::cores;
+pub use cores::{HAS_THREADS, cores};
 pub use error::SimulationError;
 pub use history::{DriftScales, History, Invariant, Sample};
 pub use monitor::{Monitor, NoMonitor};

@@ -66,6 +66,12 @@ pub struct RunOutcome {
 }
 
 impl RunOutcome {
+    /// Summary of the run, one line each: written files, estimated errors, and counts of the checks.
+    pub fn summary(&self) -> Vec<String> {
+        let files = self.files.iter().map(|file| format!("wrote {}", file.display()));
+        files.chain(self.errors.iter().cloned()).chain(self.checks.summary()).collect()
+    }
+
     fn refused(diagnostic: Diagnostic) -> Self {
         Self {
             ending: Ending::Failed(diagnostic),

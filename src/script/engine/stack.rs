@@ -1,14 +1,16 @@
 //! Stack sizes of threads for scripts and workers. They are sufficient for the limits of the script, but smaller if the address space is limited.
 
+use std::io::ErrorKind;
 use std::sync::Mutex;
 use std::thread;
 
 use crate::panics::caught;
 use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
+use crate::simulation::HAS_THREADS;
 
 /// Calls `work` on a thread whose stack is large enough for the limits of the script.
-/// If the address space of the process is limited, the stack is smaller.
+/// If the address space of the process is limited, the stack is smaller. On a system without threads, `work` runs on this thread.
 ///
 /// # Errors
 /// Fails if no thread can be started, or if `work` panics.
@@ -20,6 +22,7 @@ pub fn on_large_stack<T: Send>(
 }
 
 /// Calls `work` on a thread with a stack of `bytes`. If this fails, smaller stacks are tried, down to the minimum for nested calls.
+/// On a system without threads, `work` runs on this thread.
 ///
 /// # Errors
 /// Fails if no thread can be started, or if `work` panics.
@@ -32,10 +35,13 @@ pub fn on_stack<T: Send>(
     let work = Mutex::new(Some(work));
     let take = || work.lock().ok().and_then(|mut work| work.take());
     thread::scope(|scope| {
-        let running = loop {
+        let done = loop {
             let thread = thread::Builder::new().name("script".into()).stack_size(bytes);
             match thread.spawn_scoped(scope, || take().map(caught)) {
-                Ok(running) => break running,
+                Ok(running) => break running.join(),
+                Err(error) if error.kind() == ErrorKind::Unsupported => {
+                    break Ok(take().map(caught));
+                }
                 Err(_) if bytes > least => bytes = (bytes / 2).max(least),
                 Err(error) => {
                     let message = format!("cannot start a thread for the script: {error}");
@@ -43,15 +49,16 @@ pub fn on_stack<T: Send>(
                 }
             }
         };
-        let done = running.join().map_err(|_| "a thread ended by a panic that was caught");
+        let done = done.map_err(|_| "a thread ended by a panic that was caught");
         let done = done.and_then(|done| done.ok_or("the work of a thread was done twice"));
         done.map_err(Diagnostic::internal_error)?.map_err(Diagnostic::internal_error)
     })
 }
 
 /// Number of workers, at most `most`, and stack size of each worker [bytes]; `None` if the address space is too small for one worker.
+/// On a system without threads, the result is also `None`.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
-    worker_stacks(limits, most, room())
+    if HAS_THREADS { worker_stacks(limits, most, room()) } else { None }
 }
 
 /// Remaining address space of the process [bytes]; `None` if it is not limited.

@@ -22,7 +22,7 @@ pub const DEEPEST: usize = 1000;
 /// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is used only when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
 /// Largest address space of the stack for dropping nested values [bytes].
-const LARGEST_FOR_VALUES: usize = 16 << 30;
+const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +50,8 @@ impl Limits {
     /// Nested closures are dropped recursively.
     /// The stack for each closure is smaller than twice its memory, so the memory limit determines a sufficient stack.
     pub fn stack(&self) -> usize {
-        LEAST_STACK + 2 * self.memory_or_default().min(LARGEST_FOR_VALUES)
+        let for_values = 2 * self.memory_or_default().min(LARGEST_FOR_VALUES);
+        LEAST_STACK.saturating_add(usize::try_from(for_values).unwrap_or(usize::MAX))
     }
 
     /// Stack size for the allowed depth of nested calls [bytes].
@@ -60,12 +61,11 @@ impl Limits {
 
     /// Address space for the values of a script [bytes]. A factor allows for freed memory that is not returned at once.
     pub fn address_space(&self) -> usize {
-        self.memory_or_default().saturating_mul(2)
+        usize::try_from(self.memory_or_default().saturating_mul(2)).unwrap_or(usize::MAX)
     }
 
-    fn memory_or_default(&self) -> usize {
-        let memory = self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE);
-        usize::try_from(memory).unwrap_or(LARGEST_FOR_VALUES)
+    fn memory_or_default(&self) -> u64 {
+        self.memory.unwrap_or(DEFAULT_MEGABYTES * MEGABYTE)
     }
 }
 

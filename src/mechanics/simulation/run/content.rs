@@ -15,7 +15,7 @@ use crate::simulation::{Arrival, Recording, ReleaseEvent, Sample, SimulationSett
 use crate::system::{Scene, SystemState, check_name};
 
 /// Largest plausible value of a counter or grid index.
-const MOST_COUNTED: usize = 1 << 52;
+const MOST_COUNTED: u64 = 1 << 52;
 
 /// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
@@ -125,7 +125,7 @@ impl Content<'_> {
             counts.rejected,
             counts.arrival_tries,
         ];
-        let is_counted = numbers.iter().all(|number| *number < MOST_COUNTED);
+        let is_counted = numbers.iter().all(|number| (*number as u64) < MOST_COUNTED);
         let rows = self.samples.len();
         let has_rows = self.permanent_rows >= 1
             && (self.permanent_rows..=self.permanent_rows + 1).contains(&rows);

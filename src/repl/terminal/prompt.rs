@@ -2,9 +2,9 @@
 
 use std::io;
 
-use super::editor::typed_ahead::TypedAhead;
-use super::editor::{Editor, EditorInput};
-use super::shell::{CommandOutcome, Shell};
+use super::line_editor::{Editor, EditorInput};
+use super::typed_ahead::TypedAhead;
+use crate::repl::shell::{CommandOutcome, Shell};
 
 /// Reads and evaluates inputs until the user quits.
 ///

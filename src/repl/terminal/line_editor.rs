@@ -9,11 +9,12 @@ use rustyline::history::FileHistory;
 use rustyline::{ColorMode, CompletionType, Config, EditMode};
 
 use super::assistant::Assistant;
-use super::highlight::SessionNames;
 use super::history;
 use super::keys::{self, Entries};
-use super::surroundings::CompletionContext;
 use crate::output::Colours;
+use crate::repl::editor::completion::INDENTATION;
+use crate::repl::editor::highlight::SessionNames;
+use crate::repl::editor::surroundings::CompletionContext;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Keys {
@@ -197,8 +198,8 @@ fn configuration(options: &EditorOptions) -> io::Result<Config> {
         .history_ignore_space(true)
         .auto_add_history(false)
         .bracketed_paste(true)
-        .indent_size(super::completion::INDENTATION.len() as u8)
-        .tab_stop(super::completion::INDENTATION.len() as u8);
+        .indent_size(INDENTATION.len() as u8)
+        .tab_stop(INDENTATION.len() as u8);
     Ok(configuration.build())
 }
 

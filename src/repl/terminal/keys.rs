@@ -9,8 +9,8 @@ use rustyline::{
     InputMode, KeyCode, KeyEvent, Modifiers, Movement, RepeatCount,
 };
 
-use super::completeness::{Completeness, completeness};
-use super::completion::INDENTATION;
+use crate::repl::editor::completeness::{Completeness, completeness};
+use crate::repl::editor::completion::INDENTATION;
 
 /// Entries of the history, shared by the key bindings that search the history.
 pub type Entries = Arc<Mutex<HashSet<String>>>;

@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use super::{Keyboard, PagerOutcome, Pressed};
+use super::keyboard::{Keyboard, Pressed};
+use crate::repl::pager::PagerOutcome;
 
 /// Control sequence that moves to the start of the line and clears the line.
 const CLEAR: &str = "\r\x1b[K";

@@ -9,12 +9,12 @@ use rustyline::hint::{self, Hinter, HistoryHinter};
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{Context, Helper, Result};
 
-use super::candidates::Candidate;
-use super::completeness::{Completeness, completeness};
-use super::completion::complete;
-use super::highlight::{SessionNames, highlight};
-use super::hints::{self, Hint};
 use crate::output::{Colours, columns, cut, padded};
+use crate::repl::editor::candidates::Candidate;
+use crate::repl::editor::completeness::{Completeness, completeness};
+use crate::repl::editor::completion::complete;
+use crate::repl::editor::highlight::{SessionNames, highlight};
+use crate::repl::editor::hints::{self, Hint};
 
 /// Largest number of candidates for a list with summaries, one candidate per line.
 const SHORT_LIST: usize = 12;
@@ -171,8 +171,8 @@ impl Validator for Assistant {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::surroundings;
     use super::*;
+    use crate::repl::editor::samples::surroundings;
 
     fn assistant(columns: usize) -> Assistant {
         Assistant::new(SessionNames::of(surroundings()), columns, 2, Colours::Ansi)

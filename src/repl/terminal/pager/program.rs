@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 use std::{env, thread};
 
-use crate::repl::editor::typed_ahead::TypedAhead;
+use crate::repl::terminal::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 

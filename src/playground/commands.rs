@@ -1,0 +1,91 @@
+//! Execution and check of a script.
+
+use std::io::{stderr, stdout};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use serde_json::{Value, json};
+
+use super::start::FAILURE;
+use crate::script::diagnose::Diagnostic;
+use crate::script::engine::runner::{self, Ending, RunOutcome};
+use crate::script::packages::language;
+use crate::script::source::program::Program;
+use crate::script::state::limits::Limits;
+use crate::script::state::settings::{RunMode, RunSettings};
+
+/// Exit code for failed checks, as of `withy`.
+const CHECK_FAILED: u8 = 1;
+
+/// Call depth. The stack of a WebAssembly module in Chromium is sufficient for 80 nested calls.
+const DEPTH: usize = 64;
+
+/// Limits without supervision by a thread. The page ends runs that take too long.
+pub(super) fn limits() -> Limits {
+    Limits { memory: None, depth: DEPTH, ..Limits::default() }
+}
+
+/// Runs a script like `withy run`. The files are written to the current folder.
+pub(super) fn run(file: &Path) -> ExitCode {
+    let settings = RunSettings {
+        out: PathBuf::new(),
+        limits: limits(),
+        printed: Box::new(stdout()),
+        diagnostics: Box::new(stderr()),
+        ..RunSettings::silent(RunMode::Run)
+    };
+    match start(file, settings) {
+        Ok(outcome) => {
+            for line in outcome.summary() {
+                eprintln!("{line}");
+            }
+            exit_code(&outcome)
+        }
+        Err(diagnostic) => fail(&diagnostic),
+    }
+}
+
+fn start(file: &Path, settings: RunSettings) -> Result<RunOutcome, Diagnostic> {
+    Ok(runner::run(&Program::load(file)?, &language(), settings))
+}
+
+fn exit_code(outcome: &RunOutcome) -> ExitCode {
+    match &outcome.ending {
+        Ending::Failed(diagnostic) => fail(diagnostic),
+        _ if !outcome.checks.failed().is_empty() => ExitCode::from(CHECK_FAILED),
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+fn fail(diagnostic: &Diagnostic) -> ExitCode {
+    let hint = diagnostic.hint.as_deref().and_then(without_options);
+    eprint!("{}", Diagnostic { hint, ..diagnostic.clone() });
+    ExitCode::from(FAILURE)
+}
+
+/// Hint without parts that name options of the command line for limits, which the page does not have.
+fn without_options(hint: &str) -> Option<String> {
+    let parts: Vec<&str> = hint.split("; ").filter(|part| !part.contains("--max-")).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+/// Checks a script like `withy check`, and prints its errors as a JSON array.
+pub(super) fn check(file: &Path) -> ExitCode {
+    let settings = RunSettings { limits: limits(), ..RunSettings::silent(RunMode::DryRun) };
+    let found = match start(file, settings) {
+        Ok(RunOutcome { ending: Ending::Failed(diagnostic), .. }) | Err(diagnostic) => {
+            vec![to_json(&diagnostic)]
+        }
+        Ok(_) => Vec::new(),
+    };
+    println!("{}", Value::Array(found));
+    ExitCode::SUCCESS
+}
+
+fn to_json(diagnostic: &Diagnostic) -> Value {
+    let place = diagnostic.location.as_ref().map(|at| {
+        json!({ "file": at.program.name, "line": at.line, "column": at.column, "length": at.length })
+    });
+    let hint = diagnostic.hint.as_deref().and_then(without_options);
+    json!({ "message": diagnostic.message, "hint": hint, "place": place })
+}

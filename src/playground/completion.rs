@@ -1,0 +1,50 @@
+//! Completion of names in a script.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use serde_json::{Value, json};
+
+use super::commands::limits;
+use super::start::FAILURE;
+use crate::repl::batch;
+use crate::repl::editor::candidates::Candidate;
+use crate::repl::editor::completion::complete;
+use crate::repl::editor::hints::hint;
+use crate::repl::session::Session;
+use crate::repl::shell::{ReplyTarget, Shell};
+use crate::script::diagnose::Diagnostic;
+use crate::script::packages::language;
+use crate::script::source::program::Program;
+use crate::script::state::settings::{RunMode, RunSettings};
+
+/// Prints completions at byte `offset` of a script and the hint at this position, as at the prompt. The output is a JSON object.
+pub(super) fn complete_at(file: &Path, offset: usize) -> ExitCode {
+    match completions(file, offset) {
+        Ok(found) => {
+            println!("{found}");
+            ExitCode::SUCCESS
+        }
+        Err(diagnostic) => {
+            eprint!("{diagnostic}");
+            ExitCode::from(FAILURE)
+        }
+    }
+}
+
+fn completions(file: &Path, offset: usize) -> Result<Value, Diagnostic> {
+    let program = Program::load(file)?;
+    let text = program.text.get(..offset).unwrap_or(&program.text);
+    let settings = RunSettings { limits: limits(), ..RunSettings::silent(RunMode::DryRun) };
+    let mut shell = Shell::new(Session::new(language(), settings)?, ReplyTarget::Pipe);
+    // The statements before the position define names. The first error ends the evaluation, usually in the unfinished statement.
+    batch::run(&mut shell, text.as_bytes());
+    let surroundings = shell.surroundings();
+    let (start, candidates) = complete(text, text.len(), &surroundings);
+    let options = candidates.iter().map(|Candidate { display, replacement, summary }| {
+        json!({ "label": display, "insert": replacement, "about": summary })
+    });
+    let options: Vec<Value> = options.collect();
+    let hint = hint(text, text.len(), &surroundings).map(|hint| hint.shown.trim().to_owned());
+    Ok(json!({ "start": start, "options": options, "hint": hint }))
+}
