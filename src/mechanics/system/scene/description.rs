@@ -76,7 +76,7 @@ impl Scene {
         beams + self.masses().map(|mass| mass.mass).sum::<f64>()
     }
 
-    pub(in crate::system) fn fastest_wave(&self) -> f64 {
+    pub(crate) fn fastest_wave(&self) -> f64 {
         let sections = self.beams.iter().flat_map(|beam| beam.section.sections());
         let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
