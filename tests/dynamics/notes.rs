@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::notepad::Notepad;
-use crate::common::scenes::{end_of, line};
+use crate::common::scenes::{end_of, line, spring};
 use crate::common::{at, run, settings, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::Method;
@@ -11,8 +11,11 @@ use withy::script::engine::runner::{self, Ending, RunOutcome};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
-use withy::simulation::{NoMonitor, Simulation, Warning};
-use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, StationVelocity};
+use withy::simulation::{NoMonitor, Simulation, StepControl, StepSize, Warning};
+use withy::system::{
+    Anchor, BeamDefinition, ParticleDefinition, Scene, SpringKind, SpringLaw, StartMotion,
+    StationVelocity,
+};
 
 const METHODS: [Method; 3] = [Method::EnergyMomentum, Method::Trapezoidal, Method::FourthOrder];
 
@@ -62,6 +65,55 @@ fn motion(notes: &[Warning]) -> Option<(f64, f64, Option<f64>)> {
     })
 }
 
+/// Warnings other than those about phase errors.
+fn without_phase(simulation: &Simulation) -> Vec<Warning> {
+    let notes = simulation.warnings().into_iter();
+    notes.filter(|note| !matches!(note, Warning::Phase { .. })).collect()
+}
+
+/// Accumulated phase error [rad] and share of the kinetic energy in the warning; `None` without a warning.
+fn phase(simulation: &Simulation) -> Option<(f64, f64)> {
+    simulation.warnings().iter().find_map(|note| match note {
+        Warning::Phase { phase, share, .. } => Some((*phase, *share)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_spinning_beam_is_told_the_angle_that_its_steps_lose() {
+    // A free stiff beam rotates by 2 atan(Ω h/2) per step, except for its small rotary inertia.
+    let spinning = |dt: f64, end: f64| {
+        let mut scene = Scene::new("spinning");
+        beam(&mut scene, at(0.3, 0.0), 4, steel());
+        scene.beams[0].motion.spin = 1.0;
+        simulate(scene, Method::EnergyMomentum, dt, end)
+    };
+    for dt in [0.1, 0.3] {
+        let run = spinning(dt, 60.0);
+        let exact = 60.0 - run.model().end_angles(0).0;
+        let (lost, share) = phase(&run).unwrap();
+        println!("dt = {dt}: lost {lost:.4} of {exact:.4}, share {share:.3}");
+        assert!((lost / exact - 1.0).abs() < 0.15 && share > 0.9, "{lost} {exact} {share}");
+    }
+    assert_eq!(phase(&spinning(0.02, 60.0)), None);
+}
+
+#[test]
+fn a_vibration_that_dampers_stop_and_adaptive_steps_have_no_phase_error() {
+    let damped = |damping: f64, dt: StepSize, end: f64| {
+        let mut scene = Scene::new("oscillator");
+        let ball = ParticleDefinition { name: "ball".into(), position: at(1.5, 0.0) };
+        let station = scene.add_particle(ball, 1.0).unwrap();
+        let kind = SpringKind::Length(vec![Anchor::Station(station), Anchor::Ground(at(0.0, 0.0))]);
+        spring(&mut scene, kind, SpringLaw::Linear { stiffness: 1.0, natural: 1.0 }, damping);
+        simulate(scene, Method::EnergyMomentum, dt, end)
+    };
+    assert!(phase(&damped(0.0, 0.1.into(), 300.0)).is_some());
+    assert!(phase(&damped(0.002, 0.1.into(), 300.0)).is_some());
+    assert_eq!(phase(&damped(0.2, 0.1.into(), 300.0)), None);
+    assert_eq!(phase(&damped(0.0, StepControl::to(1e-3).into(), 300.0)), None);
+}
+
 #[test]
 fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_not() {
     for method in METHODS {
@@ -73,7 +125,7 @@ fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_no
         assert!((periods * period / 5.0 - 1.0).abs() < 0.01, "{periods} of {}", 5.0 / period);
         assert!(share > 0.9, "{share}");
         let (scene, _) = ruler();
-        let fine = simulate(scene, method, period / 20.0, 20.0 * period);
+        let fine = simulate(scene, method, period / 100.0, 4.0 * period);
         assert_eq!(fine.warnings(), []);
     }
 }
@@ -110,7 +162,7 @@ fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
     };
     // The swing has a period of 0.9, the first bending mode one of about 0.025. The steps are 0.4 to 2 times as long as the latter.
     for dt in [0.01, 0.03, 0.05] {
-        let notes = simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0).warnings();
+        let notes = without_phase(&simulate(pendulum(1.0), Method::EnergyMomentum, dt, 10.0));
         assert_eq!(notes, [], "dt = {dt}");
     }
     let mut floating = Scene::new("nothing happens");
@@ -128,7 +180,7 @@ fn sections_that_turn_far_in_a_step_are_told() {
         let mut scene = Scene::new("spinning");
         beam(&mut scene, at(0.3, 0.0), 4, steel());
         scene.beams[0].motion.spin = 1.0;
-        simulate(scene, Method::EnergyMomentum, dt, 10.0).warnings()
+        without_phase(&simulate(scene, Method::EnergyMomentum, dt, 10.0))
     };
     assert_eq!(spinning(0.5), []);
     let notes = spinning(1.0);
@@ -242,7 +294,7 @@ fn an_energy_that_is_not_kept_as_promised_is_told() {
 #[test]
 fn notes_are_those_of_the_steps_behind_the_present() {
     let mut simulation =
-        Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.005)).unwrap();
+        Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.002)).unwrap();
     simulation.enable_snapshots(10_000_000);
     run(&mut simulation, 0.1).unwrap();
     assert_eq!(simulation.warnings(), []);
@@ -323,7 +375,7 @@ fn notes_can_be_kept_and_fine_steps_have_none() {
     );
     assert_eq!(outcome(&kept).1, "");
     let fine = format!(
-        "{RULER}let sim = scene.start(#{{ dt: 0.005 }});\nsim.run_to(1);\ncheck(sim.notes.is_empty());\n\
+        "{RULER}let sim = scene.start(#{{ dt: 0.0005 }});\nsim.run_to(1);\ncheck(sim.notes.is_empty());\n\
          check(!sim.explain().contains(\"first natural period\"));"
     );
     let (outcome, told) = outcome(&fine);
@@ -356,7 +408,7 @@ check((min(sim.history.column(\"ring.position\")) < 0.5) == {crosses});"
     println!("{told}");
     assert!(told.contains("steps are too long for the motion"), "{told}");
     let (_, told) = outcome(&script("0.05", false));
-    assert_eq!(told, "");
+    assert!(!told.contains("steps are too long"), "{told}");
 }
 
 #[test]

@@ -57,6 +57,10 @@ fn every_start_file_is_told_what_is_missing() {
     }
 }
 
+/// Exercises whose steps shift the phase of vibrations.
+const LONG_STEPS: [&str; 3] =
+    ["integrators/keep_the_energy", "integrators/order", "sliding/corner"];
+
 #[test]
 fn every_solution_passes_and_its_steps_resolve_what_happens() {
     for exercise in EXERCISES {
@@ -70,7 +74,15 @@ fn every_solution_passes_and_its_steps_resolve_what_happens() {
         let program = Program::named("solution", exercise.solution);
         run(&program, &language(), settings);
         let notes = notes.take();
-        assert!(!notes.contains("note: simulation"), "{}: {notes}", exercise.id());
+        // These exercises take long steps and compare what does not depend on the phase of vibration.
+        let is_long = LONG_STEPS.contains(&exercise.id().as_str());
+        let is_silent = |line: &str| !line.contains("note: simulation");
+        let is_allowed = |line: &str| is_long && line.contains("shifted the phase");
+        assert!(
+            notes.lines().all(|line| is_silent(line) || is_allowed(line)),
+            "{}: {notes}",
+            exercise.id()
+        );
     }
 }
 

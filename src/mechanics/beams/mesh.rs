@@ -25,6 +25,8 @@ pub enum Quadrature {
 pub struct Mesh {
     basis: Basis,
     quadrature: Quadrature,
+    #[serde(skip)]
+    is_automatic: bool,
 }
 
 /// Numbers of quadrature points of a beam.
@@ -69,6 +71,14 @@ impl Mesh {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
 
+    /// Creates a mesh of cubic C² splines whose number of spans is chosen from the scene.
+    ///
+    /// # Errors
+    /// Fails if the number of spans is out of range.
+    pub fn automatic(spans: usize) -> Result<Self, GeometryError> {
+        Ok(Self { is_automatic: true, ..Self::bspline(spans, 3, 2)? })
+    }
+
     /// Creates a mesh of equal Lagrange elements of degree 1 to 3 with the patch rule.
     ///
     /// # Errors
@@ -79,7 +89,7 @@ impl Mesh {
 
     /// Creates a mesh with the patch rule on any basis.
     pub fn new(basis: Basis) -> Self {
-        Self { basis, quadrature: Quadrature::Patch }
+        Self { basis, quadrature: Quadrature::Patch, is_automatic: false }
     }
 
     /// Returns the mesh with another quadrature of the axial and shear strain.
@@ -103,7 +113,7 @@ impl Mesh {
     pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
         let broken =
             places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
-        Ok(Self { basis: broken, quadrature: self.quadrature })
+        Ok(Self { basis: broken, quadrature: self.quadrature, is_automatic: false })
     }
 
     /// Returns a mesh with about `ratio` times as many spans: see [`Basis::with_span_ratio`].
@@ -111,7 +121,13 @@ impl Mesh {
     /// # Errors
     /// Fails if the mesh has too many or too short spans.
     pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, GeometryError> {
-        Ok(Self { basis: self.basis.with_span_ratio(ratio)?, quadrature: self.quadrature })
+        let basis = self.basis.with_span_ratio(ratio)?;
+        Ok(Self { basis, quadrature: self.quadrature, is_automatic: false })
+    }
+
+    /// Returns true if the number of spans is chosen from the scene.
+    pub fn is_automatic(&self) -> bool {
+        self.is_automatic
     }
 
     /// Basis of the mesh.

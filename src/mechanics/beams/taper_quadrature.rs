@@ -18,6 +18,9 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
+    /// Error above which a mesh is too coarse.
+    pub const TOLERANCE: f64 = 5e-3;
+
     /// Computes the quadrature errors for the sections of a beam. Positions along the beam are converted to the same fractions of the parameter.
     /// The conversion of positions to parameters is exact for spans of equal length.
     ///
@@ -57,6 +60,11 @@ impl TaperQuadrature {
         }
         let off = |number: usize| (seen[number] / whole[number] - 1.0).abs();
         Ok(Self { mass: off(0), stretching: off(1), bending: off(2) })
+    }
+
+    /// Returns true if one of the errors is too large.
+    pub fn is_coarse(&self) -> bool {
+        self.largest() >= Self::TOLERANCE
     }
 
     /// Largest of the three errors.

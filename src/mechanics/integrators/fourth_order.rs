@@ -33,6 +33,13 @@ impl FourthOrder {
     /// Lengths of the longest forward substep and of the backward substep, as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
+    /// Lengths of the substeps, as fractions of a step.
+    pub(super) fn parts() -> [f64; ENDS.len()] {
+        std::array::from_fn(|part| {
+            ENDS[part] - part.checked_sub(1).map_or(0.0, |before| ENDS[before])
+        })
+    }
+
     /// Creates the method, and allocates memory for a mechanism.
     pub fn new(mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.checkpoint().save_state();

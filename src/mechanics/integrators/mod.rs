@@ -10,6 +10,7 @@ mod generalized_alpha;
 mod integrator;
 mod interval;
 mod mechanism;
+mod phase_error;
 mod prescribed;
 mod registry;
 mod shared_factor_stepper;

@@ -9,6 +9,7 @@ mod explain;
 mod failure_context;
 mod failure_names;
 mod frames;
+mod phase_error;
 mod recording;
 mod release;
 mod revisit;
@@ -156,7 +157,7 @@ impl Simulation {
             let (sensor, method) = (sensor.name.clone(), settings.method.entry().name);
             return Err(SimulationError::NoMeanForces { sensor, method });
         }
-        Ok(Self {
+        let mut started = Self {
             record: RunRecord::new(&scene, &mut model)?,
             clock: StepClock::new(grid, step_size),
             scene,
@@ -167,7 +168,9 @@ impl Simulation {
             progress: RunProgress::default(),
             snapshots: Snapshots::default(),
             initial_geometry: InitialGeometry::default(),
-        })
+        };
+        started.warn_of_start_impacts();
+        Ok(started)
     }
 
     /// Sets the largest number of threads for large scenes. The default is the number of cores. The number does not affect results.

@@ -72,6 +72,30 @@ pub enum Warning {
         /// Mean period of the motion of the beam, weighted by accelerations [time].
         period: f64,
     },
+    /// Accumulated phase error of a vibration.
+    Phase {
+        /// Step size [time].
+        dt: f64,
+        /// Period of the vibration [time].
+        period: f64,
+        /// Fraction of the kinetic energy in the vibration [-].
+        share: f64,
+        /// Accumulated phase error [rad].
+        phase: f64,
+        /// Step size with a small phase error [time].
+        advised: f64,
+        /// Name of a method of higher order; `None` if it is in use.
+        method: Option<&'static str>,
+    },
+    /// Drive that starts with a speed at a beam at rest.
+    StartImpact {
+        /// Type and name of the drive.
+        drive: String,
+        /// Name of the beam.
+        beam: String,
+        /// Initial rate with its unit.
+        rate: String,
+    },
     /// Alternating long and short steps in a scene with rigid links or strong damping.
     Uneven {
         /// Length of the shortest recent step [time].
@@ -212,6 +236,7 @@ impl Warning {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {
                 *unresolved_fraction
             }
+            Self::Phase { share, phase, .. } => share * phase,
             Self::Uneven { shortest, longest } => longest / shortest,
             Self::ManySteps { steps, .. } => *steps as f64,
             Self::Rotation { angle, .. } => *angle,
@@ -222,7 +247,7 @@ impl Warning {
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
-            Self::Schedule { .. } | Self::Range { .. } => 1.0,
+            Self::Schedule { .. } | Self::Range { .. } | Self::StartImpact { .. } => 1.0,
             Self::Contact { bounce, .. } => bounce.force,
             Self::StartInside { energy, .. } => *energy,
         }
@@ -232,6 +257,7 @@ impl Warning {
     fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }
+            | Self::Phase { .. }
             | Self::Uneven { .. }
             | Self::ManySteps { .. }
             | Self::Rotation { .. }
@@ -243,7 +269,7 @@ impl Warning {
             | Self::WaveSpeed { slider, .. }
             | Self::Bounce { slider, .. } => Some(slider),
             Self::Beam { beam, .. } => Some(beam),
-            Self::Bend { drive, .. } => Some(drive),
+            Self::Bend { drive, .. } | Self::StartImpact { drive, .. } => Some(drive),
             Self::Schedule { owner, .. } => Some(owner),
             Self::Range { law, .. } => Some(law),
             Self::Contact { object, .. } => Some(object),
@@ -316,6 +342,26 @@ impl fmt::Display for Warning {
                 short(dt / period),
                 short(*period),
                 short(period / RESOLVED_STEPS_PER_PERIOD)
+            ),
+            Self::Phase { dt, period, share, phase, advised, method } => {
+                write!(
+                    f,
+                    "the steps (dt = {}) have shifted the phase of a vibration with a period of about {} by {} of a period so far. It carries {} % of the kinetic energy, and positions are off by about {} % of the amplitude of the motion; use dt below {}",
+                    short(*dt),
+                    short(*period),
+                    short(phase / TAU),
+                    short(100.0 * share),
+                    short(100.0 * share * phase.min(2.0)),
+                    short(*advised)
+                )?;
+                match method {
+                    Some(method) => write!(f, ", or the method {method}"),
+                    None => Ok(()),
+                }
+            }
+            Self::StartImpact { drive, beam, rate } => write!(
+                f,
+                "{drive} starts with {rate}, but beam '{beam}' is at rest: the start is an impact that excites vibration, and its force depends on dt. Give the beam the same start velocity, or start the drive from rest, for example with smooth_step of std/schedules"
             ),
             Self::Rotation { dt, angle } => write!(
                 f,

@@ -25,8 +25,8 @@ pub use errors::{
     refusal as refusal_of_name, with_article,
 };
 pub use mechanism::{
-    Arriving, BodyEnergy, Energy, Instant, Measures, RESOLVED_IMPACT, Reactions, StaticForces,
-    StaticOrder, System, SystemState, add_resistance,
+    Arriving, BodyEnergy, Energy, Instant, Measures, RESOLVED_IMPACT, Reactions, StartImpact,
+    StaticForces, StaticOrder, System, SystemState, add_resistance,
 };
 pub use queries::{
     BeamPlaces, BeamSample, CrossSection, Distance, Placement, SectionSample, SensorReader,

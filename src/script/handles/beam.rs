@@ -39,8 +39,9 @@ impl Scripted for BeamHandle {
     fn show(&self) -> String {
         let scene = self.scene.scene().borrow();
         let beam = &scene.beams[self.index];
+        let chosen = if beam.mesh.is_automatic() { " (chosen from the scene)" } else { "" };
         format!(
-            "beam '{}' of length {}, {}",
+            "beam '{}' of length {}, {}{chosen}",
             beam.name,
             significant(beam.axis.length(), 7),
             beam.mesh.describe()

@@ -12,7 +12,7 @@ pub const TABLE: BindingTable = BindingTable {
     name: "notes",
     doc: "Notes on steps that are too large. Steps may keep energy and momenta to rounding and \
         still not resolve the motion. A simulation checks for vibration faster than the steps, \
-        large rotations of sections within a step, sliders that pass many spans in a step, steps \
+        accumulated phase errors of vibration, drives that start with a speed at a beam at rest, large rotations of sections within a step, sliders that pass many spans in a step, steps \
         without a solution for the friction of a slider, and bounces on stiff beams. Each problem is printed once, at the end of sim.run_to(…); \
         without problems nothing is printed. scene.start(#{ …, notes: \"keep\" }) suppresses \
         the output. sim.notes, sim.explain() and the report contain the notes in any case.",

@@ -48,7 +48,8 @@ pub const TABLE: BindingTable = BindingTable {
             .returns(Returns::object(BEAM))
             .summary("Adds a beam that is free of stress in its undeformed shape.")
             .doc(
-                "axis is a curve. basis is a mesh or a knot vector; default: 16 cubic C2 spans. \
+                "axis is a curve. basis is a mesh or a knot vector; default: 16 cubic C2 spans, 32 if a slider slides on \
+                the beam, up to 64 if a curved axis, a varying section or close forces require it. \
                 velocity and spin define the initial rigid body motion; spin is about the \
                 point `about`, default: the centre of mass. Default names: beam1, beam2, …",
             )
@@ -177,13 +178,8 @@ pub const BEAM: Type = Type::of::<BeamHandle>();
 pub const STATION: Type = Type::of::<StationHandle>();
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-const SPANS: usize = 16;
-
 /// Relative difference between the length of a beam on its mesh and the length of its axis, above which a warning is given.
 const MISSED_LENGTH: f64 = 0.01;
-
-/// Relative error of integrals of a tapered section on the mesh of the beam, above which a warning is given.
-const TAPER_TOLERANCE: f64 = 5e-3;
 
 const AT: Parameter = object("station", STATION);
 const OTHER: Parameter =
@@ -202,7 +198,9 @@ pub(super) const START_ABOUT: Parameter = point("about")
     .optional();
 const BEAM_KEYS: &[Parameter] = &[
     object("axis", CURVE).doc("undeformed centroid line"),
-    either("basis", MESH_KINDS).doc("mesh or knot vector; default: 16 cubic C2 spans").optional(),
+    either("basis", MESH_KINDS)
+        .doc("mesh or knot vector; default: chosen from the scene")
+        .optional(),
     object("section", SECTION).doc("stiffness and inertia"),
     text("name").optional(),
     START_VELOCITY,
@@ -229,7 +227,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let named = options.optional_text("name")?;
     let mesh = match mesh_of(&options, "basis") {
         Some(mesh) => mesh,
-        None => Mesh::bspline(SPANS, 3, 2)?,
+        None => Mesh::automatic(1)?,
     };
     let motion = start_motion(&options)?;
     let SectionHandle { variation, relaxation, .. } = options.get("section")?;
@@ -242,6 +240,7 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let added = scene.change().add_beam(definition);
     let index = added.map_err(|error| ScriptError::from(error).at(CallPart::Key("name".into())))?;
+    scene.change().choose_mesh(index);
     if let Some(relaxation) = relaxation {
         scene.change().add_damping(index, relaxation)?;
     }
@@ -256,7 +255,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
     let seen = TaperQuadrature::of(section, mesh)?;
-    if seen.largest() < TAPER_TOLERANCE {
+    if !seen.is_coarse() {
         return Ok(());
     }
     let parts = [
@@ -264,7 +263,7 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
         ("axial stiffness", seen.stretching),
         ("bending stiffness", seen.bending),
     ];
-    let off = parts.into_iter().filter(|(_, part)| *part >= TAPER_TOLERANCE);
+    let off = parts.into_iter().filter(|(_, part)| *part >= TaperQuadrature::TOLERANCE);
     let deviations: Vec<String> =
         off.map(|(what, part)| format!("{what} by {} %", significant(100.0 * part, 2))).collect();
     call.context().print_message(&format!(

@@ -6,11 +6,13 @@ use super::Simulation;
 use crate::elementary::power;
 use crate::geometry::larger;
 use crate::integrators::{EnergyClaim, INTEGRATORS, Mechanism, Method};
+use crate::joints::Component;
 use crate::simulation::adaptive::Adaptive;
 use crate::simulation::warning::{LARGEST_ROTATION, MOST_SPANS, RateChangeCause, short};
 use crate::simulation::{Invariant, Sample, StepSize, Warning};
 use crate::system::{
-    LawArgument, Penetration, RESOLVED_IMPACT, Resolution, SpringLaw, System, SystemFeature,
+    Drive, LawArgument, Penetration, RESOLVED_IMPACT, Resolution, SpringLaw, StartImpact, System,
+    SystemFeature,
 };
 use crate::vibration::{Modes, VibrationError};
 
@@ -41,6 +43,9 @@ const MOST_UNKNOWNS: usize = 1200;
 
 /// Numbers of modes that are computed one after the other, until a mode is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
+
+/// Largest strain of the elastic wave of an impact that counts as zero [-]. The rates of prescribed motions have errors of finite differences.
+const NEGLIGIBLE_STRAIN: f64 = 1e-8;
 
 const RECENT_STEPS: usize = 200;
 
@@ -83,6 +88,9 @@ impl Simulation {
         }
         if notes.is_empty() {
             notes.extend(self.unresolved_beams(dt));
+        }
+        if notes.is_empty() {
+            notes.extend(self.phase_error());
         }
         notes.extend(self.uneven_steps());
         notes.extend(self.many_steps());
@@ -162,6 +170,26 @@ impl Simulation {
             let obstacle = self.scene.contact_object(&obstacle).unwrap_or(obstacle);
             let body = self.scene.name_of_body_at(body);
             let warning = Warning::StartInside { obstacle, body, depth, energy };
+            if warning.is_new_or_worse(&self.initial_geometry.warnings) {
+                self.initial_geometry.warnings.push(warning);
+            }
+        }
+    }
+
+    /// Adds a warning for each drive that starts with a speed at a beam at rest.
+    pub(super) fn warn_of_start_impacts(&mut self) {
+        let impacts = self.model.start_impacts(NEGLIGIBLE_STRAIN * self.scene.fastest_wave());
+        for StartImpact { drive, beam, component, rate } in impacts {
+            let Drive { kind, name, .. } = &self.scene.drives[drive];
+            let quantity = match component {
+                Component::Rotation => "the angular velocity",
+                Component::X | Component::Y => "the velocity",
+            };
+            let warning = Warning::StartImpact {
+                drive: format!("{} '{name}'", kind.name()),
+                beam: self.scene.beams[beam].name.clone(),
+                rate: format!("{quantity} {}", short(rate)),
+            };
             if warning.is_new_or_worse(&self.initial_geometry.warnings) {
                 self.initial_geometry.warnings.push(warning);
             }
@@ -248,7 +276,7 @@ impl Simulation {
     }
 
     /// Longest step taken so far [time]. The requested step size may be longer.
-    fn longest_step(&self) -> f64 {
+    pub(super) fn longest_step(&self) -> f64 {
         let rows = self.history().samples();
         let longest = rows.iter().map(|row| row.dt).fold(0.0, larger);
         if longest > 0.0 { longest.min(self.dt()) } else { self.dt() }

@@ -152,6 +152,12 @@ impl PrescribedMovements {
         self.movements.len()
     }
 
+    /// Prescribed movements with the indices of their drives and of their rates in the vector of all rates.
+    pub fn numbered(&self) -> impl Iterator<Item = (&Support, usize, usize)> {
+        let movements = self.movements.iter().zip(self.first..);
+        movements.map(|(movement, rate)| (&movement.support, movement.drive, rate))
+    }
+
     pub fn supports(&self) -> impl Iterator<Item = &Support> {
         self.movements.iter().map(|movement| &movement.support)
     }

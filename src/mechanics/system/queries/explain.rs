@@ -132,9 +132,10 @@ impl System {
         let beam = |(index, beam): (usize, &BeamDefinition)| {
             let PointCounts { force, moment, inertia } = counts[index];
             let mesh = self.meshes()[index].describe();
+            let chosen = if beam.mesh.is_automatic() { " (chosen from the scene)" } else { "" };
             let points = self.bodies()[index].dynamics.control_points().len();
             let how = format!(
-                "{mesh}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
+                "{mesh}{chosen}, {points} control points; points for Γ {force}, κ {moment}, mass {inertia}"
             );
             let taper = match beam.section {
                 SectionVariation::Uniform(_) => "",

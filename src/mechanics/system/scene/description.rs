@@ -76,7 +76,7 @@ impl Scene {
         beams + self.masses().map(|mass| mass.mass).sum::<f64>()
     }
 
-    pub(in crate::system) fn fastest_wave(&self) -> f64 {
+    pub(crate) fn fastest_wave(&self) -> f64 {
         let sections = self.beams.iter().flat_map(|beam| beam.section.sections());
         let squares = sections.map(|section| section.axial_stiffness / section.mass_per_length);
         squares.fold(0.0, f64::max).sqrt()
@@ -183,7 +183,11 @@ impl Scene {
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
+        let masters = self.masters(&slider);
         self.sliders.push(slider);
+        for master in masters {
+            self.choose_mesh(master);
+        }
         Ok(self.sliders.len() - 1)
     }
 
@@ -290,6 +294,7 @@ impl Scene {
             return Err(SystemError::DuplicateName { kind, new, name: name.clone() });
         }
         self.elements.push(element);
+        self.choose_meshes_under(self.elements.len() - 1);
         Ok(())
     }
 

@@ -10,6 +10,7 @@ impl Scene {
     pub fn add_load(&mut self, kind: LoadKind, schedule: Schedule) {
         let name = self.name_of_load(&kind);
         self.elements.push(Element::Load(Load { name, kind, schedule, title: None }));
+        self.choose_meshes_under(self.elements.len() - 1);
     }
 
     /// Adds a named load. The history contains a column for the work of the load.

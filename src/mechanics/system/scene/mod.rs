@@ -7,6 +7,7 @@ mod drives;
 mod extent;
 mod likeness;
 mod loads;
+mod mesh_choice;
 mod releases;
 mod resisting;
 mod rigid_bodies;

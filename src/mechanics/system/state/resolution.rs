@@ -35,6 +35,8 @@ pub struct Resolution {
     bent: f64,
     /// Length of the last step [time].
     last: f64,
+    /// Squared prediction error of the last step by its start rates, weighted by mass [energy].
+    last_by_start: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
     duration: f64,
@@ -49,6 +51,7 @@ impl Resolution {
             unresolved: 0.0,
             bent: 0.0,
             last: 0.0,
+            last_by_start: 0.0,
             rotation: 0.0,
             duration: 0.0,
             noise,
@@ -78,9 +81,11 @@ impl Resolution {
         let kinetic = missed.motion + missed.by_start;
         if is_as_long && kinetic > self.noise {
             self.kinetic += kinetic;
-            self.unresolved += missed.by_start - 0.25 * missed.by_mean;
+            let by_start = 0.5 * (missed.by_start + self.last_by_start);
+            self.unresolved += by_start - 0.25 * missed.by_mean;
             self.bent += missed.by_mean * square(0.25 * duration);
         }
+        self.last_by_start = missed.by_start;
     }
 
     /// Unresolved fraction of the kinetic energy, averaged over all steps [-].
@@ -109,10 +114,8 @@ impl Resolution {
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        let turned = [self.rotation, self.duration];
-        state.extend(
-            [self.kinetic, self.unresolved, self.bent, self.last].into_iter().chain(turned),
-        );
+        let sums = [self.kinetic, self.unresolved, self.bent, self.last, self.last_by_start];
+        state.extend(sums.into_iter().chain([self.rotation, self.duration]));
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -121,6 +124,7 @@ impl Resolution {
             &mut self.unresolved,
             &mut self.bent,
             &mut self.last,
+            &mut self.last_by_start,
             &mut self.rotation,
             &mut self.duration,
         ] {
@@ -165,6 +169,15 @@ mod tests {
             assert!((frequency * 0.5 / turn - 1.0).abs() < 0.01, "{turn}: {frequency}");
             let share = resolution.unresolved_share();
             assert!((share - sine.powi(4)).abs() < 0.01 * sine.powi(4) + 1e-9, "{turn}: {share}");
+        }
+    }
+
+    #[test]
+    fn a_few_periods_in_fine_steps_suffice() {
+        for (turn, steps) in [(0.05, 130), (0.05, 300), (0.3, 30), (0.3, 45)] {
+            let resolution = vibrating(&[(1.0, 2.0, turn)], steps);
+            let frequency = resolution.angular_frequency() * 0.5;
+            assert!((frequency / turn - 1.0).abs() < 0.1, "{turn}, {steps}: {frequency}");
         }
     }
 
