@@ -15,8 +15,8 @@ const SEARCHES: usize = 5;
 
 /// Processor time of this process [s].
 fn processor_time() -> f64 {
-    let told = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
-    told.split(' ').next().and_then(|n| n.parse::<f64>().ok()).unwrap_or(0.0) * 1e-9
+    let message = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+    message.split(' ').next().and_then(|n| n.parse::<f64>().ok()).unwrap_or(0.0) * 1e-9
 }
 
 fn main() {

@@ -9,7 +9,7 @@ use withy::geometry::{Curve, Vec2};
 use withy::integrators::Method;
 use withy::newton::Tolerance;
 use withy::output::viewer::Viewer;
-use withy::script::presentation::viewer_data::{FieldReader, ViewerOptions, film};
+use withy::script::presentation::viewer_data::{FieldReader, ViewerOptions, viewer_data};
 use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy::system::{BeamDefinition, Scene, StartMotion};
 
@@ -61,7 +61,7 @@ fn main() {
         if let Some(inside) = &mut inside {
             (0..shown.len()).for_each(|frame| inside.store_frame(frame, &simulation));
         }
-        let wishes = ViewerOptions {
+        let options = ViewerOptions {
             span: (0.0, f64::INFINITY),
             frames: shown,
             label: "rods".into(),
@@ -70,9 +70,9 @@ fn main() {
             fields: &fields,
             inside: inside.map(FieldReader::fields).unwrap_or_default(),
         };
-        let films = vec![film(&simulation, wishes).expect("a film")];
+        let motions = vec![viewer_data(&simulation, options).expect("a film")];
         let filmed = begun.elapsed();
-        let page = Viewer { title: "rods".into(), films }.to_html().expect("a page");
+        let page = Viewer { title: "rods".into(), motions }.to_html().expect("a page");
         let made = begun.elapsed() - filmed;
         println!(
             "| {beams} | {frames} | {} kB | {:.3} s | {:.3} s |",

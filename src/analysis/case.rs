@@ -66,17 +66,17 @@ impl Case {
     /// If the study is stopped during the run, the outcome is not valid.
     pub fn run(
         &self,
-        patience: RunLimits,
+        limits: RunLimits,
         stop: &AtomicBool,
         look: impl FnMut(&Simulation),
     ) -> (CaseOutcome, Option<Simulation>) {
-        let mut simulation = match self.start(patience) {
+        let mut simulation = match self.start(limits) {
             Ok(simulation) => simulation,
             Err(outcome) => return (outcome, None),
         };
         simulation.record(self.recording());
         let mut is_wanted = || !stop.load(Ordering::Relaxed);
-        let outcome = self.run_to_stops(&mut simulation, patience, &mut is_wanted, look);
+        let outcome = self.run_to_stops(&mut simulation, limits, &mut is_wanted, look);
         (outcome, Some(simulation))
     }
 
@@ -103,8 +103,8 @@ impl Case {
 
     /// Simulation of the case in its initial state, or the reason for failure.
     /// The simulation uses one thread, because other cases run at the same time or the run is timed.
-    pub fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
-        let wait = patience.begin();
+    pub fn start(&self, limits: RunLimits) -> Result<Simulation, CaseOutcome> {
+        let wait = limits.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
         let mut simulation = started.map_err(|error| match wait.exceeded(0) {
             Some(limit) => CaseOutcome::LimitExceeded { time: 0.0, limit },
@@ -119,12 +119,12 @@ impl Case {
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
-        patience: RunLimits,
+        limits: RunLimits,
         is_wanted: &mut dyn FnMut() -> bool,
         mut look: impl FnMut(&Simulation),
     ) -> CaseOutcome {
         let mut watch = CaseMonitor {
-            timer: patience.begin(),
+            timer: limits.begin(),
             steps: 0,
             should_continue: is_wanted,
             exceeded: None,
@@ -211,8 +211,8 @@ mod tests {
             spinning(-1.0, &[1.0]).run(RunLimits::default(), &never(), |_| ());
         assert!(outcome.describe().contains("failed at t = 0: the step size"), "{outcome:?}");
         assert!(simulation.is_none());
-        let patience = RunLimits { steps: 3, ..RunLimits::default() };
-        let (outcome, simulation) = spinning(0.1, &[1.0]).run(patience, &never(), |_| ());
+        let limits = RunLimits { steps: 3, ..RunLimits::default() };
+        let (outcome, simulation) = spinning(0.1, &[1.0]).run(limits, &never(), |_| ());
         assert!(outcome.describe().contains("more than 3 steps"), "{outcome:?}");
         assert_eq!(simulation.unwrap().counts().steps, 4);
     }
@@ -230,8 +230,8 @@ mod tests {
         });
         let schedule = Schedule::Function { function, breaks: Vec::new() };
         case.scene.add_load(LoadKind::Moment { station, moment: 1.0 }, schedule);
-        let patience = RunLimits { wall: Duration::from_secs(1), ..RunLimits::default() };
-        let (outcome, _) = case.run(patience, &never(), |_| ());
+        let limits = RunLimits { wall: Duration::from_secs(1), ..RunLimits::default() };
+        let (outcome, _) = case.run(limits, &never(), |_| ());
         let message = outcome.describe();
         assert!(message.starts_with("stopped at t = 0.5 by a limit"), "{message}");
         assert!(message.ends_with(": more than 1 s"), "{message}");

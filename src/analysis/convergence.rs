@@ -34,7 +34,7 @@ impl Refinement {
     }
 
     /// Returns true if the error at a size can be used to compute an order, that is, if it is nonzero and significant.
-    pub fn tells_an_order(&self, rung: usize) -> bool {
+    pub fn counts_for_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
             of.distance.is_finite() && of.distance > SIGNIFICANCE * of.estimated_error
@@ -43,7 +43,7 @@ impl Refinement {
 
     fn point(&self, rung: usize) -> Option<(f64, f64)> {
         let deviation = (*self.deviations.get(rung)?)?;
-        self.tells_an_order(rung).then(|| (self.sizes[rung], deviation.distance))
+        self.counts_for_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
     /// Order observed between a size and the previous size, `ln(e₁/e₂) / ln(h₁/h₂)`.
@@ -94,7 +94,7 @@ impl Convergence {
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],
-        (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
+        (observables, reference_solution, length): (&[Observable], &ReferenceSolution, f64),
     ) -> Vec<Refinement> {
         let ladder = |quantity: String, read: &dyn Fn(&RunResult) -> Option<Deviation>| {
             let read =
@@ -103,14 +103,14 @@ impl Convergence {
             Refinement { method, quantity, sizes, deviations: rungs.iter().map(read).collect() }
         };
         let together = ladder(ALL_POSITIONS.to_owned(), &|trial| {
-            let all = truth.of_positions(observables, &trial.readings);
+            let all = reference_solution.of_positions(observables, &trial.readings);
             all.map(|all| all.divided_by(length))
         });
-        let known = (0..observables.len()).filter(|index| truth.knows(*index));
+        let known = (0..observables.len()).filter(|index| reference_solution.knows(*index));
         let each = known.map(|index| {
             let scale = if observables[index].is_position() { length } else { 1.0 };
             ladder(observables[index].describe(), &|trial| {
-                truth.deviation(index, &trial.readings).map(|of| of.divided_by(scale))
+                reference_solution.deviation(index, &trial.readings).map(|of| of.divided_by(scale))
             })
         });
         std::iter::once(together).chain(each).collect()
@@ -169,7 +169,7 @@ mod tests {
         assert!((blurred.fitted_order().unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(blurred.error(2), Some(0.11));
         let close = ladder(&[Some((0.3, 0.1)), Some((0.15, 0.1))]);
-        assert_eq!((close.tells_an_order(0), close.tells_an_order(1)), (true, false));
+        assert_eq!((close.counts_for_order(0), close.counts_for_order(1)), (true, false));
         assert_eq!(ladder(&[Some((1.0, 0.0))]).fitted_order(), None);
         assert_eq!(ladder(&[Some((0.0, 0.0)), Some((1.0, 0.0))]).order(1), None);
     }
@@ -189,12 +189,15 @@ mod tests {
             RunResult::of(&case, &observables, RunLimits::default(), &never())
         };
         let fine = trial(Method::FourthOrder, 0.000625);
-        let truth = ReferenceSolution::of_run("own", &fine.readings);
+        let reference_solution = ReferenceSolution::of_run("own", &fine.readings);
         for entry in INTEGRATORS.iter().filter(|entry| entry.claims.order > 1) {
             let rungs: Vec<_> =
                 [0.01, 0.005, 0.0025].map(|dt| (dt, trial(entry.method, dt))).into_iter().collect();
-            let ladders =
-                Convergence::ladders_of(entry.method, &rungs, (&observables, &truth, 2.0));
+            let ladders = Convergence::ladders_of(
+                entry.method,
+                &rungs,
+                (&observables, &reference_solution, 2.0),
+            );
             let names: Vec<_> = ladders.iter().map(|ladder| ladder.quantity.as_str()).collect();
             assert_eq!(
                 names,

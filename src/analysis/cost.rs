@@ -33,8 +33,8 @@ pub struct StepCost {
 }
 
 impl CostCase {
-    fn start(&self, patience: RunLimits) -> Result<Simulation, CaseOutcome> {
-        let mut simulation = self.case.start(patience)?;
+    fn start(&self, limits: RunLimits) -> Result<Simulation, CaseOutcome> {
+        let mut simulation = self.case.start(limits)?;
         simulation.record(self.recording);
         simulation.enable_snapshots(self.snapshots);
         Ok(simulation)
@@ -63,7 +63,7 @@ impl StepCost {
 /// Returns `None` if `is_wanted` returns false.
 pub fn step_costs(
     cases: &[CostCase],
-    patience: RunLimits,
+    limits: RunLimits,
     repeats: usize,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<StepCost>> {
@@ -71,7 +71,7 @@ pub fn step_costs(
     let mut costs: Vec<Option<StepCost>> = vec![None; cases.len()];
     for round in 0..=repeats.max(1) {
         for (number, case) in cases.iter().enumerate() {
-            let (cost, time) = measure(case, patience, is_wanted);
+            let (cost, time) = measure(case, limits, is_wanted);
             if !is_wanted() {
                 return None;
             }
@@ -90,15 +90,15 @@ pub fn step_costs(
 
 fn measure(
     case: &CostCase,
-    patience: RunLimits,
+    limits: RunLimits,
     is_wanted: &mut dyn FnMut() -> bool,
 ) -> (StepCost, Duration) {
-    let mut simulation = match case.start(patience) {
+    let mut simulation = match case.start(limits) {
         Ok(simulation) => simulation,
         Err(outcome) => return (StepCost::unmeasured(case, outcome), Duration::ZERO),
     };
     let begun = Instant::now();
-    let outcome = case.case.run_to_stops(&mut simulation, patience, is_wanted, |_| ());
+    let outcome = case.case.run_to_stops(&mut simulation, limits, is_wanted, |_| ());
     let elapsed = begun.elapsed();
     let counts = simulation.counts();
     let steps = counts.steps.max(1);

@@ -203,8 +203,8 @@ mod tests {
     #[test]
     fn a_message_shows_the_beginning_of_a_long_cell() {
         let table = ParsedCsv::parse(&format!("t\n{}\n", "1é".repeat(1000))).unwrap();
-        let told = table.number(0, "t").unwrap_err().to_string();
-        assert!(told.contains("holds '1é1é") && told.chars().count() < 150, "{told}");
+        let messages = table.number(0, "t").unwrap_err().to_string();
+        assert!(messages.contains("holds '1é1é") && messages.chars().count() < 150, "{messages}");
     }
 
     #[test]

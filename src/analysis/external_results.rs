@@ -52,7 +52,7 @@ impl ExternalResult {
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],
-        truth: &ReferenceSolution,
+        reference_solution: &ReferenceSolution,
         (times, length): (&[f64], f64),
     ) -> Result<Vec<Self>, ExternalResultError> {
         (0..sheet.len())
@@ -64,12 +64,12 @@ impl ExternalResult {
                     return Err(ExternalResultError::Times { row: row + 1, measured, requested });
                 }
                 let compared = |(index, of): (usize, &Observable)| {
-                    let is_compared = of.is_position() && truth.knows(index);
+                    let is_compared = of.is_position() && reference_solution.knows(index);
                     if is_compared { position(sheet, row, of) } else { Ok(Vec2::zeros()) }
                 };
                 let found: Vec<Vec2> =
                     observables.iter().enumerate().map(compared).collect::<Result<_, _>>()?;
-                let deviation = truth.of_positions(observables, &vec![found]);
+                let deviation = reference_solution.of_positions(observables, &vec![found]);
                 let cell = |column: &str| sheet.text(row, column).map(str::to_owned);
                 let described = SETTING.iter().filter_map(|(column, word)| {
                     let text = sheet.text(row, column).ok().filter(|text| !text.is_empty())?;
@@ -95,11 +95,13 @@ fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, Pars
 }
 
 /// Machines on which the runs were measured, without duplicates.
-pub fn machines(rivals: &[ExternalResult]) -> Vec<&str> {
+pub fn machines(external_results: &[ExternalResult]) -> Vec<&str> {
     let mut machines = Vec::new();
-    for rival in rivals.iter().map(|rival| rival.machine.as_str()) {
-        if !machines.contains(&rival) {
-            machines.push(rival);
+    for external_result in
+        external_results.iter().map(|external_result| external_result.machine.as_str())
+    {
+        if !machines.contains(&external_result) {
+            machines.push(external_result);
         }
     }
     machines
@@ -117,21 +119,25 @@ mod tests {
     fn rivals_are_judged_by_the_same_reference() {
         let observables: Vec<_> = Observable::of_station("A", Station::on_beam(0, 0.0)).collect();
         let table = ParsedCsv::parse("t,xA,yA\n1,3,4\n2,0,0\n").unwrap();
-        let truth = ReferenceSolution::of_sheet("T", &table, &observables, &[1.0]).unwrap();
+        let reference_solution =
+            ReferenceSolution::of_sheet("T", &table, &observables, &[1.0]).unwrap();
         let sheet = ParsedCsv::parse(RIVALS).unwrap();
-        let rivals =
-            ExternalResult::of_sheet(&sheet, &observables, &truth, (&[1.0], 10.0)).unwrap();
-        assert_eq!(rivals[0].error, 0.05);
-        assert!(rivals[1].error < 1e-13, "{}", rivals[1].error);
-        assert_eq!(rivals[0].setting, "euler, dt = 0.1");
-        assert!(rivals[1].energy_drift.is_nan());
-        assert_eq!(machines(&rivals), ["a Cray"]);
+        let external_results =
+            ExternalResult::of_sheet(&sheet, &observables, &reference_solution, (&[1.0], 10.0))
+                .unwrap();
+        assert_eq!(external_results[0].error, 0.05);
+        assert!(external_results[1].error < 1e-13, "{}", external_results[1].error);
+        assert_eq!(external_results[0].setting, "euler, dt = 0.1");
+        assert!(external_results[1].energy_drift.is_nan());
+        assert_eq!(machines(&external_results), ["a Cray"]);
         let message =
-            ExternalResult::of_sheet(&sheet, &observables, &truth, (&[2.0], 10.0)).unwrap_err();
+            ExternalResult::of_sheet(&sheet, &observables, &reference_solution, (&[2.0], 10.0))
+                .unwrap_err();
         assert!(message.to_string().contains("row 1 has positions at t = 1"), "{message}");
         let lame = ParsedCsv::parse("series,peer,t,xA,yA\na,b,1,0,0\n").unwrap();
         let message =
-            ExternalResult::of_sheet(&lame, &observables, &truth, (&[1.0], 10.0)).unwrap_err();
+            ExternalResult::of_sheet(&lame, &observables, &reference_solution, (&[1.0], 10.0))
+                .unwrap_err();
         assert!(message.to_string().contains("no column 'run_time_s'"), "{message}");
     }
 }

@@ -31,8 +31,8 @@ fn build() -> Build {
     *BUILD.get_or_init(|| {
         let file = || {
             let file = File::open(std::env::current_exe().ok()?).ok()?;
-            let imprint = FileChecksum::of(file).ok()?;
-            Some((imprint.length, imprint.checksum))
+            let file_checksum = FileChecksum::of(file).ok()?;
+            Some((file_checksum.length, file_checksum.checksum))
         };
         (env!("CARGO_PKG_VERSION"), file())
     })

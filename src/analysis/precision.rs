@@ -30,12 +30,14 @@ impl PrecisionRow {
         (mesh, settings): (String, SimulationSettings),
         result: RunResult,
         timing: Option<Timing>,
-        (observables, truth, length): (&[Observable], &ReferenceSolution, f64),
+        (observables, reference_solution, length): (&[Observable], &ReferenceSolution, f64),
     ) -> Self {
         let is_finished = result.outcome.is_finished();
-        let of = |index| truth.deviation(index, &result.readings).filter(|_| is_finished);
+        let of =
+            |index| reference_solution.deviation(index, &result.readings).filter(|_| is_finished);
         let deviations = (0..observables.len()).map(of).collect();
-        let error = truth.of_positions(observables, &result.readings).filter(|_| is_finished);
+        let error =
+            reference_solution.of_positions(observables, &result.readings).filter(|_| is_finished);
         let error = error.map(|error| error.divided_by(length));
         Self { mesh, settings, result, timing, error, deviations, is_on_front: false }
     }
@@ -106,7 +108,9 @@ impl Precision {
     /// Names of the other programs, without duplicates.
     pub fn program_names(&self) -> Vec<&str> {
         let mut peers = Vec::new();
-        for peer in self.external_results.iter().map(|rival| rival.program.as_str()) {
+        for peer in
+            self.external_results.iter().map(|external_result| external_result.program.as_str())
+        {
             if !peers.contains(&peer) {
                 peers.push(peer);
             }
@@ -116,10 +120,9 @@ impl Precision {
 
     /// Fastest run of another program with an error of at most `error` [-].
     pub fn cheapest_of(&self, peer: &str, error: f64) -> Option<&ExternalResult> {
-        let able = self
-            .external_results
-            .iter()
-            .filter(|rival| rival.program == peer && rival.error <= error);
+        let able = self.external_results.iter().filter(|external_result| {
+            external_result.program == peer && external_result.error <= error
+        });
         able.min_by(|a, b| a.run_time.total_cmp(&b.run_time))
     }
 }
@@ -138,17 +141,22 @@ mod tests {
         let trial = |dt| {
             RunResult::of(&spinning(dt, &[0.5, 1.0]), &observables, RunLimits::default(), &never())
         };
-        let truth = ReferenceSolution::of_run("own", &trial(0.01).readings);
+        let reference_solution = ReferenceSolution::of_run("own", &trial(0.01).readings);
         let row = |(dt, millis): (f64, u64)| {
             let run = Duration::from_millis(millis);
             let timing = Timing { setup: run, run, shortest: run, processor: None, repeats: 1 };
             let trial = trial(dt);
             let timing = trial.outcome.is_finished().then_some(timing);
             let settings = spinning(dt, &[1.0]).settings;
-            PrecisionRow::new(("m".into(), settings), trial, timing, (&observables, &truth, 2.0))
+            PrecisionRow::new(
+                ("m".into(), settings),
+                trial,
+                timing,
+                (&observables, &reference_solution, 2.0),
+            )
         };
         let rows = [(-0.1, 1), (0.25, 2), (0.125, 4), (0.25, 3)].map(row).to_vec();
-        let rival = |peer: &str, run_time, error| ExternalResult {
+        let external_result = |peer: &str, run_time, error| ExternalResult {
             program: peer.into(),
             series: peer.into(),
             setting: String::new(),
@@ -157,16 +165,20 @@ mod tests {
             energy_drift: 0.0,
             machine: "m".into(),
         };
-        let rivals = vec![rival("P", 9.0, 1e-9), rival("P", 1.0, 0.5), rival("Q", 1.0, 0.9)];
+        let external_results = vec![
+            external_result("P", 9.0, 1e-9),
+            external_result("P", 1.0, 0.5),
+            external_result("Q", 1.0, 0.9),
+        ];
         let (name, times, length) = ("s".into(), vec![0.5, 1.0], 2.0);
         let mut study = Precision {
             name,
             times,
             length,
             observables,
-            reference: truth,
+            reference: reference_solution,
             rows,
-            external_results: rivals,
+            external_results,
         };
         study.mark_front();
         study

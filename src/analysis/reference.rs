@@ -196,16 +196,16 @@ impl ReferenceSolution {
             Ok(observables.iter().map(|of| known_of(sheet, row, of)).collect::<Result<_, _>>()?)
         };
         let known: Vec<_> = times.iter().map(at).collect::<Result<_, _>>()?;
-        let truth = Self { source: source.into(), is_own: false, known };
+        let reference_solution = Self { source: source.into(), is_own: false, known };
         let mut positions = observables.iter().enumerate().filter(|(_, of)| of.is_position());
         match positions.clone().next() {
-            Some((_, first)) if !positions.any(|(index, _)| truth.knows(index)) => {
+            Some((_, first)) if !positions.any(|(index, _)| reference_solution.knows(index)) => {
                 Err(ReferenceError::Stations {
                     station: first.name.clone(),
                     known: sheet.columns().join(", "),
                 })
             }
-            _ => Ok(truth),
+            _ => Ok(reference_solution),
         }
     }
 
@@ -278,15 +278,18 @@ mod tests {
     #[test]
     fn a_table_tells_values_and_how_well_it_knows_them() {
         let sheet = ParsedCsv::parse(TABLE).unwrap();
-        let truth = ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5]).unwrap();
+        let reference_solution =
+            ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5]).unwrap();
         let found = |x| vec![vec![Vec2::new(3.0, 4.0 + x), Vec2::zeros(), Vec2::new(2.0, 0.0)]];
-        let near = truth.of_positions(&observables(), &found(5e-4)).unwrap();
+        let near = reference_solution.of_positions(&observables(), &found(5e-4)).unwrap();
         assert!(!near.is_resolved() && (near.error() - 1.5e-3).abs() < 1e-12, "{near:?}");
-        let far = truth.deviation(0, &found(0.1)).unwrap().divided_by(2.0);
+        let far = reference_solution.deviation(0, &found(0.1)).unwrap().divided_by(2.0);
         assert!(far.is_resolved() && (far.error() - 0.05).abs() < 1e-12);
-        assert_eq!(truth.deviation(1, &found(0.0)).unwrap().error(), 0.2);
-        assert_eq!(truth.deviation(2, &found(0.0)).unwrap().estimated_error, 0.1);
-        assert!(!truth.knows(3) && truth.deviation(3, &found(0.0)).is_none());
+        assert_eq!(reference_solution.deviation(1, &found(0.0)).unwrap().error(), 0.2);
+        assert_eq!(reference_solution.deviation(2, &found(0.0)).unwrap().estimated_error, 0.1);
+        assert!(
+            !reference_solution.knows(3) && reference_solution.deviation(3, &found(0.0)).is_none()
+        );
     }
 
     #[test]

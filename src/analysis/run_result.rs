@@ -30,14 +30,14 @@ impl RunResult {
     pub fn of(
         case: &Case,
         observables: &[Observable],
-        patience: RunLimits,
+        limits: RunLimits,
         stop: &AtomicBool,
     ) -> Self {
         let mut readings = Readings::new();
         let look = |simulation: &Simulation| {
             readings.push(observables.iter().map(|of| of.read(simulation)).collect());
         };
-        let (outcome, simulation) = case.run(patience, stop, look);
+        let (outcome, simulation) = case.run(limits, stop, look);
         let Some(simulation) = simulation else { return Self::not_started(outcome) };
         let (counts, history) = (simulation.counts(), simulation.history());
         Self {

@@ -21,8 +21,8 @@ pub struct StabilityVerdict {
 }
 
 impl StabilityVerdict {
-    pub fn of(case: &Case, patience: RunLimits, stop: &AtomicBool) -> Self {
-        let (outcome, simulation) = case.run(patience, stop, |_| ());
+    pub fn of(case: &Case, limits: RunLimits, stop: &AtomicBool) -> Self {
+        let (outcome, simulation) = case.run(limits, stop, |_| ());
         match simulation {
             Some(simulation) => Self::on(&simulation, outcome),
             None => Self::not_started(outcome),

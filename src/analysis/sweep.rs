@@ -179,7 +179,7 @@ impl Sweep {
     }
 
     /// Number of rows that contribute to sensitivities: the completed rows, or in a Saltelli design the rows of complete blocks.
-    pub fn telling_rows(&self, result: &str) -> usize {
+    pub fn usable_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
         let block = match self.design.arrangement {
@@ -264,8 +264,8 @@ mod tests {
         assert_eq!(sweep.results.failure(1), None);
         assert!(sweep.results.failures().eq([(0, "lost"), (2, "lost")]));
         assert!(sweep.variance_fractions("sum").is_none());
-        assert_eq!(sweep.telling_rows("sum"), 5);
+        assert_eq!(sweep.usable_rows("sum"), 5);
         sweep.design.arrangement = RowLayout::Saltelli;
-        assert_eq!(sweep.telling_rows("sum"), 0);
+        assert_eq!(sweep.usable_rows("sum"), 0);
     }
 }

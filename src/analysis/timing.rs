@@ -38,7 +38,7 @@ impl Timing {
     /// Returns `None` if `is_wanted` returns false or a run fails.
     pub fn of(
         case: &Case,
-        patience: RunLimits,
+        limits: RunLimits,
         repeats: usize,
         is_wanted: &mut dyn FnMut() -> bool,
     ) -> Option<Self> {
@@ -46,11 +46,11 @@ impl Timing {
         let (mut setups, mut runs, mut works) = (Vec::new(), Vec::new(), Vec::new());
         while runs.is_empty() || (runs.len() < repeats && begun.elapsed() < LONGEST_REPETITION) {
             let start = Instant::now();
-            let mut simulation = case.start(patience).ok()?;
+            let mut simulation = case.start(limits).ok()?;
             setups.push(start.elapsed());
             let worked = processor_time();
             let start = Instant::now();
-            let outcome = case.run_to_stops(&mut simulation, patience, is_wanted, |_| ());
+            let outcome = case.run_to_stops(&mut simulation, limits, is_wanted, |_| ());
             runs.push(start.elapsed());
             works
                 .extend(processor_time().zip(worked).map(|(end, start)| end.saturating_sub(start)));

@@ -35,8 +35,8 @@ pub fn on_all_cores<R: Send>(
     let mut results: Vec<Option<Result<R, String>>> = cases.iter().map(|_| None).collect();
     let next = AtomicUsize::new(0);
     let is_stopped = || stop.load(Ordering::Relaxed);
-    let mut pulse = |news: Option<(usize, &Result<R, String>)>| {
-        if heed(news).is_break() {
+    let mut pulse = |completed: Option<(usize, &Result<R, String>)>| {
+        if heed(completed).is_break() {
             stop.store(true, Ordering::Relaxed);
         }
     };
@@ -108,8 +108,8 @@ mod tests {
             &cases,
             &stop,
             |case| steps(case, &stop),
-            |news| {
-                received.extend(news.map(|(number, _)| number));
+            |completed| {
+                received.extend(completed.map(|(number, _)| number));
                 ControlFlow::Continue(())
             },
         );
@@ -141,7 +141,7 @@ mod tests {
             &cases,
             &stop,
             |case| steps(case, &stop),
-            |news| match news {
+            |completed| match completed {
                 Some((0, _)) => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             },

@@ -36,10 +36,10 @@ pub struct GradeOptions<'a> {
 }
 
 /// Grades all submissions of a folder, and prints each mark as soon as it is known. Files that the attempts write are discarded.
-pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
-    let submissions = Submission::all_in(wishes.folder)?;
+pub fn grade(options: &GradeOptions) -> Result<Exit, ExerciseError> {
+    let submissions = Submission::all_in(options.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
-    let (known, mut file) = match wishes.marks {
+    let (known, mut file) = match options.marks {
         Some(path) => {
             let (known, file) = marks::open(path).map_err(|source| refused(path, source))?;
             (known, Some((path, file)))
@@ -49,10 +49,10 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
     let scratch = Scratch::new().map_err(ExerciseError::Scratch)?;
     let stop = interrupt::flag(InterruptLoss::Run);
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let workers = wishes.jobs.map_or(cores, usize::from);
-    let mut sheet = GradeSheet::begin(wishes.form, &submissions);
-    let (mut trouble, mut kept) = (None, 0);
-    let room = JudgeLimits { scratch: &scratch, limits: wishes.limits, stop: &stop };
+    let workers = options.jobs.map_or(cores, usize::from);
+    let mut sheet = GradeSheet::begin(options.form, &submissions);
+    let (mut first_error, mut kept) = (None, 0);
+    let room = JudgeLimits { scratch: &scratch, limits: options.limits, stop: &stop };
     let judge = |submission: &Submission, exercise: &'static Exercise| {
         GradedMark::find(submission, exercise, &known, &room)
     };
@@ -63,9 +63,9 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
             let mark = (judged.mark, judged.message.as_str());
             let noted = file.append(submission, exercise, mark, judged.fingerprint.as_deref());
             if let Err(source) = noted
-                && trouble.is_none()
+                && first_error.is_none()
             {
-                trouble = Some(refused(path, source));
+                first_error = Some(refused(path, source));
                 Arc::clone(&stop).store(true, Ordering::Relaxed);
             }
         }
@@ -87,8 +87,8 @@ pub fn grade(wishes: &GradeOptions) -> Result<Exit, ExerciseError> {
             "note: {kept} marks were taken from '{path}', because nothing they depend on has changed\n"
         ));
     }
-    match trouble {
-        Some(trouble) => Err(trouble),
+    match first_error {
+        Some(first_error) => Err(first_error),
         None if is_whole => Ok(Exit::Success),
         None => Ok(Exit::Interrupted),
     }

@@ -28,7 +28,7 @@ pub enum InterruptLoss {
 }
 
 pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
-    let patience = match at_stake {
+    let grace_period = match at_stake {
         InterruptLoss::Run => Duration::ZERO,
         InterruptLoss::Session => Duration::from_secs(1),
     };
@@ -48,7 +48,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
                     end();
                 });
             }
-        } else if asked.elapsed() >= patience {
+        } else if asked.elapsed() >= grace_period {
             end();
         }
     });

@@ -30,7 +30,7 @@ pub struct Tick {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
+pub struct PlotAxis {
     scale: AxisScale,
     /// Low end of the axis. For a logarithmic axis, it is the exponent of the low end.
     low: f64,
@@ -44,13 +44,13 @@ enum AxisCut {
     Below,
 }
 
-impl Default for Axis {
+impl Default for PlotAxis {
     fn default() -> Self {
         Self::between(0.0, 1.0)
     }
 }
 
-impl Axis {
+impl PlotAxis {
     /// Creates a linear axis from the smallest to the largest finite value. Each end is extended by `margin` times the length.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
@@ -246,23 +246,23 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn ends(axis: Axis) -> (f64, f64) {
+    fn ends(axis: PlotAxis) -> (f64, f64) {
         (axis.low, axis.high)
     }
 
-    fn labels(axis: Axis) -> Vec<String> {
+    fn labels(axis: PlotAxis) -> Vec<String> {
         axis.ticks(6).0.into_iter().map(|tick| tick.label).collect()
     }
 
     #[test]
     fn labels_are_round_numbers() {
-        assert_eq!(labels(Axis::between(0.0, 0.5)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5"]);
-        assert_eq!(labels(Axis::between(-10.0, 15.0)), ["−10", "−5", "0", "5", "10", "15"]);
+        assert_eq!(labels(PlotAxis::between(0.0, 0.5)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(labels(PlotAxis::between(-10.0, 15.0)), ["−10", "−5", "0", "5", "10", "15"]);
         assert_eq!(
-            labels(Axis::between(0.0, 3e-7)),
+            labels(PlotAxis::between(0.0, 3e-7)),
             ["0.0", "0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]
         );
-        assert_eq!(Axis::between(0.0, 3e-7).ticks(6).1.after("drift"), "drift (×10⁻⁷)");
+        assert_eq!(PlotAxis::between(0.0, 3e-7).ticks(6).1.after("drift"), "drift (×10⁻⁷)");
     }
 
     #[test]
@@ -273,36 +273,36 @@ mod tests {
 
     #[test]
     fn zero_is_at_the_bottom_of_a_logarithmic_axis() {
-        let axis = Axis::logarithmic([0.0, 3e-14, 2e-12], DEFAULT_FLOOR);
+        let axis = PlotAxis::logarithmic([0.0, 3e-14, 2e-12], DEFAULT_FLOOR);
         assert_eq!(ends(axis), (-15.0, -11.0));
         assert_eq!(labels(axis), ["≤ 10⁻¹⁵", "10⁻¹⁴", "10⁻¹³", "10⁻¹²", "10⁻¹¹"]);
         assert_eq!(axis.place(0.0), 0.0);
         assert_eq!(axis.place(1e-11), 1.0);
-        assert_eq!(ends(Axis::logarithmic([0.0, -1.0], DEFAULT_FLOOR)), (-18.0, -17.0));
+        assert_eq!(ends(PlotAxis::logarithmic([0.0, -1.0], DEFAULT_FLOOR)), (-18.0, -17.0));
     }
 
     #[test]
     fn a_logarithmic_axis_within_a_power_has_round_numbers() {
         assert_eq!(
-            labels(Axis::powers_between(2.0, 5.0)),
+            labels(PlotAxis::powers_between(2.0, 5.0)),
             ["2.0", "2.5", "3.0", "3.5", "4.0", "4.5", "5.0"]
         );
-        assert_eq!(labels(Axis::powers_between(1e-2, 1e1)), ["10⁻²", "10⁻¹", "10⁰", "10¹"]);
-        let (ticks, _) = Axis::powers_between(2.0, 8.0).ticks(4);
+        assert_eq!(labels(PlotAxis::powers_between(1e-2, 1e1)), ["10⁻²", "10⁻¹", "10⁰", "10¹"]);
+        let (ticks, _) = PlotAxis::powers_between(2.0, 8.0).ticks(4);
         let four = ticks.iter().find(|tick| tick.label == "4").unwrap();
         assert!((four.place - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn rounding_is_shown_as_a_constant() {
-        let (low, high) = ends(Axis::linear([374.28285, 374.28285 + 1e-12], 0.05));
+        let (low, high) = ends(PlotAxis::linear([374.28285, 374.28285 + 1e-12], 0.05));
         assert!(low < 340.0 && high > 410.0, "{low} {high}");
     }
 
     proptest! {
         #[test]
         fn any_numbers_make_an_axis(values in prop::collection::vec(proptest::num::f64::ANY, 0..6), floor in proptest::num::f64::ANY) {
-            for axis in [Axis::linear(values.clone(), 0.05), Axis::logarithmic(values.clone(), floor)] {
+            for axis in [PlotAxis::linear(values.clone(), 0.05), PlotAxis::logarithmic(values.clone(), floor)] {
                 let (low, high) = ends(axis);
                 prop_assert!(low < high && (high - low).is_finite());
                 let (ticks, _) = axis.ticks(6);

@@ -1,7 +1,7 @@
 //! Line charts: series of points over a horizontal axis, linear or logarithmic.
 
 use super::{
-    axis::{Axis, AxisScale, DEFAULT_FLOOR},
+    axis::{AxisScale, DEFAULT_FLOOR, PlotAxis},
     canvas::{Align, Area, Canvas, Point},
     colour::{Colour, GREY, HUE_COUNT, INK, hue, tint},
     frame::{Frame, Margins},
@@ -215,15 +215,15 @@ impl LineChart {
     pub(super) fn frame(&self) -> Frame {
         let marked = self.series.iter().any(|series| series.stroke.is_some_and(Stroke::has_marks));
         let axis = |scale, values: &mut dyn Iterator<Item = f64>, margin| match scale {
-            AxisScale::Linear => Axis::linear(values, margin),
-            AxisScale::Logarithmic => Axis::logarithmic(values, DEFAULT_FLOOR),
+            AxisScale::Linear => PlotAxis::linear(values, margin),
+            AxisScale::Logarithmic => PlotAxis::logarithmic(values, DEFAULT_FLOOR),
         };
         let fixed = |scale, ends: Option<(f64, f64)>| {
             let (low, high) = ends.filter(|(low, high)| low < high)?;
             Some(match scale {
-                AxisScale::Linear => Axis::between(low, high),
-                AxisScale::Logarithmic if low > 0.0 => Axis::powers_between(low, high),
-                AxisScale::Logarithmic => Axis::logarithmic([low, high], DEFAULT_FLOOR),
+                AxisScale::Linear => PlotAxis::between(low, high),
+                AxisScale::Logarithmic if low > 0.0 => PlotAxis::powers_between(low, high),
+                AxisScale::Logarithmic => PlotAxis::logarithmic([low, high], DEFAULT_FLOOR),
             })
         };
         let is_between = |x: f64| self.limits.x.is_none_or(|(low, high)| (low..=high).contains(&x));

@@ -1,7 +1,7 @@
 //! Colour bars, which are the legend of a continuous colour scale.
 
 use super::{
-    axis::{Axis, extent},
+    axis::{PlotAxis, extent},
     canvas::{Align, Area, Canvas},
     colour::{Colour, GREY, INK},
     fonts,
@@ -25,7 +25,7 @@ enum BarWidth {
 /// Colour scale with its bar. The bar is drawn only if there are at least two different numbers.
 pub struct ColourBar {
     label: String,
-    axis: Option<Axis>,
+    axis: Option<PlotAxis>,
     shade: fn(f64) -> Colour,
     form: BarWidth,
 }
@@ -39,7 +39,7 @@ impl ColourBar {
     ) -> Self {
         let axis = extent(numbers)
             .filter(|(first, last)| last > first)
-            .map(|(first, last)| Axis::between(first, last));
+            .map(|(first, last)| PlotAxis::between(first, last));
         Self { label: label.into(), axis, shade, form: BarWidth::Even }
     }
 

@@ -27,7 +27,7 @@ pub struct FieldPicture {
     title: String,
     label: String,
     beams: Vec<Vec<(Point, f64)>>,
-    scenery: MechanismOutline,
+    outline: MechanismOutline,
     limits: AxisLimits,
 }
 
@@ -43,8 +43,8 @@ impl FieldPicture {
     }
 
     /// Draws rigid bodies, supports, joints, sliders and loads over the beams, and obstacles below them.
-    pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
-        self.scenery = scenery;
+    pub fn outline(mut self, outline: MechanismOutline) -> Self {
+        self.outline = outline;
         self
     }
 
@@ -77,7 +77,7 @@ impl FieldPicture {
 
     fn view(&self) -> View {
         let points = self.beams.iter().flatten().map(|(at, _)| *at);
-        self.scenery.view(points, &self.limits)
+        self.outline.view(points, &self.limits)
     }
 
     fn bar(&self) -> ColourBar {
@@ -184,7 +184,7 @@ impl Panel for FieldPicture {
         }
         let bar = self.bar();
         bar.draw(canvas, plot);
-        self.scenery.draw_obstacles(canvas, &frame, plot);
+        self.outline.draw_obstacles(canvas, &frame, plot);
         let is_zero = self.largest().is_none_or(|(_, value)| value <= 0.0);
         let part = |value: f64| if is_zero { 0.0 } else { bar.part(value) };
         let on_paper = |(at, value): &(Point, f64)| (frame.place(plot, *at), part(*value));
@@ -205,7 +205,7 @@ impl Panel for FieldPicture {
                 Self::draw_beam(canvas, piece, seen);
             }
         }
-        self.scenery.draw(canvas, &frame, plot);
+        self.outline.draw(canvas, &frame, plot);
         self.draw_largest(canvas, &frame, plot, &beams);
     }
 }

@@ -1,7 +1,7 @@
 //! Frame around the data of a panel: title, grid, axis lines, labels and legend.
 
 use super::{
-    axis::{Axis, Factor, Tick},
+    axis::{Factor, PlotAxis, Tick},
     canvas::{Align, Area, Canvas, Point},
     colour::{AXIS, GREY, GRID, INK},
     curve, fonts, legend,
@@ -60,8 +60,8 @@ pub struct Frame {
     pub captions: Vec<String>,
     pub x_label: String,
     pub y_label: String,
-    pub x: Axis,
-    pub y: Axis,
+    pub x: PlotAxis,
+    pub y: PlotAxis,
     /// Entries of the legend; empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
@@ -273,8 +273,8 @@ mod tests {
             captions: vec!["a line below it ".repeat(30); 2],
             x_label: "t [s]".into(),
             y_label: "energy [J]".repeat(30),
-            x: Axis::between(0.0, 1e5),
-            y: Axis::between(-12345.678, 1.0),
+            x: PlotAxis::between(0.0, 1e5),
+            y: PlotAxis::between(-12345.678, 1.0),
             legend: Vec::new(),
         };
         let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };

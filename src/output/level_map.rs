@@ -1,7 +1,7 @@
 //! Level maps: cells over two numeric axes. A number determines the colour of each cell on a linear scale. Cells without a number are hatched.
 
 use super::{
-    axis::{Axis, AxisScale},
+    axis::{AxisScale, PlotAxis},
     canvas::{Area, Canvas},
     colour::ramp,
     colour_bar::ColourBar,
@@ -110,13 +110,13 @@ impl LevelAxis {
         inner.chain(last).collect()
     }
 
-    fn axis(&self) -> Axis {
+    fn axis(&self) -> PlotAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
             // A range with a smaller ratio is not suitable for a logarithmic axis.
-            AxisScale::Logarithmic if ln(high / low) > 1e-3 => Axis::powers_between(low, high),
-            _ => Axis::between(low, high),
+            AxisScale::Logarithmic if ln(high / low) > 1e-3 => PlotAxis::powers_between(low, high),
+            _ => PlotAxis::between(low, high),
         }
     }
 }

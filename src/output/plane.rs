@@ -1,7 +1,7 @@
 //! Visible part of the plane for plots in which both axes have the same scale.
 
 use super::{
-    axis::{Axis, extent},
+    axis::{PlotAxis, extent},
     canvas::Point,
 };
 
@@ -96,11 +96,11 @@ impl View {
     }
 
     /// Axes for a plot of the given size [pixels].
-    pub fn axes(&self, width: f64, height: f64) -> (Axis, Axis) {
+    pub fn axes(&self, width: f64, height: f64) -> (PlotAxis, PlotAxis) {
         let per_pixel = (self.needs.0 / width).max(self.needs.1 / height);
         let axis = |centre: f64, pixels: f64| {
             let half = per_pixel * pixels / 2.0;
-            Axis::between(centre - half, centre + half)
+            PlotAxis::between(centre - half, centre + half)
         };
         (axis(self.centre.0, width), axis(self.centre.1, height))
     }

@@ -45,7 +45,7 @@ pub struct StripPicture {
     captions: Vec<String>,
     strips: Vec<BeamStrip>,
     side: BeamSide,
-    scenery: MechanismOutline,
+    outline: MechanismOutline,
 }
 
 #[derive(Clone, Copy)]
@@ -76,8 +76,8 @@ impl StripPicture {
     }
 
     /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams, and obstacles below them.
-    pub fn scenery(mut self, scenery: MechanismOutline) -> Self {
-        self.scenery = scenery;
+    pub fn outline(mut self, outline: MechanismOutline) -> Self {
+        self.outline = outline;
         self
     }
 
@@ -129,7 +129,7 @@ impl StripPicture {
         let runs = self.strips.iter().flat_map(|strip| self.runs(strip));
         let tips: Vec<Point> = runs.flatten().map(|ordinate| ordinate.tip).collect();
         let points: Vec<Point> = lines.chain(tips).collect();
-        self.scenery.view(points.into_iter(), &AxisLimits::default())
+        self.outline.view(points.into_iter(), &AxisLimits::default())
     }
 
     fn frame(&self, width: f64, height: f64) -> Frame {
@@ -262,7 +262,7 @@ impl Panel for StripPicture {
         if self.strips.iter().all(|strip| strip.line.is_empty()) {
             frame.draw_no_data(canvas, plot);
         }
-        self.scenery.draw_obstacles(canvas, &frame, plot);
+        self.outline.draw_obstacles(canvas, &frame, plot);
         let runs: Vec<Vec<Vec<Ordinate>>> =
             self.strips.iter().map(|strip| self.runs(strip)).collect();
         for (index, runs) in runs.iter().enumerate() {
@@ -275,7 +275,7 @@ impl Panel for StripPicture {
                 canvas.line(run, BEAM, INK);
             }
         }
-        self.scenery.draw(canvas, &frame, plot);
+        self.outline.draw(canvas, &frame, plot);
         let on_beams = self.on_beams(&frame, plot);
         let mut taken = Vec::new();
         for runs in &runs {

@@ -171,12 +171,12 @@ impl PlacedSymbol {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::axis::Axis;
+    use crate::output::axis::PlotAxis;
 
     const PLOT: Area = Area { left: 100.0, top: 100.0, right: 300.0, bottom: 300.0 };
 
     fn drawn(symbol: Symbol, at: Point, direction: Point) -> Canvas {
-        let axis = Axis::between(0.0, 1.0);
+        let axis = PlotAxis::between(0.0, 1.0);
         let mut canvas = Canvas::default();
         let frame = Frame { x: axis, y: axis, ..Frame::default() };
         PlacedSymbol { symbol, at, direction }.draw(&mut canvas, &frame, &PLOT);

@@ -170,8 +170,8 @@ impl Rounds for Visits {
         if self.error.is_some() {
             return false;
         }
-        let goes_on = self.next_state().unwrap_or_else(|trouble| {
-            self.error = Some(trouble);
+        let goes_on = self.next_state().unwrap_or_else(|error| {
+            self.error = Some(error);
             false
         });
         self.position = self.revisit.place();
@@ -202,10 +202,10 @@ fn evaluate_at_states(
     mut visits: Visits,
 ) -> Result<Values, CommandOutcome> {
     let reply = shell.session_mut().evaluate_repeatedly(text, &mut visits);
-    let Visits { revisit, points, error: trouble, position: place, .. } = visits;
+    let Visits { revisit, points, error, position: place, .. } = visits;
     drop(revisit);
     let at = format!("at t = {}", significant(place.1, DIGITS));
-    match (reply, trouble) {
+    match (reply, error) {
         (Err(Reply::Failed(why)), _) => {
             shell.print_note(&format!("'{text}' fails {at}:"));
             Err(shell.report_error(&why))

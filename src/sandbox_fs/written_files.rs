@@ -87,8 +87,8 @@ impl WrittenFiles {
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
         let mut record = Self { files: BTreeMap::new(), is_truncated: is_torn };
-        for (name, imprint) in text.lines().filter_map(entry) {
-            record.add(name, imprint);
+        for (name, file_checksum) in text.lines().filter_map(entry) {
+            record.add(name, file_checksum);
         }
         record
     }
@@ -107,14 +107,14 @@ impl WrittenFiles {
         found.is_some() && self.knows(name, found)
     }
 
-    fn knows(&self, name: &str, imprint: Option<FileChecksum>) -> bool {
-        self.files.get(name).is_some_and(|known| known.contains(&imprint))
+    fn knows(&self, name: &str, file_checksum: Option<FileChecksum>) -> bool {
+        self.files.get(name).is_some_and(|known| known.contains(&file_checksum))
     }
 
-    fn add(&mut self, name: String, imprint: FileChecksum) {
+    fn add(&mut self, name: String, file_checksum: FileChecksum) {
         let known = self.files.entry(name).or_default();
-        if known[1] != Some(imprint) {
-            *known = [known[1], Some(imprint)];
+        if known[1] != Some(file_checksum) {
+            *known = [known[1], Some(file_checksum)];
         }
     }
 

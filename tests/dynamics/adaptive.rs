@@ -275,10 +275,10 @@ fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
     let SimulationError::Tolerance { time, dt, error: by, .. } = error else { panic!("{error}") };
     assert!(dt <= 0.02 && by > 1.0 && time > 0.1 && time == flight.time());
     assert_eq!(flight.history().samples().last().unwrap().measures.time, time);
-    let told = error.to_string();
+    let message = error.to_string();
     assert!(
-        told.contains("tolerance 0.00001 requires steps below the smallest allowed one (2e-2)"),
-        "{told}"
+        message.contains("tolerance 0.00001 requires steps below the smallest allowed one (2e-2)"),
+        "{message}"
     );
 }
 
@@ -397,10 +397,10 @@ fn the_cause_of_many_steps_is_told() {
             run(&mut simulation, end).unwrap();
         }
         let (steps, notes) = (simulation.counts().steps, simulation.warnings());
-        let told = notes.iter().find(|note| matches!(note, Warning::ManySteps { .. }));
-        let told = told.map(Warning::to_string);
-        println!("{steps}: {told:?}");
-        assert_eq!(told.is_some(), !cause.is_empty());
-        assert!(told.unwrap_or_default().contains(cause));
+        let message = notes.iter().find(|note| matches!(note, Warning::ManySteps { .. }));
+        let message = message.map(Warning::to_string);
+        println!("{steps}: {message:?}");
+        assert_eq!(message.is_some(), !cause.is_empty());
+        assert!(message.unwrap_or_default().contains(cause));
     }
 }

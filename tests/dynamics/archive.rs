@@ -105,7 +105,7 @@ fn a_load_with_a_function_is_named_and_refused() {
     let refusal = simulation.to_bytes("towed").unwrap_err();
     assert!(refusal.to_string().contains("moment at the end of beam 'beam1'"), "{refusal}");
     let advice = withy::script::messages::advice::hint_for(&refusal);
-    assert!(advice.as_ref().is_some_and(|told| told.contains("smooth_pulse")), "{advice:?}");
+    assert!(advice.as_ref().is_some_and(|message| message.contains("smooth_pulse")), "{advice:?}");
 }
 
 #[test]
@@ -183,8 +183,8 @@ fn random_content_with_a_right_checksum_is_refused() {
     let mut more = more;
     let length = (more.len() - header - 4) as u64;
     more[header - 8..header].copy_from_slice(&length.to_le_bytes());
-    let told = Simulation::from_bytes(&with_right_checksum(more)).err().unwrap().to_string();
-    assert!(told.contains("bytes after its end"), "{told}");
+    let message = Simulation::from_bytes(&with_right_checksum(more)).err().unwrap().to_string();
+    assert!(message.contains("bytes after its end"), "{message}");
 }
 
 #[test]

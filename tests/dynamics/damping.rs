@@ -89,10 +89,10 @@ fn a_cantilever_loses_in_each_swing_what_its_relaxation_time_says() {
     scene.join(JointKind::Rigid, start, Partner::Ground).unwrap();
     push(&mut scene, LENGTH, 1e-4, 1.3 * period);
     let modes = Modes::of(&System::assemble(&scene).unwrap(), 2, &mut || true).unwrap();
-    let told: Vec<f64> = modes.damping_ratios().collect();
-    assert!((told[0] / ratio - 1.0).abs() < 1e-4, "{told:?}");
+    let message: Vec<f64> = modes.damping_ratios().collect();
+    assert!((message[0] / ratio - 1.0).abs() < 1e-4, "{message:?}");
     // The damping ratio is proportional to the frequency.
-    assert!((told[1] / told[0] - 6.2669).abs() < 2e-3, "{told:?}");
+    assert!((message[1] / message[0] - 6.2669).abs() < 2e-3, "{message:?}");
     let tip = |points: &[Vec2]| points[points.len() - 1].y;
     let heights = heights(scene, period / 300.0, (3.0 * period, 9.0 * period), tip);
     assert_decrement("cantilever", &heights, ratio);

@@ -137,8 +137,8 @@ fn a_law_that_feeds_is_refused() {
     spring.name = "other".to_owned();
     spring.damping = absorber(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
     let refused = scene.add_spring(spring.clone());
-    let told = "at the rate -1 its damping force is 1 and adds energy";
-    let is_told = |error: &SystemError| error.to_string().contains(told);
+    let message = "at the rate -1 its damping force is 1 and adds energy";
+    let is_told = |error: &SystemError| error.to_string().contains(message);
     assert!(refused.as_ref().is_err_and(is_told), "{refused:?}");
     // The law is extrapolated linearly beyond its last rate.
     spring.damping = absorber(&[(-1.0, -1.0), (0.0, 0.0), (1.0, 1.0), (2.0, 0.5)]);

@@ -95,7 +95,7 @@ fn towing(motion: PrescribedMotion) -> Scene {
 }
 
 #[test]
-fn after_many_steps_a_place_is_its_function_to_rounding() {
+fn positions_match_their_function_to_rounding_after_many_steps() {
     let scene = towing(PrescribedMotion::Position(function(|t| (1.3 * t).sin() + 0.01 * t * t)));
     let simulation = simulate(scene, Method::EnergyMomentum, 1e-3, 100.0);
     assert_eq!(simulation.counts().steps, 100_000);
@@ -130,7 +130,7 @@ fn angle(simulation: &Simulation, arc_length: f64) -> f64 {
 }
 
 #[test]
-fn a_given_rotation_is_not_late_with_any_method() {
+fn prescribed_rotations_have_no_phase_error() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     for entry in INTEGRATORS {
         let scene = turned(
@@ -202,7 +202,7 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
 }
 
 #[test]
-fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
+fn movements_prescribed_or_supported_twice_are_refused() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let given =
         || PrescribedMotion::Position(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
@@ -216,13 +216,16 @@ fn a_scene_is_refused_in_which_a_movement_is_given_or_held_twice() {
             withy::system::Drive { name: "other".to_owned(), kind, station: start, motions };
         scene.add_drive(drive).unwrap_err()
     };
-    let told = refused(&mut scene, Component::X);
-    assert!(matches!(&told, SystemError::AlreadyDriven { existing: "fixed", .. }), "{told}");
-    let told = refused(&mut scene, Component::Rotation);
-    assert!(matches!(&told, SystemError::AlreadyDriven { existing: "prescribed", .. }), "{told}");
+    let message = refused(&mut scene, Component::X);
+    assert!(matches!(&message, SystemError::AlreadyDriven { existing: "fixed", .. }), "{message}");
+    let message = refused(&mut scene, Component::Rotation);
+    assert!(
+        matches!(&message, SystemError::AlreadyDriven { existing: "prescribed", .. }),
+        "{message}"
+    );
     let hold = JointKind::Support(Components::Rotation);
-    let told = scene.join(hold, start, Partner::Ground).unwrap_err();
-    assert!(matches!(&told, SystemError::HeldAndDriven { .. }), "{told}");
+    let message = scene.join(hold, start, Partner::Ground).unwrap_err();
+    assert!(matches!(&message, SystemError::HeldAndDriven { .. }), "{message}");
     assert_eq!((scene.drives.len(), scene.joints.len()), (1, 1));
 }
 
@@ -263,15 +266,16 @@ fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
         scene.add_spring(Spring { name, kind, law, origin, damping: damping_law }).unwrap();
         let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
         let history = simulation.history();
-        let (times, told) = (history.column("t").unwrap(), history.column("move1.angle").unwrap());
+        let (times, message) =
+            (history.column("t").unwrap(), history.column("move1.angle").unwrap());
         let mut work = 0.0;
-        for (pair, told) in times.windows(2).zip(&told[1..]) {
+        for (pair, message) in times.windows(2).zip(&message[1..]) {
             let [before, after] = [angle(pair[0]), angle(pair[1])];
             let mean_spin = (after - before) / (pair[1] - pair[0]);
             let expected =
                 inertia * 10.0 + damping * mean_spin + stiffness * 0.5 * (before + after);
-            assert!((told - expected).abs() < 1e-10 * expected, "{told} {expected}");
-            work += told * (after - before);
+            assert!((message - expected).abs() < 1e-10 * expected, "{message} {expected}");
+            work += message * (after - before);
         }
         let kept = *history.column("work.move1").unwrap().last().unwrap();
         assert!((work - kept).abs() < 1e-11 * kept, "{work} {kept}");
@@ -297,7 +301,7 @@ pub fn swung_at(reach: f64, motion: PrescribedMotion) -> Scene {
 
 /// A jump of the prescribed rate changes the energy at once. The impulsive work equals this change, and the moment is zero afterwards.
 #[test]
-fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
+fn bodies_joined_to_a_drive_follow_jumps_of_its_rate() {
     let bent = || Schedule::table(vec![(0.0, 0.0), (0.5, 0.0), (1.5, 1.0)]).unwrap();
     let motions = [
         ("angle", PrescribedMotion::Position(bent())),
@@ -330,7 +334,7 @@ fn what_is_tied_to_a_drive_follows_where_its_rate_jumps() {
 
 /// A controlled speed jumps before every step, with an impulse each time.
 #[test]
-fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
+fn bodies_joined_to_a_controlled_drive_have_its_speed_in_every_step() {
     let said = Rc::new(Cell::new(0.0));
     let motion = PrescribedMotion::Rate(Schedule::Sampled(Rc::clone(&said)));
     let mut simulation = simulate(swung(motion), Method::EnergyMomentum, 0.01, 0.0);
@@ -352,7 +356,7 @@ fn what_is_tied_to_a_controlled_drive_has_its_speed_in_every_step() {
 
 /// A start from an equilibrium with a moving drive equals a start from rest with this drive.
 #[test]
-fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
+fn drives_start_from_an_equilibrium_as_from_a_scene_at_rest() {
     let scene = || {
         let mut scene = swung(PrescribedMotion::Position(function(|t| 0.5 * t)));
         scene.gravity = at(0.0, -1.0);
@@ -375,8 +379,8 @@ fn drives_begin_at_an_equilibrium_as_in_a_scene_that_rests() {
     let mut on = Simulation::start_at_rest(&rest(later), dynamics).unwrap();
     assert_eq!(on.time(), 2.0);
     run(&mut on, 3.0).unwrap();
-    let told = on.rewind(1.0).unwrap_err().to_string();
-    assert!(told.contains("the simulation covers t = 2 to 3"), "{told}");
+    let message = on.rewind(1.0).unwrap_err().to_string();
+    assert!(message.contains("the simulation covers t = 2 to 3"), "{message}");
     let history = on.history();
     let times = history.column("t").unwrap();
     assert_eq!((times[0], *times.last().unwrap()), (2.0, 3.0));

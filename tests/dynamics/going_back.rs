@@ -265,11 +265,11 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
         "{refusal:?}"
     );
     let advice = withy::script::messages::advice::hint_for(&refusal).unwrap();
-    let told = format!("{refusal}; {advice}");
+    let message = format!("{refusal}; {advice}");
     for part in
         ["limit of 0.1 MB", &format!("last {} steps", kept - 2), "sim.rewind(0)", "snapshots: 64"]
     {
-        assert!(told.contains(part), "{told}");
+        assert!(message.contains(part), "{message}");
     }
     assert_eq!(fingerprint(&simulation), end, "a refusal changes nothing");
     simulation.back(kept - 2).unwrap();
@@ -292,17 +292,17 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     run(&mut simulation, 1.0).unwrap();
-    let told = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
-    assert!(told(simulation.back(3)).contains("stores no snapshots"));
+    let message = |refused: Result<(), SimulationError>| refused.unwrap_err().to_string();
+    assert!(message(simulation.back(3)).contains("stores no snapshots"));
     simulation.enable_snapshots(10);
-    assert!(told(simulation.back(3)).contains("exceeds the memory limit of 0.00001 MB"));
-    assert!(told(simulation.back(11)).contains("only 10 were taken"));
+    assert!(message(simulation.back(3)).contains("exceeds the memory limit of 0.00001 MB"));
+    assert!(message(simulation.back(11)).contains("only 10 were taken"));
     for time in [-0.5, 1.5, f64::NAN, f64::INFINITY] {
-        assert!(told(simulation.rewind(time)).contains("covers t = 0 to 1"));
+        assert!(message(simulation.rewind(time)).contains("covers t = 0 to 1"));
     }
     simulation.enable_snapshots(PLENTY);
     run(&mut simulation, 2.0).unwrap();
-    assert!(told(simulation.back(15)).contains("snapshots are stored from t = 1 on"));
+    assert!(message(simulation.back(15)).contains("snapshots are stored from t = 1 on"));
     simulation.back(10).unwrap();
     simulation.back(0).unwrap();
     simulation.rewind(1.0).unwrap();

@@ -29,7 +29,7 @@ fn table(points: &[(f64, f64)]) -> SpringLaw {
     SpringLaw::Table { points: points.to_vec() }
 }
 
-fn told(simulation: &Simulation) -> Vec<String> {
+fn message(simulation: &Simulation) -> Vec<String> {
     let notes = simulation.warnings();
     let of_ranges = notes.iter().filter(|note| matches!(note, Warning::Range { .. }));
     of_ranges.map(ToString::to_string).collect()
@@ -40,7 +40,7 @@ fn a_law_outside_of_its_range_is_told_once_with_the_farthest_value() {
     let cubic = || Some(sampled(0.5, |e| 10.0 * e * e * e));
     for method in [Method::EnergyMomentum, Method::FourthOrder, Method::Trapezoidal] {
         let mut simulation = simulate(held(cubic(), 0.0.into(), 6.0), method, 0.01, 2.0);
-        let notes = told(&simulation);
+        let notes = message(&simulation);
         assert_eq!(notes.len(), 1, "{notes:?}");
         println!("{}", notes[0]);
         assert!(notes[0].starts_with("the law of spring 'link' is given from -0.5 to 0.5, but "));
@@ -49,21 +49,21 @@ fn a_law_outside_of_its_range_is_told_once_with_the_farthest_value() {
         simulation.run_to(2.5, &mut NoMonitor).unwrap();
         assert!(simulation.warnings().iter().all(|note| !note.is_new_or_worse(&before)));
         // The exact amplitude for a speed of 0.5, (v²/5)^(1/4), is within the range.
-        assert!(told(&simulate(held(cubic(), 0.0.into(), 0.5), method, 0.01, 2.0)).is_empty());
+        assert!(message(&simulate(held(cubic(), 0.0.into(), 0.5), method, 0.01, 2.0)).is_empty());
     }
     let tanh = |range| DampingLaw::Curve(sampled(range, f64::tanh));
-    let notes = told(&simulate(held(None, tanh(1.0), 5.0), Method::EnergyMomentum, 0.01, 0.5));
+    let notes = message(&simulate(held(None, tanh(1.0), 5.0), Method::EnergyMomentum, 0.01, 0.5));
     assert_eq!(notes.len(), 1, "{notes:?}");
     assert!(notes[0].contains("damping law of damper 'link' is given from -1 to 1, but 4.9"));
     let inside = simulate(held(None, tanh(6.0), 5.0), Method::EnergyMomentum, 0.01, 0.5);
-    assert!(told(&inside).is_empty());
+    assert!(message(&inside).is_empty());
 }
 
 #[test]
 fn tables_are_told_apart_from_laws_that_go_on_as_they_are_meant() {
     let measured = table(&[(-1.0, -8.0), (-0.5, -3.0), (0.0, 0.0), (0.5, 3.0), (1.0, 8.0)]);
     let run = |law, speed| {
-        told(&simulate(held(Some(law), 0.0.into(), speed), Method::EnergyMomentum, 0.01, 1.0))
+        message(&simulate(held(Some(law), 0.0.into(), speed), Method::EnergyMomentum, 0.01, 1.0))
     };
     assert_eq!(run(measured.clone(), 6.0).len(), 1);
     assert!(run(measured, 1.0).is_empty());

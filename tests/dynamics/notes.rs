@@ -230,10 +230,10 @@ fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
     {
         let bar = simulate(ring(stiffness, 1.0, 1.0), Method::EnergyMomentum, dt, 0.6);
         let rebound = -bar.model().velocity(&slave(&bar)).x;
-        let told = bar.warnings().iter().any(|note| matches!(note, Warning::Bounce { .. }));
-        println!("EA = {stiffness:e}, dt = {dt}: rebound {rebound:.4}, told: {told}");
+        let message = bar.warnings().iter().any(|note| matches!(note, Warning::Bounce { .. }));
+        println!("EA = {stiffness:e}, dt = {dt}: rebound {rebound:.4}, told: {message}");
         let is_right = (rebound / 0.6990 - 1.0).abs() < 0.05;
-        assert_eq!(told, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
+        assert_eq!(message, !is_right, "EA = {stiffness:e}, dt = {dt}: {rebound}");
     }
     // An impact on a supported end causes no waves.
     let mut held = ring(1e10, 1.0, 1.0);
@@ -286,9 +286,10 @@ fn solved_to(tolerance: f64) -> Simulation {
 
 #[test]
 fn an_energy_that_is_not_kept_as_promised_is_told() {
-    let told = |notes: Vec<Warning>| notes.iter().any(|note| matches!(note, Warning::Drift { .. }));
-    assert!(told(solved_to(1e-3).warnings()));
-    assert!(!told(solved_to(1e-11).warnings()));
+    let message =
+        |notes: Vec<Warning>| notes.iter().any(|note| matches!(note, Warning::Drift { .. }));
+    assert!(message(solved_to(1e-3).warnings()));
+    assert!(!message(solved_to(1e-11).warnings()));
 }
 
 #[test]
@@ -327,16 +328,16 @@ fn notes_are_those_of_the_steps_behind_the_present() {
 }
 
 fn outcome(script: &str) -> (RunOutcome, String) {
-    let (told, out) = (Notepad::default(), tempfile::tempdir().unwrap());
+    let (message, out) = (Notepad::default(), tempfile::tempdir().unwrap());
     let settings = RunSettings {
-        diagnostics: Box::new(told.clone()),
+        diagnostics: Box::new(message.clone()),
         out: out.path().to_owned(),
         ..RunSettings::silent(RunMode::Run)
     };
     let outcome = runner::run(&Program::named("test", script), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);
-    (outcome, told.take())
+    (outcome, message.take())
 }
 
 const RULER: &str = "let steel = section(#{ E: 2.1e11, nu: 0.3, density: 7850, shape: \"rectangle\", width: 0.025, height: 0.001 });
@@ -353,11 +354,15 @@ fn a_note_is_told_once_and_is_in_the_report_and_explained() {
          check(sim.notes.len() == 1);\ncheck(sim.explain().contains(\"first natural period\"));\n\
          let fork = sim.fork(\"other\");\nfork.run_to(400);\ncheck(fork.notes.len() == 1);"
     );
-    let (outcome, told) = outcome(&script);
-    println!("{told}");
-    assert_eq!(told.matches("note: simulation 'ruler': steps are too long").count(), 1, "{told}");
-    assert_eq!(told.lines().count(), 1, "{told}");
-    assert!(told.contains("times the first natural period of the scene as drawn"), "{told}");
+    let (outcome, message) = outcome(&script);
+    println!("{message}");
+    assert_eq!(
+        message.matches("note: simulation 'ruler': steps are too long").count(),
+        1,
+        "{message}"
+    );
+    assert_eq!(message.lines().count(), 1, "{message}");
+    assert!(message.contains("times the first natural period of the scene as drawn"), "{message}");
     let report = &outcome.simulations[0];
     let note = report["notes"][0].as_str().unwrap();
     assert!(
@@ -378,8 +383,8 @@ fn notes_can_be_kept_and_fine_steps_have_none() {
         "{RULER}let sim = scene.start(#{{ dt: 0.0005 }});\nsim.run_to(1);\ncheck(sim.notes.is_empty());\n\
          check(!sim.explain().contains(\"first natural period\"));"
     );
-    let (outcome, told) = outcome(&fine);
-    assert_eq!((told.as_str(), &outcome.simulations[0]["notes"]), ("", &serde_json::json!([])));
+    let (outcome, message) = outcome(&fine);
+    assert_eq!((message.as_str(), &outcome.simulations[0]["notes"]), ("", &serde_json::json!([])));
 }
 
 #[test]
@@ -404,11 +409,11 @@ sim.run_to(60);
 check((min(sim.history.column(\"ring.position\")) < 0.5) == {crosses});"
         )
     };
-    let (_, told) = outcome(&script("2.3", true));
-    println!("{told}");
-    assert!(told.contains("steps are too long for the motion"), "{told}");
-    let (_, told) = outcome(&script("0.05", false));
-    assert!(!told.contains("steps are too long"), "{told}");
+    let (_, message) = outcome(&script("2.3", true));
+    println!("{message}");
+    assert!(message.contains("steps are too long for the motion"), "{message}");
+    let (_, message) = outcome(&script("0.05", false));
+    assert!(!message.contains("steps are too long"), "{message}");
 }
 
 #[test]

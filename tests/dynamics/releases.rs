@@ -271,13 +271,16 @@ fn what_cannot_let_go_is_refused() {
     let refused = |scene: &mut Scene, hold, time| {
         scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap_err()
     };
-    let told = refused(&mut scene, Releasable::Joint(0), 0.7);
-    assert_eq!(told.to_string(), "'hinge1' already has a release; remove one of the two releases");
+    let message = refused(&mut scene, Releasable::Joint(0), 0.7);
+    assert_eq!(
+        message.to_string(),
+        "'hinge1' already has a release; remove one of the two releases"
+    );
     let missing = refused(&mut scene, Releasable::Slider(0), 0.7);
     assert!(matches!(missing, SystemError::Missing { kind: "slider", count: 0, .. }), "{missing}");
     scene.releases.clear();
     for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let told = refused(&mut scene, Releasable::Drive(0), time);
-        assert!(matches!(told, SystemError::Value { name: "at", .. }), "{told}");
+        let message = refused(&mut scene, Releasable::Drive(0), time);
+        assert!(matches!(message, SystemError::Value { name: "at", .. }), "{message}");
     }
 }

@@ -10,14 +10,14 @@ use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
 fn run_in(out: &Path, mode: RunMode, script: &str) -> (RunOutcome, String) {
-    let told = Notepad::default();
+    let messages = Notepad::default();
     let settings = RunSettings {
         out: out.to_owned(),
-        diagnostics: Box::new(told.clone()),
+        diagnostics: Box::new(messages.clone()),
         ..RunSettings::silent(mode)
     };
     let outcome = run(&Program::named("script", script), &language(), settings);
-    (outcome, told.take())
+    (outcome, messages.take())
 }
 
 #[track_caller]
@@ -64,15 +64,15 @@ sim.save("half.withy");
 #[test]
 fn a_simulation_survives_a_restart() {
     let home = tempfile::tempdir().unwrap();
-    let (outcome, told) = run_in(home.path(), RunMode::Run, FIRST);
+    let (outcome, messages) = run_in(home.path(), RunMode::Run, FIRST);
     assert_good(&outcome);
-    assert!(told.contains("without its pending functions of sim.at (1)"), "{told}");
+    assert!(messages.contains("without its pending functions of sim.at (1)"), "{messages}");
     assert_eq!(outcome.files, [home.path().join("half.withy")]);
     let file = std::fs::read(home.path().join("half.withy")).unwrap();
     for _ in 0..2 {
-        let (outcome, told) = run_in(home.path(), RunMode::Run, SECOND);
+        let (outcome, messages) = run_in(home.path(), RunMode::Run, SECOND);
         assert_good(&outcome);
-        assert_eq!(told, "");
+        assert_eq!(messages, "");
     }
     // The second script ends in its initial state, apart from the elapsed time.
     let again = std::fs::read(home.path().join("half.withy")).unwrap();
@@ -123,8 +123,11 @@ fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
         (&damaged, "damaged: its checksum"),
     ];
     for (content, reason) in cases {
-        let told = refusal(content);
-        assert!(told.contains("cannot load \"half.withy\"") && told.contains(reason), "{told}");
+        let messages = refusal(content);
+        assert!(
+            messages.contains("cannot load \"half.withy\"") && messages.contains(reason),
+            "{messages}"
+        );
     }
 }
 

@@ -119,9 +119,9 @@ fn functions_that_steps_do_not_sample_are_told_once() {
         for method in [Method::EnergyMomentum, Method::FourthOrder, Method::Trapezoidal] {
             let simulation = simulate(scene.clone(), method, DT, 1.0);
             let notes = simulation.warnings();
-            let told: Vec<&Warning> =
+            let message: Vec<&Warning> =
                 notes.iter().filter(|note| matches!(note, Warning::Schedule { .. })).collect();
-            let [note @ Warning::Schedule { change, .. }] = told[..] else {
+            let [note @ Warning::Schedule { change, .. }] = message[..] else {
                 panic!("{kind}, {}: {notes:?}", method.entry().name)
             };
             println!("{note}");

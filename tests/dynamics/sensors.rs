@@ -10,7 +10,7 @@ use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner, SlidingRule};
 use withy::simulation::{NoMonitor, Simulation};
-use withy::system::{Scene, SystemError, Timing};
+use withy::system::{Scene, SystemError, ValueTime};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -22,7 +22,7 @@ fn with_all_sensors(mut scene: Scene) -> Scene {
     let names = scene.sensor_names();
     let names = names.iter().filter(|name| !name.ends_with(".middle.angle"));
     names.for_each(|name| scene.record(name).unwrap());
-    scene.sensors.retain(|sensor| sensor.quantity.timing != Timing::SummedMean);
+    scene.sensors.retain(|sensor| sensor.quantity.timing != ValueTime::SummedMean);
     if let Some(beam) = scene.beams.first() {
         let (name, length) = (beam.name.clone(), beam.axis.length());
         scene.record(&format!("{name}[{}].M", 0.37 * length)).unwrap();
@@ -117,14 +117,17 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
         run(&mut simulation, 0.4 + short).unwrap();
         let after = read(&mut simulation);
         let accelerated = (after.1 - before.1) / short;
-        let told = (before.0 + after.0) * 0.5;
-        let scale = 1.0 + told.norm();
-        println!("{name:20} acceleration {:.1e}", (accelerated - told).norm() / scale);
-        assert!((accelerated - told).norm() < 1e-6 * scale, "{name}: {accelerated} {told}");
+        let message = (before.0 + after.0) * 0.5;
+        let scale = 1.0 + message.norm();
+        println!("{name:20} acceleration {:.1e}", (accelerated - message).norm() / scale);
+        assert!((accelerated - message).norm() < 1e-6 * scale, "{name}: {accelerated} {message}");
         if !has_loads {
             let given = (after.3 - before.3) / short - gravity * simulation.model().total_mass();
-            let told = (before.2 + after.2) * 0.5;
-            assert!((given - told).norm() < 1e-6 * (1.0 + told.norm()), "{name}: {given} {told}");
+            let message = (before.2 + after.2) * 0.5;
+            assert!(
+                (given - message).norm() < 1e-6 * (1.0 + message.norm()),
+                "{name}: {given} {message}"
+            );
         }
     }
 }
@@ -243,7 +246,7 @@ fn a_bead_accelerates_as_its_contact_force_says() {
         let of_three = positions.windows(3).zip(&forces[1..]).skip(skipped);
         let mean: f64 = of_three
             .clone()
-            .map(|(x, told)| ((x[2] - x[1] * 2.0 + x[0]) / (dt * dt) - told).norm())
+            .map(|(x, message)| ((x[2] - x[1] * 2.0 + x[0]) / (dt * dt) - message).norm())
             .sum();
         mean / of_three.count() as f64
     });
@@ -301,8 +304,9 @@ fn the_power_of_a_drive_is_force_times_velocity_and_moment_times_spin() {
     for row in 0..power.len() {
         let before = row.saturating_sub(1);
         let of_component = forces.iter().zip(&rates);
-        let told = of_component.map(|(force, rate)| force[row] * 0.5 * (rate[before] + rate[row]));
-        let off = (power[row] - told.sum::<f64>()).abs();
+        let message =
+            of_component.map(|(force, rate)| force[row] * 0.5 * (rate[before] + rate[row]));
+        let off = (power[row] - message.sum::<f64>()).abs();
         assert!(off < 1e-6 * largest, "row {row}: {off:.1e} of {largest:.1e}");
     }
 }
@@ -409,7 +413,7 @@ fn goes_back_and_on(scene: Scene) {
 fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
     let mut scene = scenes::curved_pendulum(&smooth(4));
     let length = scene.beams[0].axis.length();
-    for (name, told) in [
+    for (name, message) in [
         ("beam2.end.x", "begin with the name of a beam"),
         ("beam1.end.z", "one of x, y, vx"),
         ("beam1.x", "beam1.end.x"),
@@ -420,7 +424,7 @@ fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
     ] {
         let error = scene.record(name).unwrap_err();
         assert!(matches!(error, SystemError::NoSensor { .. }), "{error}");
-        assert!(error.to_string().contains(told), "{error}");
+        assert!(error.to_string().contains(message), "{error}");
     }
     let unread = ["=1+1", "\u{1b}[2J", "a\0b", "\u{202e}b", "a\u{200b}b", "e\u{301}", "end "];
     for name in ["", " ", "a,b", "two\nlines"].into_iter().chain(unread) {

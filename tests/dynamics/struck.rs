@@ -258,7 +258,7 @@ fn bodies_at_rest_have_no_drift_and_nothing_is_told() {
     }
 }
 
-fn told(
+fn message(
     scene: Scene,
     method: Method,
     dt: impl Into<withy::simulation::StepSize>,
@@ -271,12 +271,12 @@ fn told(
 
 #[test]
 fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
-    let fixed = told(drop(1e12, 0.36), Method::EnergyMomentum, 1e-3, 0.5);
+    let fixed = message(drop(1e12, 0.36), Method::EnergyMomentum, 1e-3, 0.5);
     assert!(
         fixed[0].contains("steps (dt = 0.001)") && fixed[0].contains("use dt below 0.0002"),
         "{fixed:?}"
     );
-    let varying = told(drop(1e16, 0.36), Method::EnergyMomentum, adaptive(1e-3), 0.5);
+    let varying = message(drop(1e16, 0.36), Method::EnergyMomentum, adaptive(1e-3), 0.5);
     println!("{varying:?}");
     assert!(varying[0].contains("use a tolerance below 0.0002"), "{varying:?}");
 }
@@ -293,9 +293,9 @@ fn a_method_that_damps_is_proposed_where_it_is_not_in_use_and_would() {
     let line = SpringLaw::Linear { stiffness: 1e6, natural: 1.0 };
     let table = SpringLaw::Table { points: vec![(0.0, -1e6), (1.0, 0.0), (2.0, 1e6)] };
     let proposed = |law: &SpringLaw, method| {
-        let told = told(stiff(law.clone()), method, 0.1, 2.0);
-        assert!(told[0].contains("steps are too long for the motion"), "{told:?}");
-        told[0].contains("energy_decaying")
+        let message = message(stiff(law.clone()), method, 0.1, 2.0);
+        assert!(message[0].contains("steps are too long for the motion"), "{message:?}");
+        message[0].contains("energy_decaying")
     };
     assert!(proposed(&line, Method::EnergyMomentum));
     assert!(!proposed(&table, Method::EnergyMomentum));

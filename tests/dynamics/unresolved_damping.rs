@@ -99,14 +99,14 @@ fn struck(beside: bool) -> Scene {
 
 #[test]
 fn a_beam_is_told_whose_own_motion_is_not_followed_whatever_moves_beside_it() {
-    let told = |beside: bool, dt: f64| {
+    let message = |beside: bool, dt: f64| {
         simulate(struck(beside), Method::EnergyMomentum, dt, 0.3).warnings()
     };
-    let alone = told(false, 0.01);
+    let alone = message(false, 0.01);
     let [Warning::Motion { unresolved_fraction: of_all, .. }] = alone.as_slice() else {
         panic!("{alone:?}")
     };
-    let beside = told(true, 0.01);
+    let beside = message(true, 0.01);
     let [Warning::Beam { beam, unresolved_fraction: share, dt, period }] = beside.as_slice() else {
         panic!("{beside:?}")
     };

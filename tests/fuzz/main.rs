@@ -100,8 +100,8 @@ fn no_input_breaks_the_language() {
             for (seed, since) in present.iter().filter_map(|present| *present.lock().unwrap()) {
                 if since.elapsed() > HANG {
                     // A macro would write to the captured output of the harness, which is lost when the process exits here.
-                    let told = format!("seed {seed} hangs:\n{}\n", corpus.input(seed));
-                    std::io::stderr().write_all(told.as_bytes()).unwrap();
+                    let message = format!("seed {seed} hangs:\n{}\n", corpus.input(seed));
+                    std::io::stderr().write_all(message.as_bytes()).unwrap();
                     // A thread that hangs cannot be joined.
                     std::process::exit(101);
                 }
@@ -180,7 +180,7 @@ fn run_batch(
 /// Session that runs every fourth input, and editor that receives every input.
 struct Prompt {
     shell: Shell,
-    told: Notepad,
+    message: Notepad,
     /// Names of the session before its last reset.
     vocabulary: SessionNames,
 }
@@ -191,18 +191,18 @@ const COMMANDS: [&str; 10] =
 
 impl Prompt {
     fn new(catalog: &Catalog, folder: &Path) -> Self {
-        let told = Notepad::default();
+        let message = Notepad::default();
         let settings = RunSettings {
             out: folder.join("out"),
             folder: folder.to_owned(),
             limits: LIMITS,
             snapshots: MEGABYTE as usize,
-            diagnostics: Box::new(told.clone()),
+            diagnostics: Box::new(message.clone()),
             ..RunSettings::silent(RunMode::Run)
         };
         let session = Session::new(catalog.clone(), settings).unwrap();
         let vocabulary = SessionNames::of(CompletionContext::of_language(catalog.clone()));
-        Self { shell: Shell::new(session, ReplyTarget::Pipe), told, vocabulary }
+        Self { shell: Shell::new(session, ReplyTarget::Pipe), message, vocabulary }
     }
 
     fn judge(&mut self, seed: u64, text: &str) -> Result<(), String> {
@@ -215,9 +215,9 @@ impl Prompt {
             if !input.trim_start().starts_with([':', '?']) || seed.is_multiple_of(16) {
                 self.shell.submit(&input);
             }
-            let told = self.told.take();
-            if told.contains("a bug in withy") {
-                return Err(format!("at the prompt: {told}"));
+            let message = self.message.take();
+            if message.contains("a bug in withy") {
+                return Err(format!("at the prompt: {message}"));
             }
             if seed.is_multiple_of(64) {
                 self.vocabulary = SessionNames::of(self.shell.surroundings());

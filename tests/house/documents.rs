@@ -49,16 +49,16 @@ fn every_block_of_rhai_in_the_documents_runs() {
         for block in blocks(&std::fs::read_to_string(&document).unwrap(), "rhai") {
             let name = format!("{}:{}", document.display(), block.line);
             let out = tempfile::tempdir().unwrap();
-            let told = Notepad::default();
+            let message = Notepad::default();
             let settings = RunSettings {
                 out: out.path().to_owned(),
-                diagnostics: Box::new(told.clone()),
+                diagnostics: Box::new(message.clone()),
                 ..RunSettings::silent(RunMode::Run)
             };
             let outcome = run(&Program::named(&name, &block.text), &language(), settings);
             assert!(matches!(outcome.ending, Ending::Finished), "{name}: {:?}", outcome.ending);
-            let told = told.take();
-            assert!(!told.contains("note: simulation"), "{name}: {told}");
+            let message = message.take();
+            assert!(!message.contains("note: simulation"), "{name}: {message}");
             assert_eq!(outcome.checks.failed(), [], "{name}");
             keep_pictures(&document, out.path());
             count += 1;

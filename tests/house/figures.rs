@@ -129,8 +129,11 @@ fn figures_of_the_readme_name_their_command() {
     for (figure, command) in MEASURED {
         let paragraphs = readme.split("\n\n").flat_map(|part| part.split("\n- "));
         let words = |part: &str| part.split_whitespace().collect::<Vec<_>>().join(" ");
-        let told = paragraphs.map(words).find(|part| part.contains(figure));
-        assert!(told.is_some_and(|part| part.contains(command)), "README.md: {figure}: {command}");
+        let message = paragraphs.map(words).find(|part| part.contains(figure));
+        assert!(
+            message.is_some_and(|part| part.contains(command)),
+            "README.md: {figure}: {command}"
+        );
         let inside = command.trim_matches('`');
         assert_eq!(fault(inside), None);
     }

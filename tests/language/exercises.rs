@@ -30,7 +30,7 @@ fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> AttemptVerdict
 }
 
 /// What an attempt is told; nothing when it passes.
-fn told(exercise: &Exercise, text: &str) -> String {
+fn messages(exercise: &Exercise, text: &str) -> String {
     match try_within(exercise, text, Limits::default()) {
         AttemptVerdict::Passed => String::new(),
         AttemptVerdict::WrongResult(found) => found.join("\n"),
@@ -51,7 +51,7 @@ fn expected<'a>(attempt: &'a str, who: &str) -> &'a str {
 #[test]
 fn every_start_file_is_told_what_is_missing() {
     for exercise in EXERCISES {
-        let (said, attempt) = (told(exercise, exercise.start), attempt(exercise));
+        let (said, attempt) = (messages(exercise, exercise.start), attempt(exercise));
         let phrase = expected(&attempt, "// Finding for the start file:");
         assert!(said.contains(phrase), "{}: {said}", exercise.id());
     }
@@ -64,7 +64,7 @@ const LONG_STEPS: [&str; 3] =
 #[test]
 fn every_solution_passes_and_its_steps_resolve_what_happens() {
     for exercise in EXERCISES {
-        assert_eq!(told(exercise, exercise.solution), "", "{}", exercise.id());
+        assert_eq!(messages(exercise, exercise.solution), "", "{}", exercise.id());
         let (notes, out) = (Notepad::default(), tempfile::tempdir().unwrap());
         let settings = RunSettings {
             out: out.path().into(),
@@ -91,7 +91,7 @@ fn every_plausible_mistake_is_explained() {
     for exercise in EXERCISES {
         let attempt = attempt(exercise);
         let (said, phrase) =
-            (told(exercise, &attempt), expected(&attempt, "// Finding for this attempt:"));
+            (messages(exercise, &attempt), expected(&attempt, "// Finding for this attempt:"));
         assert!(said.contains(phrase), "{}: {said}", exercise.id());
     }
 }
@@ -159,7 +159,7 @@ fn other_right_answers_pass_as_well() {
         let help =
             if theirs.contains("half(") { "\nfn half(a, b) { log2(a / b) / 2 }" } else { "" };
         let text = exercise.solution.replace(ours, theirs) + help;
-        assert_eq!(told(exercise, &text), "", "{name}: {theirs}");
+        assert_eq!(messages(exercise, &text), "", "{name}: {theirs}");
     }
 }
 
@@ -215,19 +215,19 @@ fn tricks_do_not_pass() {
         "return true;",
     ];
     for trick in tricks {
-        let said = told(exercise, &format!("{}\n{trick}\n", exercise.start));
+        let said = messages(exercise, &format!("{}\n{trick}\n", exercise.start));
         assert!(said.contains("the energy changes by"), "{trick}: {said}");
     }
     for taken in ["fn check(holds, message) { } fn check(holds) { }", "fn abs(x) { 0 }"] {
-        let said = told(exercise, &format!("{}\n{taken}\n", exercise.solution));
+        let said = messages(exercise, &format!("{}\n{taken}\n", exercise.solution));
         assert!(said.contains("the language has a function"), "{taken}: {said}");
     }
-    let earlier = |trick: &str| told(exercise, &format!("{trick}\n{}", exercise.start));
+    let earlier = |trick: &str| messages(exercise, &format!("{trick}\n{}", exercise.start));
     assert!(earlier("return;").contains("no variable 'sim'"));
     assert!(earlier("exit();").contains("a script cannot leave with exit()"));
-    let faked = told(exercise, "let sim = #{ t: 7.5, work: 370 };");
+    let faked = messages(exercise, "let sim = #{ t: 7.5, work: 370 };");
     assert!(faked.contains("'sim' of your script must be a simulation, but is a map"), "{faked}");
-    let half = told(exercise, &exercise.solution.replace("run_to(7.5)", "run_to(2.5)"));
+    let half = messages(exercise, &exercise.solution.replace("run_to(7.5)", "run_to(2.5)"));
     assert!(half.contains("let it run to 7.5"), "{half}");
 }
 
@@ -272,7 +272,7 @@ fn cheats_do_not_pass() {
     let mut met = BTreeSet::new();
     for file in fs::read_dir(root().join("tests/cheats")).unwrap() {
         for Cheat { exercise, title, text, message } in cheats(&file.unwrap().path()) {
-            let said = told(exercise, &text);
+            let said = messages(exercise, &text);
             assert!(said.contains(&message), "{}, {title}: {said}", exercise.id());
             met.insert(exercise.id());
         }
@@ -321,7 +321,7 @@ fn a_function_that_is_no_formula_does_not_pass() {
                 let text = format!(
                     "{base}\n{start}{parameters}| {body};\nfn endless(n) {{ endless(n + 1) }}"
                 );
-                told(exercise, &text)
+                messages(exercise, &text)
             };
             for body in NO_FORMULAS {
                 assert!(!attempt(parameters, body).is_empty(), "{}: {body}", exercise.id());
@@ -339,15 +339,15 @@ fn a_function_that_is_no_formula_does_not_pass() {
 fn names_of_attempts_and_judges_do_not_collide() {
     let names = "let percent = \"x\"; let how = (); let change = 3; fn drift(history, what) { 1 }";
     let exercise = find("keep_the_energy").unwrap();
-    assert_eq!(told(exercise, &format!("{names}\n{}", exercise.solution)), "");
+    assert_eq!(messages(exercise, &format!("{names}\n{}", exercise.solution)), "");
 }
 
 #[test]
 fn constants_and_captured_variables_are_seen() {
     let exercise = find("knot_vector").unwrap();
-    assert_eq!(told(exercise, "const k = knots(4);"), "");
-    assert_eq!(told(exercise, "let k = knots(4); let look = || k.spans; look.call();"), "");
-    assert_eq!(told(find("locking").unwrap(), "let EA = 11500000;"), "", "a whole number");
+    assert_eq!(messages(exercise, "const k = knots(4);"), "");
+    assert_eq!(messages(exercise, "let k = knots(4); let look = || k.spans; look.call();"), "");
+    assert_eq!(messages(find("locking").unwrap(), "let EA = 11500000;"), "", "a whole number");
 }
 
 #[test]
@@ -364,7 +364,7 @@ fn broken_attempts_are_shown_where_they_are_broken() {
         ("fn f(n) { f(n + 1) } f(0);", "too deeply"),
     ];
     for (text, phrase) in cases {
-        let said = told(exercise, text);
+        let said = messages(exercise, text);
         assert!(said.contains(phrase), "{text}: {said}");
     }
 }
@@ -386,6 +386,6 @@ fn a_judge_that_cannot_go_on_does_not_pass() {
     let other = "\nlet other = new_scene(\"other\");\n\
         leg = other.beam(#{ axis: line([0, 0], [1, 0]), section: material });";
     let hinged = exercise.solution.replace("scene.rigid", "scene.hinge");
-    let said = told(exercise, &format!("{hinged}{other}"));
+    let said = messages(exercise, &format!("{hinged}{other}"));
     assert!(said.contains("the judge failed"), "{said}");
 }

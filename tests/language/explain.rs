@@ -165,8 +165,8 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
         assert_eq!(calls.get(), 0, "starting and explaining call nothing");
         simulation.step(&mut NoMonitor).unwrap();
         assert_eq!(simulation.counts().retries, 0);
-        let told = format!("{} calls per step with {}", calls.get(), method.entry().name);
-        assert!(said.contains(&told), "{said} / {told}");
+        let message = format!("{} calls per step with {}", calls.get(), method.entry().name);
+        assert!(said.contains(&message), "{said} / {message}");
         assert!(
             said.contains("follower load at 1 section") && said.contains("steps end at t = 0.25")
         );

@@ -29,16 +29,16 @@ scene.gravity([0, -9.81]);
 
 /// Runs a script in its own folder. Returns the folder and the messages.
 fn ran(text: &str) -> (TempDir, String) {
-    let (folder, told) = (tempfile::tempdir().unwrap(), Notepad::default());
+    let (folder, message) = (tempfile::tempdir().unwrap(), Notepad::default());
     let settings = RunSettings {
         out: folder.path().to_owned(),
-        diagnostics: Box::new(told.clone()),
+        diagnostics: Box::new(message.clone()),
         ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("export", &format!("{SCENE}{text}")), &language(), settings);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
     assert_eq!(outcome.checks.failed(), []);
-    (folder, told.take())
+    (folder, message.take())
 }
 
 /// Value of an attribute of a tag.
@@ -131,10 +131,10 @@ fn saved(folder: &Path, name: &str) -> Simulation {
 
 #[test]
 fn frames_have_what_the_solver_has_to_the_last_bit() {
-    let (folder, told) = ran(
+    let (folder, message) = ran(
         "let sim = scene.start(#{ dt: 0.01 }); sim.run_to(0.5); sim.save(\"run.withy\"); write_vtk(sim, \"run.pvd\", #{ every: 0.1 });",
     );
-    assert!(!told.contains("another"), "{told}");
+    assert!(!message.contains("another"), "{message}");
     let frames = frames(&folder.path().join("run.pvd"));
     let times: Vec<f64> = frames.iter().map(|frame| frame.0).collect();
     assert_eq!(times.len(), 6);
@@ -165,8 +165,8 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
         assert_eq!(grid.vector("Points", last(2)), [position.x, position.y, 0.0]);
         assert_eq!(grid.vector("velocity", last(2)), [velocity.x, velocity.y, 0.0]);
         let clamp = again.section_forces(&Station::on_beam(0, 0.0)).unwrap();
-        let told = ["N", "Q", "M"].map(|name| grid.fields[name][0]);
-        assert_eq!(told, [clamp.axial, clamp.shear, clamp.moment]);
+        let message = ["N", "Q", "M"].map(|name| grid.fields[name][0]);
+        assert_eq!(message, [clamp.axial, clamp.shear, clamp.moment]);
         // Exported section angles follow from normals between strain points, those of the solver from the steps. They agree approximately.
         let (start, end) = again.model().end_angles(0);
         assert!(
@@ -232,12 +232,12 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
     let scene = "let scene = new_scene(\"rest\");
         let rod = scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(4), section: s });
         scene.clamp(rod.start); scene.gravity([0, -9.81]);";
-    let (folder, told) = ran(&format!("{scene}{}", script("")));
+    let (folder, message) = ran(&format!("{scene}{}", script("")));
     assert!(
-        told.contains(
+        message.contains(
             "note: the earlier states of 'rest' are no longer stored, and the repeated run differs"
         ),
-        "{told}"
+        "{message}"
     );
     let (_, path) = &frames(&folder.path().join("run.pvd"))[0];
     let grid = Grid::read(path);
@@ -246,10 +246,10 @@ fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
         ["arc_length"]
     );
     let asked = script(", #{ fields: \"all\" }");
-    let (_, told) = ran(&format!(
+    let (_, message) = ran(&format!(
         "{scene} let refused = false; try {{ {asked} }} catch (error) {{ refused = `${{error}}`.contains(\"the repeated run differs\"); }} check(refused);"
     ));
-    assert!(!told.contains("note: the states"), "{told}");
+    assert!(!message.contains("note: the states"), "{message}");
 }
 
 /// Arrays of an uncompressed archive: shapes as text, and numbers.

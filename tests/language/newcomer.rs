@@ -44,7 +44,7 @@ fn said(typed: &str) -> Result<(String, String), String> {
     let settings =
         RunSettings { printed: Box::new(printed.clone()), ..RunSettings::silent(RunMode::Run) };
     match run(&Program::named("typed", typed), &language(), settings).ending {
-        Ending::Failed(told) => Ok((told.message, told.hint.unwrap_or_default())),
+        Ending::Failed(messages) => Ok((messages.message, messages.hint.unwrap_or_default())),
         other => Err(format!("{other:?}")),
     }
 }

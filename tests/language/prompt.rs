@@ -20,7 +20,7 @@ use withy::script::state::settings::{RunMode, RunSettings};
 struct Prompt {
     shell: Shell,
     printed: Notepad,
-    told: Notepad,
+    message: Notepad,
     interrupt: Arc<AtomicBool>,
 }
 
@@ -33,12 +33,12 @@ const MEGABYTE: usize = 1_000_000;
 
 impl Prompt {
     fn with(snapshots: usize, screen: ReplyTarget) -> Self {
-        let (printed, told) = (Notepad::default(), Notepad::default());
+        let (printed, message) = (Notepad::default(), Notepad::default());
         let interrupt = Arc::new(AtomicBool::new(false));
         let folder = tempfile::tempdir().unwrap();
         let settings = RunSettings {
             printed: Box::new(printed.clone()),
-            diagnostics: Box::new(told.clone()),
+            diagnostics: Box::new(message.clone()),
             interrupt: interrupt.clone(),
             out: folder.keep(),
             snapshots,
@@ -47,7 +47,7 @@ impl Prompt {
         let session = Session::new(language(), settings).unwrap();
         let clock = Ticks { now: Cell::new(Duration::ZERO) };
         let shell = Shell::new(session, screen).with_clock(Rc::new(clock));
-        Self { shell, printed, told, interrupt }
+        Self { shell, printed, message, interrupt }
     }
 
     fn new() -> Self {
@@ -63,9 +63,9 @@ impl Prompt {
     /// Output and messages of an input that succeeds.
     fn ask_both(&mut self, input: &str) -> (String, String) {
         let outcome = self.shell.submit(input);
-        let (printed, told) = (self.printed.take(), self.told.take());
-        assert_eq!(outcome, CommandOutcome::Success, "{input}: {printed}{told}");
-        (printed, told)
+        let (printed, message) = (self.printed.take(), self.message.take());
+        assert_eq!(outcome, CommandOutcome::Success, "{input}: {printed}{message}");
+        (printed, message)
     }
 
     fn ask(&mut self, input: &str) -> String {
@@ -77,7 +77,7 @@ impl Prompt {
         let outcome = self.shell.submit(input);
         assert_eq!(outcome, CommandOutcome::Failed, "{input}: {}", self.printed.take());
         self.printed.take();
-        self.told.take()
+        self.message.take()
     }
 }
 
@@ -108,12 +108,12 @@ fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
         .collect();
     prompt.ask("sim.step(0)");
     let before = prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`");
-    let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
+    let (reply, message) = prompt.ask_both(":plot sim.position(rod.end).x");
     assert!(reply.starts_with("sim.position(rod.end).x: 2 at the start, minimum "), "{reply}");
     assert!(reply.contains("(11 states)"), "{reply}");
     let now: f64 = path.last().unwrap().parse().unwrap();
     assert!(reply.contains(&format!("now {:.5}", now)[..9]), "{reply} {now}");
-    assert_eq!(told, "evaluated in all 11 states of simulation 'spin', t = 0 to 1\n");
+    assert_eq!(message, "evaluated in all 11 states of simulation 'spin', t = 0 to 1\n");
     assert_eq!(prompt.ask("`${sim.t} ${sim.steps} ${sim.energy} ${sim.history.rows}`"), before);
     // Earlier states are still available.
     prompt.ask(":back 3");
@@ -158,10 +158,10 @@ fn a_vector_makes_two_curves_and_commas_separate_more() {
     let labelled =
         prompt.ask(":plot kinetic, 2 * sim.t, #{ labels: [\"one\", \"two\"], title: \"both\" }");
     assert_eq!(labelled.lines().count(), 2, "{labelled}");
-    let told = prompt.refusal(":plot energy, #{ y_lag: true }");
-    assert!(told.contains("unknown option 'y_lag'") && told.contains("y_log"), "{told}");
-    let told = prompt.refusal(":plot energy #{ y_limits: [2, 1] }");
-    assert!(told.contains(":plot: 'y_limits' must be [low, high], got [2, 1]"), "{told}");
+    let message = prompt.refusal(":plot energy, #{ y_lag: true }");
+    assert!(message.contains("unknown option 'y_lag'") && message.contains("y_log"), "{message}");
+    let message = prompt.refusal(":plot energy #{ y_limits: [2, 1] }");
+    assert!(message.contains(":plot: 'y_limits' must be [low, high], got [2, 1]"), "{message}");
     assert_eq!(prompt.ask(":plot kinetic strain").lines().count(), 2);
     assert_eq!(prompt.ask(":plot \"kinetic\", strain").lines().count(), 2);
     assert_eq!(prompt.ask(":plot").lines().count(), 3);
@@ -180,10 +180,10 @@ fn arrays_are_drawn_as_they_are_without_any_simulation() {
     assert!(of(&mut prompt, "[x, y]").contains("3 at the first, minimum 3, maximum 4"));
     assert_eq!(of(&mut prompt, "x, y").lines().count(), 2);
     assert!(of(&mut prompt, "[vec(0, 1), vec(1, 5)]").contains("maximum 5"));
-    let told = prompt.refusal(":plot x, [x, y]");
+    let message = prompt.refusal(":plot x, [x, y]");
     assert!(
-        told.contains("the index of an array") && told.contains("one after the other"),
-        "{told}"
+        message.contains("the index of an array") && message.contains("one after the other"),
+        "{message}"
     );
 }
 
@@ -194,9 +194,9 @@ fn a_terminal_gets_a_chart_and_the_words() {
     let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
     prompt.ask(SPINNING);
     prompt.ask(":step 5");
-    let (chart, told) = prompt.ask_both(":plot 10 * sim.t, energy");
+    let (chart, message) = prompt.ask_both(":plot 10 * sim.t, energy");
     assert!(chart.starts_with("10 * sim.t, energy\na 10 * sim.t   b energy\n"), "{chart}");
-    assert!(told.contains("in all 6 states"), "{told}");
+    assert!(message.contains("in all 6 states"), "{message}");
     for units in [":plot energy momentum_x", ":plot energy, momentum_x, #{ x_log: false }"] {
         let charts = prompt.ask(units);
         let headings: Vec<&str> =
@@ -206,8 +206,11 @@ fn a_terminal_gets_a_chart_and_the_words() {
             "{charts}"
         );
     }
-    let told = prompt.refusal(":plot energy momentum_x #{ y_limits: [0, 1] }");
-    assert!(told.contains("'y_limits' is for one axis, but the columns have 2 units"), "{told}");
+    let message = prompt.refusal(":plot energy momentum_x #{ y_limits: [0, 1] }");
+    assert!(
+        message.contains("'y_limits' is for one axis, but the columns have 2 units"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -220,8 +223,8 @@ fn what_probably_means_something_else_is_noted() {
         ("scene.force(rod.end, [0, -5], 2.5);", "hold_for(2.5)"),
         ("scene.moment(rod.end, max(1, 2), 2.5, #{ name: \"turn\" });", "moment: 2.5 is a factor"),
     ] {
-        let (_, told) = prompt.ask_both(input);
-        assert!(told.contains("note: line") && told.contains(note), "{input}: {told}");
+        let (_, message) = prompt.ask_both(input);
+        assert!(message.contains("note: line") && message.contains(note), "{input}: {message}");
     }
     for input in [
         "let n = 7; // 2",
@@ -233,8 +236,8 @@ fn what_probably_means_something_else_is_noted() {
         "scene.force(rod.end, [0, -5], hold_for(2.5));",
         "scene.moment(rod.end, 2.5);",
     ] {
-        let (_, told) = prompt.ask_both(input);
-        assert!(!told.contains("note: line"), "{input}: {told}");
+        let (_, message) = prompt.ask_both(input);
+        assert!(!message.contains("note: line"), "{input}: {message}");
     }
 }
 
@@ -259,20 +262,23 @@ fn what_cannot_be_drawn_is_refused_with_what_to_do() {
         ("if sim.t < 0.15 { \"a\" } else { 1 }", "cannot be plotted at t = 0.1", "at all times"),
         ("1 / if sim.t < 0.15 { throw \"early\" } else { 1 }", "fails at t = 0.1", ""),
     ] {
-        let told = prompt.refusal(&format!(":plot {text}"));
-        assert!(told.contains(why) && told.contains(hint), "{text}: {told}");
+        let message = prompt.refusal(&format!(":plot {text}"));
+        assert!(message.contains(why) && message.contains(hint), "{text}: {message}");
     }
     assert_eq!(prompt.ask("`${sim.steps} ${twin.steps}`"), "\"2 0\"\n");
-    let told = Prompt::new().refusal(":plot nothing_there");
-    assert!(told.contains("there is no variable 'nothing_there'"), "{told}");
+    let message = Prompt::new().refusal(":plot nothing_there");
+    assert!(message.contains("there is no variable 'nothing_there'"), "{message}");
 }
 
 #[test]
 fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 2; let energy = [1, 2, 3];".strip_prefix(":step 2; ").unwrap());
-    let (reply, told) = prompt.ask_both(":plot energy");
-    assert!(reply.starts_with("energy [energy]: ") && told.contains("write (energy)"), "{told}");
+    let (reply, message) = prompt.ask_both(":plot energy");
+    assert!(
+        reply.starts_with("energy [energy]: ") && message.contains("write (energy)"),
+        "{message}"
+    );
     assert!(prompt.ask(":plot (energy)").contains("(3 points)"));
 }
 
@@ -283,10 +289,10 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
     let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
     prompt.ask(SPINNING);
     for curves in [":plot energy", ":plot sim.position(rod.end).x"] {
-        let (reply, told) = prompt.ask_both(curves);
+        let (reply, message) = prompt.ask_both(curves);
         assert!(
-            reply.contains("at the start") && told.contains("one state so far"),
-            "{reply}{told}"
+            reply.contains("at the start") && message.contains("one state so far"),
+            "{reply}{message}"
         );
     }
     prompt.ask(":step 2e0");
@@ -296,16 +302,16 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
         (":plot 0.0/0.0", "no finite value"),
     ] {
         assert_eq!(prompt.shell.submit(input), CommandOutcome::Failed);
-        let said = format!("{}{}", prompt.told.take(), prompt.printed.take());
+        let said = format!("{}{}", prompt.message.take(), prompt.printed.take());
         assert!(said.contains(expected) && !said.contains("prompt:"), "{input}: {said}");
     }
     prompt.ask("let words = \"a text that is far too long for the screen of a telephone\";");
     let listed = prompt.ask(":vars");
     assert!(listed.lines().all(|line| line.chars().count() <= 50), "{listed}");
-    let (_, told) = prompt.ask_both("scene.gravity([0, -9.81]); scene.gravity([0, -9.81]);");
-    assert_eq!(told, "");
-    let (_, told) = prompt.ask_both("scene.gravity([0, -1.62]);");
-    assert!(told.contains("was (0, -9.81) and is now (0, -1.62)"), "{told}");
+    let (_, message) = prompt.ask_both("scene.gravity([0, -9.81]); scene.gravity([0, -9.81]);");
+    assert_eq!(message, "");
+    let (_, message) = prompt.ask_both("scene.gravity([0, -1.62]);");
+    assert!(message.contains("was (0, -9.81) and is now (0, -1.62)"), "{message}");
 }
 
 #[test]
@@ -314,9 +320,9 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     prompt.ask(SPINNING);
     prompt.ask(":step 10");
     prompt.ask("sim.run_to(1.55);");
-    let (reply, told) = prompt.ask_both(":plot sim.position(rod.end).x");
+    let (reply, message) = prompt.ask_both(":plot sim.position(rod.end).x");
     assert!(reply.contains("2 at the start") && reply.contains("(17 states)"), "{reply}");
-    assert!(told.contains("repeated in a copy, with identical energies"), "{told}");
+    assert!(message.contains("repeated in a copy, with identical energies"), "{message}");
     let mut kept = Prompt::spinning();
     kept.ask(":step 10");
     kept.ask("sim.run_to(1.55);");
@@ -328,9 +334,12 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
     changed.ask("let f = 1; scene.force(rod.end, [1, 0], schedule(|t| f)); let sim = scene.start(#{ dt: 0.1 });");
     changed.ask(":step 4");
     changed.ask("f = 2;");
-    let (reply, told) = changed.ask_both(":plot sim.t");
-    assert!(told.contains("the repeated run differs at t = 0.1"), "{told}");
-    assert!(told.contains("in the last 1 states") && reply.contains("(1 state)"), "{told}{reply}");
+    let (reply, message) = changed.ask_both(":plot sim.t");
+    assert!(message.contains("the repeated run differs at t = 0.1"), "{message}");
+    assert!(
+        message.contains("in the last 1 states") && reply.contains("(1 state)"),
+        "{message}{reply}"
+    );
 }
 
 #[test]
@@ -352,9 +361,9 @@ fn many_states_are_thinned_out_and_that_is_told() {
     let mut prompt = Prompt::with(100 * MEGABYTE, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask("sim.step(2500);");
-    let (reply, told) = prompt.ask_both(":plot sim.steps");
+    let (reply, message) = prompt.ask_both(":plot sim.steps");
     assert!(reply.contains("0 at the start") && reply.contains("now 2500 (835 states)"), "{reply}");
-    assert!(told.contains("in 835 of the 2501 states"), "{told}");
+    assert!(message.contains("in 835 of the 2501 states"), "{message}");
 }
 
 #[test]
@@ -383,10 +392,10 @@ fn an_interrupt_while_drawing_gives_the_simulation_back() {
 fn a_pure_input_is_timed_until_the_figure_is_known() {
     let mut prompt = Prompt::new();
     prompt.ask("let x = 1;");
-    let (reply, told) = prompt.ask_both(":time { x += 1; x }");
+    let (reply, message) = prompt.ask_both(":time { x += 1; x }");
     // The value, the first run, and the other runs. Each query of the clock takes a millisecond.
     let expected = "2\nfirst run 1.00 ms\n67 runs more: minimum 1.00 ms, median 1.00 ms, middle half 1.00 ms to 1.00 ms\n";
-    assert_eq!((&*reply, &*told), (expected, ""));
+    assert_eq!((&*reply, &*message), (expected, ""));
     assert_eq!(prompt.ask("x"), "2\n", "done again from the same variables, and taken back");
     let reply = prompt.ask(":time let fresh = 3;");
     assert!(reply.contains("more: minimum"), "{reply}");
@@ -591,7 +600,7 @@ fn a_column_without_a_simulation_says_what_is_missing() {
     for input in
         [":plot energy", ":plot kinetic strain", ":plot momentum_x", ":plot energy, [1, 2]"]
     {
-        let told = prompt.refusal(input);
-        assert!(told.contains("there is no simulation yet"), "{input}: {told}");
+        let message = prompt.refusal(input);
+        assert!(message.contains("there is no simulation yet"), "{input}: {message}");
     }
 }

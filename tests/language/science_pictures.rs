@@ -77,7 +77,7 @@ fn gaps_are_left_and_limits_kept() {
 
 #[test]
 fn what_does_not_fit_together_is_refused_with_what_to_do() {
-    for (script, told) in [
+    for (script, messages) in [
         ("plot([1, 2], [1], \"a.svg\");", "x has 2 numbers, but y has 1"),
         ("plot([[1], [2]], [[1], [2], [3]], \"a.svg\");", "x holds 2 arrays, but y holds 3"),
         ("plot([1], [\"a\"], \"a.svg\");", "'y' must hold numbers"),
@@ -93,7 +93,7 @@ fn what_does_not_fit_together_is_refused_with_what_to_do() {
             "must hold beams",
         ),
     ] {
-        assert!(refusal(script).contains(told), "{script}: {}", refusal(script));
+        assert!(refusal(script).contains(messages), "{script}: {}", refusal(script));
     }
 }
 

@@ -109,9 +109,10 @@ fn a_constant_named_like_the_answer_is_left_alone() {
 fn what_worked_before_an_error_stays_and_the_statement_that_failed_leaves_nothing() {
     let mut session = session();
     done(&mut session, "let a = 1; const G = 1; fn g() { global::G }");
-    let told = refusal(&mut session, "let b = 2;\nlet c = a + nonsense;\nfn h() { 7 }\nlet d = 1;");
-    assert!(told.contains("prompt:3:13"), "{told}");
-    assert!(told.contains("let c = a + nonsense"), "{told}");
+    let message =
+        refusal(&mut session, "let b = 2;\nlet c = a + nonsense;\nfn h() { 7 }\nlet d = 1;");
+    assert!(message.contains("prompt:3:13"), "{message}");
+    assert!(message.contains("let c = a + nonsense"), "{message}");
     assert_eq!(value(&mut session, "a + b + h()"), "10");
     for gone in ["c", "d"] {
         assert!(refusal(&mut session, gone).contains("there is no variable"), "{gone}");
@@ -120,8 +121,8 @@ fn what_worked_before_an_error_stays_and_the_statement_that_failed_leaves_nothin
     assert_eq!(value(&mut session, "a"), "1");
     refusal(&mut session, "const G = 2 + oops();");
     assert_eq!(value(&mut session, "g()"), "1");
-    let told = refusal(&mut session, "let x = lost();\nfn unknown_later() { 1 }");
-    assert!(told.contains("there is no function 'lost'"), "{told}");
+    let message = refusal(&mut session, "let x = lost();\nfn unknown_later() { 1 }");
+    assert!(message.contains("there is no function 'lost'"), "{message}");
     assert!(refusal(&mut session, "unknown_later()").contains("there is no function"));
     assert!(!refusal(&mut session, "x").contains("declared later"));
 }
@@ -139,9 +140,9 @@ fn an_error_in_a_function_typed_earlier_is_shown_there() {
     let mut session = session();
     done(&mut session, "let zero = 0;");
     done(&mut session, "fn deep(x) {\n    x.wrong()\n}");
-    let told = refusal(&mut session, "deep(1)");
-    assert!(told.contains("prompt:3:7") && told.contains("x.wrong()"), "{told}");
-    assert!(told.contains("in 'deep', called at line 5"), "{told}");
+    let message = refusal(&mut session, "deep(1)");
+    assert!(message.contains("prompt:3:7") && message.contains("x.wrong()"), "{message}");
+    assert!(message.contains("in 'deep', called at line 5"), "{message}");
 }
 
 #[test]
@@ -151,10 +152,10 @@ fn a_function_of_a_module_may_have_the_name_of_one_that_was_typed() {
     let mut session = in_folder(folder.path().into());
     done(&mut session, "import \"parts\" as parts;");
     done(&mut session, "fn f(x) { x.oops }");
-    let told = refusal(&mut session, "f(#{ a: 1 })");
-    assert!(told.contains("prompt:2:13"), "{told}");
-    let told = refusal(&mut session, "parts::f(#{ a: 1 })");
-    assert!(told.contains("parts.rhai:2:13"), "{told}");
+    let message = refusal(&mut session, "f(#{ a: 1 })");
+    assert!(message.contains("prompt:2:13"), "{message}");
+    let message = refusal(&mut session, "parts::f(#{ a: 1 })");
+    assert!(message.contains("parts.rhai:2:13"), "{message}");
 }
 
 #[test]
@@ -163,8 +164,8 @@ fn an_error_in_a_file_is_shown_in_the_file() {
     done(&mut session, "let a = 1;");
     let reply = session.eval_program(Program::named("beam.rhai", "fn f() {\n  wrong()\n}"));
     assert!(matches!(reply, Reply::Done), "{reply:?}");
-    let told = refusal(&mut session, "f()");
-    assert!(told.contains("beam.rhai:2:3"), "{told}");
+    let message = refusal(&mut session, "f()");
+    assert!(message.contains("beam.rhai:2:3"), "{message}");
     let Reply::Failed(diagnostic) =
         session.eval_program(Program::named("b.rhai", "let x = 1;\nlet y = ;"))
     else {
@@ -177,8 +178,8 @@ fn an_error_in_a_file_is_shown_in_the_file() {
 fn a_comment_that_is_never_closed_is_shown_at_its_line() {
     let mut session = session();
     done(&mut session, "let a = 1;");
-    let told = refusal(&mut session, "a\n  /* lost");
-    assert!(told.contains("prompt:3:3"), "{told}");
+    let message = refusal(&mut session, "a\n  /* lost");
+    assert!(message.contains("prompt:3:3"), "{message}");
 }
 
 #[test]

@@ -23,11 +23,11 @@ fn run_beside(files: &[(&str, &str)], script: &str) -> (RunOutcome, String) {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, text).unwrap();
     }
-    let told = Notepad::default();
+    let message = Notepad::default();
     let settings =
-        RunSettings { diagnostics: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
+        RunSettings { diagnostics: Box::new(message.clone()), ..RunSettings::silent(RunMode::Run) };
     let program = Program { folder: home.path().into(), ..Program::named("main.rhai", script) };
-    (run(&program, &language(), settings), told.take())
+    (run(&program, &language(), settings), message.take())
 }
 
 fn failure(outcome: &RunOutcome) -> String {
@@ -41,12 +41,12 @@ fn failure(outcome: &RunOutcome) -> String {
 fn a_check_that_fails_in_the_library_is_told_at_the_line_of_the_user() {
     let script = "import \"std/checks\" as checks;\n\nlet held = checks::assert_close(\"tip\", 1.25, 1, 0.1);\n\
                   check(!held);\ncheck(false, \"own\");\nchecks::assert_fails(\"f\", || { check(false, \"inner\"); 1 }, \"x\");";
-    let (outcome, told) = run_beside(&[], script);
+    let (outcome, message) = run_beside(&[], script);
     let lines: Vec<_> = outcome.checks.failed().iter().map(|check| check.line).collect();
-    assert_eq!(lines, [3, 5, 6, 6], "{told}");
+    assert_eq!(lines, [3, 5, 6, 6], "{message}");
     let expected =
         "line 3: check failed: tip: value 1.25, expected 1, difference 2.500e-1, tolerance 0.1\n";
-    assert!(told.starts_with(expected), "{told}");
+    assert!(message.starts_with(expected), "{message}");
 }
 
 #[test]
@@ -74,11 +74,12 @@ fn every_check_says_what_it_found_and_what_it_expected() {
         ),
     ];
     for (call, words) in cases {
-        let (outcome, told) = run_beside(&[], &format!("import \"std/checks\" as c; c::{call};"));
+        let (outcome, message) =
+            run_beside(&[], &format!("import \"std/checks\" as c; c::{call};"));
         assert_eq!(outcome.checks.failed().len(), 1, "{call}");
         assert!(
-            words.iter().all(|word| told.to_lowercase().contains(&word.to_lowercase())),
-            "{told}"
+            words.iter().all(|word| message.to_lowercase().contains(&word.to_lowercase())),
+            "{message}"
         );
     }
 }
@@ -92,10 +93,10 @@ scene.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(2), section: s, spin: 3
 let sim = scene.start(#{ dt: 0.2, integrator: trapezoidal() });
 sim.run_to(1);
 checks::assert_conserved(sim.history, [\"energy\", \"momentum\"], 1e-12);";
-    let (_, told) = run_beside(&[], script);
-    assert!(told.contains("line 7: check failed: energy: drift "), "{told}");
-    assert!(told.contains("from t = 0 to 1, expected 0, tolerance 1e-12"), "{told}");
-    assert!(!told.contains("momentum: drift"), "{told}");
+    let (_, message) = run_beside(&[], script);
+    assert!(message.contains("line 7: check failed: energy: drift "), "{message}");
+    assert!(message.contains("from t = 0 to 1, expected 0, tolerance 1e-12"), "{message}");
+    assert!(!message.contains("momentum: drift"), "{message}");
 }
 
 #[test]
@@ -104,9 +105,9 @@ fn a_file_of_ones_own_is_not_read_in_the_place_of_the_library() {
         ("std/checks.rhai", "fn assert_close(a, b, c, d) { throw \"mine\" }"),
         ("std/mine.rhai", ""),
     ];
-    let (outcome, told) =
+    let (outcome, message) =
         run_beside(&files, "import \"std/checks\" as c; c::assert_close(\"x\", 1, 1, 0);");
-    assert!(matches!(outcome.ending, Ending::Finished), "{:?} {told}", outcome.ending);
+    assert!(matches!(outcome.ending, Ending::Finished), "{:?} {message}", outcome.ending);
     let (outcome, _) = run_beside(&files, "import \"std/mine\" as mine;");
     let said = failure(&outcome);
     assert!(said.contains("your own folder cannot be called std"), "{said}");
@@ -137,9 +138,9 @@ let k = 2;
 let wave = shapes::sine([0, 0], [1, 0], 0.1, 1);
 check(wave.length > 1 && sampled(1, 2) == \"mine\");
 check_close(again::sampled(|u| [u, k * u], 8).length, sqrt(5), 1e-12);";
-    let (outcome, told) = run_beside(&[], script);
+    let (outcome, message) = run_beside(&[], script);
     assert!(matches!(outcome.ending, Ending::Finished), "{:?}", outcome.ending);
-    assert_eq!(outcome.checks.failed(), [], "{told}");
+    assert_eq!(outcome.checks.failed(), [], "{message}");
 }
 
 #[test]
@@ -152,9 +153,9 @@ fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
 
 #[test]
 fn the_prompt_imports_the_library() {
-    let told = Notepad::default();
+    let message = Notepad::default();
     let settings =
-        RunSettings { diagnostics: Box::new(told.clone()), ..RunSettings::silent(RunMode::Run) };
+        RunSettings { diagnostics: Box::new(message.clone()), ..RunSettings::silent(RunMode::Run) };
     let mut session = Session::new(language(), settings).unwrap();
     for input in
         ["import \"std/checks\" as checks;", "let a = 2;", "checks::assert_close(\"a\", a, 1, 0.1)"]
@@ -162,7 +163,7 @@ fn the_prompt_imports_the_library() {
         let reply = session.eval(input);
         assert!(matches!(reply, Reply::Done | Reply::Value(_)), "{input}: {reply:?}");
     }
-    assert!(told.take().starts_with("line 3: check failed: a: value 2"));
+    assert!(message.take().starts_with("line 3: check failed: a: value 2"));
 }
 
 #[test]

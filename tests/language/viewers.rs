@@ -108,11 +108,11 @@ fn from_letters(text: &str) -> Vec<u8> {
 }
 
 /// Positions of a material point of a film in all frames.
-fn path(film: &Value, place: &Value) -> Vec<(f64, f64)> {
+fn path(viewer_data: &Value, place: &Value) -> Vec<(f64, f64)> {
     let first = place[0].as_u64().unwrap() as usize;
     let weights: Vec<f64> =
         place[1].as_array().unwrap().iter().map(|w| w.as_f64().unwrap()).collect();
-    let (x, y) = (series(&film["x"]), series(&film["y"]));
+    let (x, y) = (series(&viewer_data["x"]), series(&viewer_data["y"]));
     let sum = |all: &[Vec<f64>], frame: usize| {
         weights.iter().enumerate().map(|(index, w)| w * all[first + index][frame]).sum::<f64>()
     };
@@ -129,14 +129,15 @@ fn places_are_where_the_solver_says() {
         write_viewer(sim, \"page.html\", #{ trails: [two.at(1.3), ring] });";
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
-    let film = &data["films"][0];
+    let viewer_data = &data["films"][0];
     let times: Vec<_> =
-        film["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
+        viewer_data["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
     assert!(times.len() >= 101, "every step is a frame, and every bounce of the ring");
-    let step = film["x"]["step"].as_f64().unwrap();
+    let step = viewer_data["x"]["step"].as_f64().unwrap();
     let extent = step * 65534.0;
     assert!(extent > 3.0 && extent < 10.0, "{extent}");
-    let paths: Vec<_> = (0..2).map(|trail| path(film, &film["trails"][trail]["at"])).collect();
+    let paths: Vec<_> =
+        (0..2).map(|trail| path(viewer_data, &viewer_data["trails"][trail]["at"])).collect();
     let mut compared = 0;
     for line in printed.lines() {
         let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
@@ -159,8 +160,8 @@ fn columns_and_colours_are_those_of_the_run() {
         write_viewer(sim, \"page.html\", #{ columns: [\"kinetic\", \"slide.force\"], fields: [\"speed\"] });";
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
-    let film = &data["films"][0];
-    let column = &film["history"]["columns"][0];
+    let viewer_data = &data["films"][0];
+    let column = &viewer_data["history"]["columns"][0];
     assert_eq!(
         (column["name"].as_str(), column["unit"].as_str()),
         (Some("kinetic"), Some("energy"))
@@ -171,13 +172,15 @@ fn columns_and_colours_are_those_of_the_run() {
     assert_eq!(known.len(), values.len());
     assert!(known.iter().zip(&values).all(|(a, b)| (a - b).abs() <= 0.51 * step));
     // The speed at the last station of the last beam is compared with the path of this point.
-    let fields = film["fields"].as_array().unwrap();
+    let fields = viewer_data["fields"].as_array().unwrap();
     assert_eq!((fields.len(), fields[0]["name"].as_str()), (1, Some("speed")));
     let speeds = series(&fields[0]["values"]);
-    let line = film["shapes"][film["beams"][1]["shape"].as_u64().unwrap() as usize]["line"].clone();
+    let line =
+        viewer_data["shapes"][viewer_data["beams"][1]["shape"].as_u64().unwrap() as usize]["line"]
+            .clone();
     let mut end = line.as_array().unwrap().last().unwrap().clone();
-    end[0] = (end[0].as_u64().unwrap() + film["beams"][1]["first"].as_u64().unwrap()).into();
-    let way = path(film, &end);
+    end[0] = (end[0].as_u64().unwrap() + viewer_data["beams"][1]["first"].as_u64().unwrap()).into();
+    let way = path(viewer_data, &end);
     for frame in [10, 25, 40] {
         let (a, b) = (way[frame - 1], way[frame + 1]);
         let speed = (b.0 - a.0).hypot(b.1 - a.1) / 0.04;
@@ -200,18 +203,20 @@ fn moments_and_strain_energy_are_those_of_the_states_also_where_a_run_is_made_ag
     let both = [SCENE, of_kept.as_str()].map(|scene| written_in(scene, script, "page.html"));
     assert_eq!(both[0].1, both[1].1, "kept states are those of the run made again");
     let data = data(&both[0].1);
-    let film = &data["films"][0];
-    let names: Vec<_> = film["fields"].as_array().unwrap().iter().map(|f| &f["name"]).collect();
+    let viewer_data = &data["films"][0];
+    let names: Vec<_> =
+        viewer_data["fields"].as_array().unwrap().iter().map(|f| &f["name"]).collect();
     assert_eq!(names, ["bending moment", "strain energy per length"]);
     let times: Vec<f64> =
-        film["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
+        viewer_data["times"].as_array().unwrap().iter().map(|t| t.as_f64().unwrap()).collect();
     let stations = |beam: usize| {
-        let shape = film["beams"][beam]["shape"].as_u64().unwrap() as usize;
-        film["shapes"][shape]["stations"].as_array().unwrap().len()
+        let shape = viewer_data["beams"][beam]["shape"].as_u64().unwrap() as usize;
+        viewer_data["shapes"][shape]["stations"].as_array().unwrap().len()
     };
     let places = [0, stations(0) - 1, stations(0) + stations(1) - 1];
-    let values = [0, 1].map(|field| series(&film["fields"][field]["values"]));
-    let steps = [0, 1].map(|field| film["fields"][field]["values"]["step"].as_f64().unwrap());
+    let values = [0, 1].map(|field| series(&viewer_data["fields"][field]["values"]));
+    let steps =
+        [0, 1].map(|field| viewer_data["fields"][field]["values"]["step"].as_f64().unwrap());
     let lines: Vec<&str> = both[0].0.lines().collect();
     assert_eq!(lines.len(), 72);
     for (index, line) in lines.iter().enumerate() {
@@ -238,15 +243,15 @@ fn springs_are_drawn_between_their_ends_and_a_slider_until_it_has_left() {
         write_viewer(run, \"page.html\", #{ fields: [] });";
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
-    let film = &data["films"][0];
-    let springs = film["springs"].as_array().unwrap();
+    let viewer_data = &data["films"][0];
+    let springs = viewer_data["springs"].as_array().unwrap();
     assert_eq!(
         springs.iter().map(|one| one["kind"].as_str().unwrap()).collect::<Vec<_>>(),
         ["spring", "damper"]
     );
     assert_eq!(springs[0]["anchors"][0], serde_json::json!({ "x": 0.0, "y": 3.0 }));
     assert!(springs[1]["anchors"].as_array().unwrap().iter().all(Value::is_array));
-    let symbols = film["symbols"].as_array().unwrap();
+    let symbols = viewer_data["symbols"].as_array().unwrap();
     let leaver = symbols.iter().find(|one| one["name"] == "leaver").unwrap();
     assert_eq!(leaver["until"].as_f64(), Some(printed.trim().parse().unwrap()));
     let others = symbols.iter().filter(|one| one["name"] != "leaver");
@@ -272,15 +277,15 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
         write_viewer(run, \"page.html\", #{ fields: [] });";
     let (printed, page) = written(script, "page.html");
     let data = data(&page);
-    let film = &data["films"][0];
-    let kinds: Vec<&str> = film["symbols"]
+    let viewer_data = &data["films"][0];
+    let kinds: Vec<&str> = viewer_data["symbols"]
         .as_array()
         .unwrap()
         .iter()
         .map(|one| one["kind"].as_str().unwrap())
         .collect();
     assert_eq!(kinds, ["hinge", "joint", "hinge", "roller", "motor", "carriage", "slider"]);
-    let bodies = film["bodies"].as_array().unwrap();
+    let bodies = viewer_data["bodies"].as_array().unwrap();
     let outlines: Vec<usize> =
         bodies.iter().map(|body| body["outline"].as_array().unwrap().len()).collect();
     assert_eq!(outlines, [4, 2, 0], "closed, a line from the centre, none");
@@ -303,7 +308,7 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
     let first = place[0].as_u64().unwrap() as usize;
     let known: Vec<f64> = printed.trim().split(' ').map(|number| number.parse().unwrap()).collect();
     for (axis, known) in ["x", "y"].into_iter().zip(known) {
-        let shown = *series(&film[axis])[first].last().unwrap();
+        let shown = *series(&viewer_data[axis])[first].last().unwrap();
         assert!((shown - known).abs() < 1e-3, "{axis}: {shown} {known}");
     }
 }
@@ -312,17 +317,17 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
 fn signs_and_loads_are_there() {
     let (_, page) = written("sim.run_to(1);\nwrite_viewer(sim, \"page.html\");", "page.html");
     let data = data(&page);
-    let film = &data["films"][0];
+    let viewer_data = &data["films"][0];
     let kinds = |name: &str| -> Vec<String> {
-        let all = film[name].as_array().unwrap().iter();
+        let all = viewer_data[name].as_array().unwrap().iter();
         all.map(|one| one["kind"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(kinds("symbols"), ["hinge", "joint", "slider"]);
-    let loads = series(&film["arrows"]["values"]);
+    let loads = series(&viewer_data["arrows"]["values"]);
     let at = |time: f64| loads[1][(time / 0.02) as usize];
     assert_eq!((loads.len(), at(0.2)), (2, 0.0));
     assert!((at(0.7) - 1.0).abs() < 1e-3, "relative to the largest");
-    let trails = film["trails"].as_array().unwrap();
+    let trails = viewer_data["trails"].as_array().unwrap();
     assert_eq!(trails.len(), 3, "the end of both beams and the ring: {trails:?}");
 }
 

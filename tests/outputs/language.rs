@@ -22,11 +22,11 @@ pub fn record(book: &mut Book) {
 /// Runs a text, and records its output, messages, outcome and files.
 fn keep_run(book: &mut Book, name: &str, text: &str) {
     let out = tempfile::tempdir().unwrap();
-    let (printed, told) = (Notepad::default(), Notepad::default());
+    let (printed, message) = (Notepad::default(), Notepad::default());
     let settings = RunSettings {
         out: out.path().join("out"),
         printed: Box::new(printed.clone()),
-        diagnostics: Box::new(told.clone()),
+        diagnostics: Box::new(message.clone()),
         ..RunSettings::silent(RunMode::Run)
     };
     let outcome = run(&Program::named("script", text), &language(), settings);
@@ -35,7 +35,7 @@ fn keep_run(book: &mut Book, name: &str, text: &str) {
         other => format!("{other:?}"),
     };
     let checks = outcome.checks.failed().to_vec();
-    let all = format!("{}\n{}\n{ending}\n{checks:?}", printed.take(), told.take());
+    let all = format!("{}\n{}\n{ending}\n{checks:?}", printed.take(), message.take());
     let place = out.path().to_string_lossy().into_owned();
     let (all, files) = (all.replace(&place, "FOLDER"), out.path().join("out"));
     if measures_times(text) {

@@ -153,8 +153,8 @@ fn a_run_that_ends_early_is_told_once_and_reported() {
     let output =
         withy().arg("run").arg(&file).arg("--report").arg(&report).output().expect("withy starts");
     assert_eq!(code(&output), 0, "{}", said(&output));
-    let told = "note: simulation 'bead' ended before t = 3: slider 'ring' reached the end of its beam at t = 1\n";
-    assert_eq!(said(&output), format!("{told}{NOT_ESTIMATED}"));
+    let message = "note: simulation 'bead' ended before t = 3: slider 'ring' reached the end of its beam at t = 1\n";
+    assert_eq!(said(&output), format!("{message}{NOT_ESTIMATED}"));
     let report = fs::read_to_string(&report).expect("the report");
     let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
     let simulation = &report["simulations"][0];

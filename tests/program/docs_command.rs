@@ -84,9 +84,9 @@ fn markdown_is_the_reference_of_the_documents() {
 fn definitions_are_written_for_every_table() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let target = folder.path().join("editor/definitions");
-    let told = shown(&docs(&["--definitions", target.to_str().expect("a path in UTF-8")]));
+    let message = shown(&docs(&["--definitions", target.to_str().expect("a path in UTF-8")]));
     let files: Vec<_> = fs::read_dir(&target).expect("the folder").map(Result::unwrap).collect();
-    assert_eq!(told.lines().count(), files.len());
+    assert_eq!(message.lines().count(), files.len());
     let scenes = fs::read_to_string(target.join("scenes.d.rhai")).expect("scenes.d.rhai");
     assert!(scenes.contains("\nfn beam(scene: scene, options: map) -> beam;\n"), "{scenes}");
     assert!(files.iter().all(|file| file.file_name().to_string_lossy().ends_with(".d.rhai")));

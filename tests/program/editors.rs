@@ -99,10 +99,10 @@ fn an_editor_finds_the_colours_of_the_prompt() {
         .output()
         .expect("node starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let told = String::from_utf8(output.stdout).unwrap();
+    let message = String::from_utf8(output.stdout).unwrap();
     let vocabulary = Vocabulary::of_language(&language());
     let mut odd = Vec::new();
-    for (file, pieces) in files.iter().zip(told.lines()) {
+    for (file, pieces) in files.iter().zip(message.lines()) {
         let text = fs::read_to_string(file).unwrap();
         let ours = colours_of_the_prompt(&text, &vocabulary);
         let theirs = colours_of_the_editor(&text, &serde_json::from_str(pieces).unwrap());

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Largest size of an animation [bytes].
 const LARGEST: usize = 300_000;
 /// Number of scripts that run at the same time.
-const HANDS: usize = 2;
+const WORKERS: usize = 2;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -36,7 +36,7 @@ struct Row<T> {
 }
 
 /// Lines of the first table of the page, as text.
-fn told(page: &str) -> Vec<Row<String>> {
+fn table_rows(page: &str) -> Vec<Row<String>> {
     let lines = page.lines().skip_while(|line| !line.starts_with("| ---")).skip(1);
     let lines = lines.take_while(|line| line.starts_with('|'));
     let row = |line: &str| {
@@ -119,10 +119,10 @@ fn the_gallery_tells_what_its_machines_find() {
         results
     };
     let results = std::thread::scope(|scope| {
-        let hands: Vec<_> = (0..HANDS).map(|_| scope.spawn(work)).collect();
-        hands.into_iter().flat_map(|hand| hand.join().unwrap()).collect::<Vec<_>>()
+        let workers: Vec<_> = (0..WORKERS).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect::<Vec<_>>()
     });
-    let told = told(&page);
+    let expected = table_rows(&page);
     let mut wrong = Vec::new();
     for (machine, result) in results {
         let found = match result {
@@ -132,7 +132,7 @@ fn the_gallery_tells_what_its_machines_find() {
                 continue;
             }
         };
-        let lines: Vec<_> = told.iter().filter(|row| row.machine == machine).collect();
+        let lines: Vec<_> = expected.iter().filter(|row| row.machine == machine).collect();
         if lines.len() != found.len() {
             wrong.push(format!("{machine}: {} lines in the table of {}", lines.len(), found.len()));
         }
@@ -145,7 +145,7 @@ fn the_gallery_tells_what_its_machines_find() {
             }
         }
     }
-    for row in &told {
+    for row in &expected {
         if !scripts.iter().any(|script| name(script) == row.machine) {
             wrong.push(format!("docs/gallery.md: no scripts/gallery/{}.rhai", row.machine));
         }
@@ -182,9 +182,8 @@ fn cells_are_compared_to_the_digits_shown() {
     ] {
         assert_eq!(in_the_way_of(cell, number), same, "{cell}");
     }
-    let page =
-        "| a | b |\n| --- | --- |\n| [Four-bar](#four-bar) | bend | 1.9 | 2 | 1e-2 |\n";
-    let rows = told(page);
+    let page = "| a | b |\n| --- | --- |\n| [Four-bar](#four-bar) | bend | 1.9 | 2 | 1e-2 |\n";
+    let rows = table_rows(page);
     assert_eq!((rows[0].machine.as_str(), rows[0].benchmark.as_str()), ("four_bar", "bend"));
     assert_eq!(rows[0].numbers, ["1.9", "2", "1e-2"]);
 }

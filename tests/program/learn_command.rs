@@ -544,26 +544,29 @@ fn marks_of_what_has_not_changed_are_kept() {
         let words = [&to_file[..], more].concat();
         let output = learn(class.path(), &words);
         assert_eq!(output.status.code(), Some(0));
-        let told = String::from_utf8(output.stderr).unwrap();
-        (String::from_utf8(output.stdout).unwrap(), told)
+        let messages = String::from_utf8(output.stderr).unwrap();
+        (String::from_utf8(output.stdout).unwrap(), messages)
     };
     let lines = || fs::read_to_string(class.path().join("marks.jsonl")).unwrap().lines().count();
     let all = 2 * EXERCISES.len();
-    let (first, told) = grade(&[]);
-    assert!(told.is_empty() && lines() == all, "{told}");
-    let (second, told) = grade(&[]);
-    assert!(told.contains(&format!("note: {all} marks were taken from 'marks.jsonl'")), "{told}");
+    let (first, messages) = grade(&[]);
+    assert!(messages.is_empty() && lines() == all, "{messages}");
+    let (second, messages) = grade(&[]);
+    assert!(
+        messages.contains(&format!("note: {all} marks were taken from 'marks.jsonl'")),
+        "{messages}"
+    );
     assert_eq!((second, lines()), (first, all), "the same marks, and nothing is written twice");
     // Truncated last line, as after a kill during writing.
     let text = fs::read_to_string(class.path().join("marks.jsonl")).unwrap();
     fs::write(class.path().join("marks.jsonl"), &text[..text.len() - 20]).unwrap();
     fs::write(class.path().join("class/bea").join(EXERCISES[0].file()), "const EI = 5;").unwrap();
-    let (third, told) = grade(&[]);
-    assert!(told.contains(&format!("note: {} marks", all - 2)), "{told}");
+    let (third, messages) = grade(&[]);
+    assert!(messages.contains(&format!("note: {} marks", all - 2)), "{messages}");
     // The truncated line has been removed.
     assert!(third.contains("the tip of the strip does not sink by") && lines() == all + 1);
-    let (_, told) = grade(&["--max-time", "19"]);
-    assert!(told.is_empty(), "other limits may give other marks: {told}");
+    let (_, messages) = grade(&["--max-time", "19"]);
+    assert!(messages.is_empty(), "other limits may give other marks: {messages}");
     fs::write(class.path().join("notes.txt"), "mine").unwrap();
     let (code, text) = said(class.path(), &["grade", "class", "--marks", "notes.txt"]);
     assert!(code == 2 && text.contains("is not a file of marks"), "{text}");

@@ -17,7 +17,7 @@ fn piped_in(folder: &Path, arguments: &[&str], input: &str) -> (i32, String, Str
     command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap();
     child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
-    told(child.wait_with_output().unwrap())
+    message(child.wait_with_output().unwrap())
 }
 
 fn piped(input: &str) -> (i32, String, String) {
@@ -27,10 +27,10 @@ fn piped(input: &str) -> (i32, String, String) {
 fn evaluated(inputs: &[&str]) -> (i32, String, String) {
     let folder = tempfile::tempdir().unwrap();
     let arguments = inputs.iter().flat_map(|input| ["-e", input]);
-    told(withy(folder.path()).args(arguments).output().unwrap())
+    message(withy(folder.path()).args(arguments).output().unwrap())
 }
 
-fn told(output: Output) -> (i32, String, String) {
+fn message(output: Output) -> (i32, String, String) {
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
@@ -61,8 +61,8 @@ fn inputs_of_several_lines_are_one() {
 #[test]
 fn words_of_other_prompts_leave_and_help() {
     for word in ["quit", "exit", "quit()", "exit();"] {
-        let told = piped(&format!("1\n{word}\nnonsense\n"));
-        assert_eq!(told, (0, "1\n".into(), String::new()), "{word}");
+        let message = piped(&format!("1\n{word}\nnonsense\n"));
+        assert_eq!(message, (0, "1\n".into(), String::new()), "{word}");
     }
     let (code, replies, complaints) = piped("let quit = 3;\nquit\n");
     assert_eq!((code, &*replies, &*complaints), (0, "3\n", ""));
@@ -233,7 +233,7 @@ fn a_saved_session_comes_to_the_same_end() {
     let (code, loaded, complaints) = piped_in(folder.path(), &["repl", "turn.rhai"], asked);
     assert_eq!((code, &*complaints), (0, ""));
     assert_eq!(loaded.lines().last(), Some(end));
-    let run = told(withy(folder.path()).args(["run", "turn.rhai"]).output().unwrap());
+    let run = message(withy(folder.path()).args(["run", "turn.rhai"]).output().unwrap());
     assert_eq!(run.0, 0, "{}", run.2);
 }
 
@@ -287,9 +287,9 @@ fn files_are_told_when_they_are_written() {
 fn commands_step_by_a_tolerance_and_take_it_back() {
     let adaptive = SPINNING.replace("dt: 0.1", "dt: adaptive(#{ tolerance: 1e-3 })");
     let (code, replies, complaints) = piped(&format!("{adaptive}:step 3\n:back 3\n:run 1\n"));
-    let told = format!("{replies}{complaints}");
-    assert_eq!(code, 0, "{told}");
+    let message = format!("{replies}{complaints}");
+    assert_eq!(code, 0, "{message}");
     for place in ["after 3 steps", "t = 0 after 0 steps", "t = 1 after"] {
-        assert!(told.contains(place), "{place}: {told}");
+        assert!(message.contains(place), "{place}: {message}");
     }
 }

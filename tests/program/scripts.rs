@@ -32,8 +32,11 @@ fn expect_content(file: &str, bytes: &[u8]) {
     }
     let text = std::str::from_utf8(bytes).unwrap();
     if file.ends_with(".svg") {
-        let told = text.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
-        assert!(told.split(" | ").filter(|text| !text.is_empty()).count() > 3, "{file}: {told}");
+        let message = text.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
+        assert!(
+            message.split(" | ").filter(|text| !text.is_empty()).count() > 3,
+            "{file}: {message}"
+        );
         assert!(text.contains("<polyline"), "{file} has no line");
         return;
     }

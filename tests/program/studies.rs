@@ -78,8 +78,8 @@ fn a_wrong_reference_is_told_before_anything_runs() {
     for command in ["study", "run"] {
         let output = withy(&[command], &file).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
-        let told = said(&output);
-        assert!(told.contains("no row at t = 0.5; the nearest rows are at t = 1"), "{told}");
+        let message = said(&output);
+        assert!(message.contains("no row at t = 0.5; the nearest rows are at t = 1"), "{message}");
     }
 }
 
@@ -90,8 +90,9 @@ fn a_reference_without_a_number_is_told_with_its_place() {
     fs::write(folder.path().join("turned.csv"), TURNED.replace("1.6829", "nan")).unwrap();
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    let told = "\"turned.csv\": line 3, column 'ytip', holds 'nan', which is not a finite number";
-    assert!(said(&output).contains(told), "{}", said(&output));
+    let message =
+        "\"turned.csv\": line 3, column 'ytip', holds 'nan', which is not a finite number";
+    assert!(said(&output).contains(message), "{}", said(&output));
 }
 
 #[test]
@@ -99,7 +100,7 @@ fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told()
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], reference: \"turned.csv\"";
     let (folder, file) = script(options, "");
     let (rows, other) = (TURNED.lines().take(2).collect::<Vec<_>>().join("\n"), "1,1,1,1,0.5\n");
-    for (table, told) in [
+    for (table, message) in [
         (rows, "\"turned.csv\": it has no rows"),
         (format!("{TURNED}{other}"), "lines 3 and 4 are both for t = 1, but have different values"),
         (TURNED.replace(",0.5\n", ",-0.5\n"), "line 3, column 'd_pos', holds '-0.5'"),
@@ -107,7 +108,7 @@ fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told()
         fs::write(folder.path().join("turned.csv"), table).unwrap();
         let output = withy(&["study"], &file).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
-        assert!(said(&output).contains(told), "{}", said(&output));
+        assert!(said(&output).contains(message), "{}", said(&output));
     }
 }
 
@@ -134,8 +135,8 @@ fn what_ran_out_of_patience_is_tried_again() {
     assert_eq!(known, 1);
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let told = "1 of 4 runs are known";
-    assert!(said(&output).contains(told), "{}", said(&output));
+    let message = "1 of 4 runs are known";
+    assert!(said(&output).contains(message), "{}", said(&output));
     assert!(!printed(&output).contains("by a limit"), "{}", printed(&output));
 }
 
@@ -205,8 +206,8 @@ fn finished_studies_are_not_repeated_before_the_whole_script_has_ended() {
     fs::write(&file, text.replace("missing();", "")).unwrap();
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    for told in ["'rod' continues: 4 of 4 runs", "'steps' continues: 4 of 4 runs"] {
-        assert!(said(&output).contains(told), "{}", said(&output));
+    for message in ["'rod' continues: 4 of 4 runs", "'steps' continues: 4 of 4 runs"] {
+        assert!(said(&output).contains(message), "{}", said(&output));
     }
     assert!(!journals.iter().any(|journal| journal.exists()), "nothing is left to go on with");
     let output = withy(&["study"], &file).output().unwrap();

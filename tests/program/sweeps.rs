@@ -145,10 +145,10 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
             format!("100 finished cases are kept in '{}'\n", file.with_file_name(out).display())
         );
     }
-    let refused = |folders: &[&str], told: &str| {
+    let refused = |folders: &[&str], message: &str| {
         let output = joined(folders);
         assert_eq!(output.status.code(), Some(2));
-        assert!(said(&output).contains(told), "{}", said(&output));
+        assert!(said(&output).contains(message), "{}", said(&output));
     };
     refused(&["a", "b"], "of the 3 parts of the study 'flights' these are missing: 2");
     refused(&["nowhere"], "no part of the study 'flights'");
@@ -301,9 +301,12 @@ fn sensitivity_tells_how_many_rows_it_leaves_out() {
     );
     let output = withy(&file, "out").output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    let told = said(&output);
-    let told = told.lines().find(|line| line.contains("the sensitivity of 'y'")).unwrap();
-    assert!(told.contains("of 256 rows") && told.contains("blocks are left out"), "{told}");
+    let message = said(&output);
+    let message = message.lines().find(|line| line.contains("the sensitivity of 'y'")).unwrap();
+    assert!(
+        message.contains("of 256 rows") && message.contains("blocks are left out"),
+        "{message}"
+    );
 }
 
 /// In the long test a million rows within 200 MB, in the short test a tenth of them within 100 MB. A run beyond the limit fails.

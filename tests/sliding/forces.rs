@@ -13,7 +13,7 @@ use withy::simulation::{NoMonitor, Simulation, StepControl, StepSize};
 const TIME: f64 = 0.2;
 
 /// Present force at `TIME` after the given number of steps, and mean force of a step with `TIME` as its midpoint.
-fn told(reference: &str, rule: SlidingRule, entry: &IntegratorEntry, steps: usize) -> [Vec2; 2] {
+fn message(reference: &str, rule: SlidingRule, entry: &IntegratorEntry, steps: usize) -> [Vec2; 2] {
     let start = |dt: f64| {
         let scene = reference_scene(reference, 4, rule);
         Simulation::start(scene, settings(entry.method, dt)).unwrap()
@@ -40,7 +40,7 @@ fn forces_at_the_present_moment_have_the_order_of_the_motion_with_every_rule_and
         for rule in rules {
             for entry in INTEGRATORS {
                 let found =
-                    [50, 100, 200, 400].map(|steps| told(reference, rule.rule, entry, steps));
+                    [50, 100, 200, 400].map(|steps| message(reference, rule.rule, entry, steps));
                 let [present, in_step] = [0, 1].map(|which| -> Vec<f64> {
                     let pairs = found.windows(2);
                     pairs.map(|pair| (pair[0][which] - pair[1][which]).norm()).collect()

@@ -49,7 +49,7 @@ fn wild_scenes_end_or_say_why() {
     let named = std::env::var("WITHY_ENDS").ok();
     let ends = actions.iter().find(|(name, _)| Some(*name) == named.as_deref());
     // Option: adaptive steps for all scenes.
-    let tolerance = std::env::var("WITHY_TOLERANCE").ok().map(|told| told.parse().unwrap());
+    let tolerance = std::env::var("WITHY_TOLERANCE").ok().map(|message| message.parse().unwrap());
     let adaptive = tolerance.map(StepControl::to);
     let mut unexplained = Vec::new();
     let mut rows = vec![Row::default(); Temper::ALL.len()];
@@ -69,9 +69,9 @@ fn wild_scenes_end_or_say_why() {
         let mut simulation = Simulation::start(scene, settings).unwrap();
         let ran = run(&mut simulation, END);
         if let Err(error) = &ran {
-            let told = error.to_string();
-            println!("{name}: {told}");
-            if !WORDS.iter().any(|word| told.contains(word)) {
+            let message = error.to_string();
+            println!("{name}: {message}");
+            if !WORDS.iter().any(|word| message.contains(word)) {
                 unexplained.push(name.clone());
             }
         }

@@ -32,11 +32,11 @@ pub(in crate::cli) fn watch(
     limits: &LimitOptions,
     stop: &AtomicBool,
 ) -> Result<(), ExerciseError> {
-    let mut desk = EventLoop::open(workbook, limits)?;
+    let mut event_loop = EventLoop::open(workbook, limits)?;
     // A panic is caught, so that the terminal can be restored before the panic is reported.
     let done = caught(|| {
         let mut terminal = RawTerminal::enter()?;
-        desk.work(&mut terminal, stop)
+        event_loop.work(&mut terminal, stop)
     });
     let done = done
         .unwrap_or_else(|panic| Err(io::Error::other(format!("internal error of withy: {panic}"))));
@@ -59,7 +59,7 @@ impl<'a> EventLoop<'a> {
         let next = workbook.next()?;
         let exercise = next.unwrap_or(&EXERCISES[0]);
         let painter = ScriptPainter::new();
-        let mut desk = Self {
+        let mut event_loop = Self {
             workbook,
             limits,
             watcher: Watcher::new(workbook),
@@ -69,12 +69,12 @@ impl<'a> EventLoop<'a> {
             painter,
             state: TuiState::open(exercise, shown(&workbook.file(exercise)), workbook.progress()?),
         };
-        desk.run();
+        event_loop.run();
         if next.is_none() {
-            desk.state.page = ScreenPage::List(0);
-            desk.state.notice = Some("All exercises are passed. Congratulations!".into());
+            event_loop.state.page = ScreenPage::List(0);
+            event_loop.state.notice = Some("All exercises are passed. Congratulations!".into());
         }
-        Ok(desk)
+        Ok(event_loop)
     }
 
     fn work(&mut self, terminal: &mut RawTerminal, stop: &AtomicBool) -> io::Result<()> {

@@ -40,11 +40,11 @@ fn judged(state: &TuiState, report: &AttemptReport, columns: usize) -> Vec<Scree
         }
         AttemptOutcome::Error(why) => {
             lines = not_yet("it stops with an error.");
-            lines.extend(trouble(state, why, columns));
+            lines.extend(error_lines(state, why, columns));
         }
         AttemptOutcome::Stopped(why) => {
             lines = not_yet("it was stopped.");
-            lines.extend(trouble(state, why, columns));
+            lines.extend(error_lines(state, why, columns));
         }
         AttemptOutcome::Interrupted => lines = not_yet("it was interrupted and not judged."),
     }
@@ -60,7 +60,7 @@ fn next_actions(state: &TuiState) -> String {
     format!("s shows a solution to compare with yours.\n{on}")
 }
 
-fn trouble(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLine> {
+fn error_lines(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<ScreenLine> {
     let label = match &why.place {
         Some(place) if place.file.replace('\\', "/").ends_with(&state.exercise.file()) => {
             format!("line {}:", place.line)

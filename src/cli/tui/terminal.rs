@@ -82,13 +82,13 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// Waits for the next key, at most for `patience`.
+    /// Waits for the next key, at most for `timeout`.
     /// Returns `None` if no key was pressed during this time, or if another event arrived, for example a change of the window size.
     ///
     /// # Errors
     /// Fails if reading from the terminal fails.
-    pub fn key(&self, patience: Duration) -> io::Result<Option<Key>> {
-        if !event::poll(patience)? {
+    pub fn key(&self, timeout: Duration) -> io::Result<Option<Key>> {
+        if !event::poll(timeout)? {
             return Ok(None);
         }
         Ok(match event::read()? {

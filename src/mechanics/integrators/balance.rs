@@ -58,7 +58,7 @@ impl StepBalance<'_> {
         self.mechanism.add_inertia(self.inertia(), deviation, residual);
     }
 
-    fn culprit(&self, error: &NewtonError, residual: &[f64]) -> Option<FailureSource> {
+    fn failure_source(&self, error: &NewtonError, residual: &[f64]) -> Option<FailureSource> {
         if let NewtonError::Linear { source, .. } = error {
             return Some(FailureSource::Unknown(source.unknown()));
         }
@@ -224,13 +224,13 @@ impl StepSolver {
         let report = match solved {
             Ok(report) => report,
             Err(source) => {
-                let culprit = balance.culprit(&source, &self.residual);
+                let failure_source = balance.failure_source(&source, &self.residual);
                 let source = Box::new(source);
                 return Err(StepError::Newton {
                     interval,
                     source,
                     before: 0,
-                    failure_source: culprit.map(Box::new),
+                    failure_source: failure_source.map(Box::new),
                 });
             }
         };

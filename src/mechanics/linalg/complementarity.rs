@@ -36,7 +36,7 @@ pub fn complementary(
     let count = q.len();
     let pushes = |at: usize| pairings[at] == Pairing::Complementary;
     let mut acts: Vec<bool> = (0..count).map(|at| !pushes(at) || q[at] < 0.0).collect();
-    let (mut fewest, mut patience) = (usize::MAX, MOST_BLOCK_EXCHANGES);
+    let (mut fewest, mut exchanges_left) = (usize::MAX, MOST_BLOCK_EXCHANGES);
     loop {
         let acting: Vec<usize> = (0..count).filter(|at| acts[*at]).collect();
         let mut active = BandedMatrix::zeros(acting.len(), acting.len().saturating_sub(1));
@@ -61,9 +61,9 @@ pub fn complementary(
         let wrong: Vec<usize> = (0..count).filter(|at| pushes(*at)).filter(is_wrong).collect();
         let Some(&last) = wrong.last() else { return Ok(z) };
         if wrong.len() < fewest {
-            (fewest, patience) = (wrong.len(), MOST_BLOCK_EXCHANGES);
-        } else if patience > 0 {
-            patience -= 1;
+            (fewest, exchanges_left) = (wrong.len(), MOST_BLOCK_EXCHANGES);
+        } else if exchanges_left > 0 {
+            exchanges_left -= 1;
         } else {
             acts[last] = !acts[last];
             continue;

@@ -45,8 +45,8 @@ impl Jump {
     }
 }
 
-fn rounded(number: f64) -> f64 {
-    format!("{number:.6e}").parse().unwrap_or(number)
+pub(super) fn rounded(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// Jump or infinite rate of a schedule just after t = 0.

@@ -4,6 +4,8 @@ use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
 
+use super::continuity::rounded;
+
 /// Error of a script function. It is displayed unchanged, and can be downcast to its type.
 #[derive(Debug, Clone)]
 pub struct FunctionError(Rc<dyn Error>);
@@ -75,7 +77,7 @@ pub enum LoadError {
     },
     #[error(transparent)]
     Function(FunctionError),
-    #[error("the schedule is {value} at t = {time}, but it must be finite")]
+    #[error("the schedule is {value} at t = {}, but it must be finite", rounded(*time))]
     NotFinite {
         /// Time [time].
         time: f64,

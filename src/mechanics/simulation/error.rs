@@ -29,7 +29,7 @@ pub enum SimulationError {
     )]
     SideMethod { slider: String, method: &'static str },
     #[error(
-        "a controller with a sampling period of {period:e} would be sampled more than {most} times in a step of dt = {dt:e}"
+        "a controller with a sampling period of {} would be sampled more than {most} times in a step of dt = {}", rounded(*period), rounded(*dt)
     )]
     TooManySamples { period: f64, dt: f64, most: f64 },
     #[error(
@@ -39,19 +39,19 @@ pub enum SimulationError {
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
     End { now: f64, end: f64 },
     #[error(
-        "no step from t = {} converges, down to dt/{divisions} (dt = {}): {source}{conditions}", rounded(*time), step_size(*dt)
+        "no step from t = {} converges, down to dt/{divisions} (dt = {}): {source}{conditions}", rounded(*time), rounded(*dt)
     )]
     Step { time: f64, dt: f64, divisions: u64, source: Box<StepError>, conditions: String },
     #[error(
-        "the tolerance {tolerance} requires steps below the smallest allowed one ({}) at t = {}: the error of a step of dt = {} is {error:.3} times the allowed one", step_size(*smallest), rounded(*time), step_size(*dt)
+        "the tolerance {tolerance} requires steps below the smallest allowed one ({}) at t = {}: the error of a step of dt = {} is {error:.3} times the allowed one", rounded(*smallest), rounded(*time), rounded(*dt)
     )]
     Tolerance { time: f64, tolerance: f64, dt: f64, error: f64, smallest: f64 },
     #[error(
-        "no step from t = {} converges, down to the smallest allowed one, {} (dt = {}): {source}{conditions}", rounded(*time), step_size(*smallest), step_size(*dt)
+        "no step from t = {} converges, down to the smallest allowed one, {} (dt = {}): {source}{conditions}", rounded(*time), rounded(*smallest), rounded(*dt)
     )]
     Smallest { time: f64, dt: f64, smallest: f64, source: Box<StepError>, conditions: String },
     #[error(
-        "slider '{slider}' {event} shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), step_size(*dt)
+        "slider '{slider}' {event} shortly after t = {}, but no step that ends there converges, down to dt/{divisions} (dt = {}); use a smaller dt or a finer mesh{conditions}", rounded(*time), rounded(*dt)
     )]
     EventLocation {
         slider: String,
@@ -84,10 +84,4 @@ pub enum SimulationError {
     NoSnapshot { target: String, steps: usize, oldest: f64, first: f64, limit: f64 },
     #[error("interrupted at t = {}; the history up to this time is kept", rounded(*time))]
     Interrupted { time: f64 },
-}
-
-/// Formats a step size with at most six significant digits.
-fn step_size(dt: f64) -> String {
-    let rounded: f64 = format!("{dt:.5e}").parse().unwrap_or(dt);
-    format!("{rounded:e}")
 }

@@ -1,4 +1,4 @@
-//! Simulation runs and their recorded results.
+//! Simulation runs and their recorded results. The formulas of a step belong to `integrators`, and the mechanical model to `system`.
 
 mod adaptive;
 mod archive;
@@ -41,7 +41,7 @@ pub use cores::{HAS_THREADS, cores};
 pub use error::SimulationError;
 pub use history::{DriftScales, History, Invariant, Sample};
 pub use monitor::{Monitor, NoMonitor};
-pub use outline::{Configuration, Outline};
+pub use outline::{DrawnConfiguration, Outline};
 pub use progress::WorkCounts;
 pub use recording::Recording;
 pub use release_event::ReleaseEvent;

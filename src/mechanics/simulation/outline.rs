@@ -22,7 +22,7 @@ pub struct Outline {
 
 /// Configuration of a scene for drawing, given by the coordinates of points [length].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Configuration {
+pub struct DrawnConfiguration {
     /// Time [time].
     pub time: f64,
     /// Polyline of each beam [length].
@@ -144,11 +144,11 @@ impl Outline {
     }
 
     /// Computes a configuration for drawing from the control points of all bodies [length]: beams, then particles, then rigid bodies.
-    pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> Configuration {
+    pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> DrawnConfiguration {
         let at = |place: &BodyPoint| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);
         let mut lines: Vec<Vec<Vec2>> = outlines.iter().map(|outline| outline.points(at)).collect();
-        Configuration {
+        DrawnConfiguration {
             time,
             bodies: lines.split_off(beams),
             lines,

@@ -78,8 +78,8 @@ impl Sensitivities {
         let company = SharedFactorStepper::of(settings.method, run.model_mut(), settings.tolerance)
             .ok_or(DerivativeError::Method { method: name })?;
         let start = run.model().state();
-        let twins = |variation| PerturbedRuns::start(run, variation, &start);
-        let parameters = variations.into_iter().map(twins).collect::<Result<_, _>>()?;
+        let perturbation = |variation| PerturbedRuns::start(run, variation, &start);
+        let parameters = variations.into_iter().map(perturbation).collect::<Result<_, _>>()?;
         Ok(Self {
             stepper: company,
             parameters,
@@ -103,8 +103,8 @@ impl Sensitivities {
             return integrator.step(model, interval);
         }
         model.write_state(&mut self.start);
-        for twins in &mut self.parameters {
-            twins.set_perturbed_states(&self.start);
+        for perturbation in &mut self.parameters {
+            perturbation.set_perturbed_states(&self.start);
         }
         let models = self.parameters.iter_mut().flat_map(PerturbedRuns::models);
         let mut companions: Vec<&mut dyn Mechanism> =
@@ -126,11 +126,11 @@ impl Sensitivities {
     }
 
     pub(super) fn apply_drive_jumps(&mut self, interval: Interval) {
-        for twins in &mut self.parameters {
-            for model in twins.models() {
+        for perturbation in &mut self.parameters {
+            for model in perturbation.models() {
                 model.apply_drive_jumps(interval);
             }
-            twins.differentiate();
+            perturbation.differentiate();
         }
     }
 
@@ -150,8 +150,8 @@ impl Sensitivities {
             return Ok(());
         }
         self.start = model.state();
-        for twins in &mut self.parameters {
-            twins.release(release, &self.start)?;
+        for perturbation in &mut self.parameters {
+            perturbation.release(release, &self.start)?;
         }
         if let Some(stepper) = SharedFactorStepper::of(settings.method, model, settings.tolerance) {
             self.stepper = stepper;
@@ -202,7 +202,9 @@ impl fmt::Debug for Sensitivities {
 
 impl Sensitivities {
     pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
-        self.parameters.iter().map(|twins| (twins.name.as_str(), twins.distance))
+        self.parameters
+            .iter()
+            .map(|perturbation| (perturbation.name.as_str(), perturbation.distance))
     }
 
     /// Perturbed run for a parameter.
@@ -217,8 +219,8 @@ impl Sensitivities {
         match &self.end_reason {
             Some(reason) => Err(reason.clone()),
             None => {
-                let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
-                Ok(twins.run(side))
+                let perturbation = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
+                Ok(perturbation.run(side))
             }
         }
     }
@@ -234,8 +236,8 @@ impl Sensitivities {
     ) -> Result<&Simulation, DerivativeError> {
         match &self.end_reason {
             None | Some(DerivativeError::Event { .. } | DerivativeError::NoStep { .. }) => {
-                let twins = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
-                Ok(twins.run(side))
+                let perturbation = self.parameters.get(parameter).ok_or(DerivativeError::None)?;
+                Ok(perturbation.run(side))
             }
             Some(reason) => Err(reason.clone()),
         }
@@ -249,8 +251,9 @@ impl Sensitivities {
         match &self.end_reason {
             Some(reason) => Err(reason.clone()),
             None => {
-                let twins = self.parameters.get_mut(parameter).ok_or(DerivativeError::None)?;
-                Ok(twins.run_mut(side))
+                let perturbation =
+                    self.parameters.get_mut(parameter).ok_or(DerivativeError::None)?;
+                Ok(perturbation.run_mut(side))
             }
         }
     }

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 use super::TimeSeries;
 use crate::elementary::{cos, exp, ln, sin_cos};
+use crate::system::rounded;
 
 /// Largest relative difference of two row spacings that count as equal.
 const EVEN: f64 = 1e-6;
@@ -44,17 +45,13 @@ pub struct SpectrumPeak {
 pub enum SpectrumError {
     #[error(
         "a spectrum needs rows at equal time intervals, but the row at t = {} follows after {} and most others after {}",
-        six_digits(*.time), six_digits(*.found), six_digits(*.expected)
+        rounded(*.time), rounded(*.found), rounded(*.expected)
     )]
     Uneven { time: f64, found: f64, expected: f64 },
     #[error("a spectrum needs at least {FEWEST} rows, there are {rows}")]
     TooFewRows { rows: usize },
     #[error("the value at t = {time} is not a finite number")]
     NoNumber { time: f64 },
-}
-
-fn six_digits(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 impl TimeSeries {

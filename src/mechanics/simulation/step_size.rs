@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::system::rounded;
+
 /// Step size of a run: fixed or variable.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum StepSize {
@@ -40,8 +42,8 @@ pub enum StepSizeError {
     },
     #[error(
         "the tolerance of adaptive steps is {tolerance}, but must be from {} to {}; 1e-4 is a good start",
-        StepControl::LEAST_TOLERANCE,
-        StepControl::MOST_TOLERANCE
+        rounded(StepControl::LEAST_TOLERANCE),
+        rounded(StepControl::MOST_TOLERANCE)
     )]
     Tolerance {
         /// Rejected tolerance [-].
@@ -162,7 +164,7 @@ mod tests {
             assert!(message(dt.into()).contains(&format!("dt is {dt}")));
         }
         for tolerance in [0.0, 1e-12, 1.0, f64::NAN] {
-            assert!(message(StepControl::to(tolerance).into()).contains("from 0.000000001 to 0.1"));
+            assert!(message(StepControl::to(tolerance).into()).contains("from 1e-9 to 0.1"));
         }
         let control = StepControl::to(1e-4);
         assert!(StepSize::from(control).check().is_ok());

@@ -1,4 +1,5 @@
 //! Equilibrium of a scene under its loads, found by load steps, or along the path of equilibria through limit points.
+//! Residual and tangent are those of `system`; small vibrations are in `vibration`.
 
 mod balance;
 mod continuation;

@@ -1,4 +1,4 @@
-//! Scenes, and their assembly into mechanisms for integrators.
+//! Scenes, and their assembly into mechanisms for integrators. The formulas of steps belong to `integrators`, and time loops to `simulation`.
 
 mod assembly;
 mod bodies;
@@ -36,7 +36,7 @@ pub use scene::{
     BeamDefinition, ParticleDefinition, RigidBodyDefinition, Scene, StartMotion, StationVelocity,
 };
 pub use sensors::{
-    Quantity, RECORDABLE, Sensor, SensorSource, Timing, body_energies, section_values,
+    Quantity, RECORDABLE, Sensor, SensorSource, ValueTime, body_energies, section_values,
 };
 pub(crate) use sliders::END_TOLERANCE;
 pub use sliders::{AxialImpact, ContactChange, MasterEnd, MasterLimit, SliderEvent, SliderState};

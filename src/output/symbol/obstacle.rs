@@ -103,7 +103,7 @@ impl PlacedSymbol {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::axis::Axis;
+    use crate::output::axis::PlotAxis;
     use crate::output::canvas::Shape;
     use crate::output::plane::AxisLimits;
 
@@ -118,7 +118,7 @@ mod tests {
     }
 
     fn drawn(obstacle: PlacedSymbol) -> (Vec<Vec<Point>>, Vec<Vec<Point>>) {
-        let axis = Axis::between(0.0, 1.0);
+        let axis = PlotAxis::between(0.0, 1.0);
         let frame = Frame { x: axis, y: axis, ..Frame::default() };
         let mut canvas = Canvas::default();
         PlacedSymbol::draw_obstacles(&[obstacle], &mut canvas, &frame, &PLOT);

@@ -1,9 +1,9 @@
 //! Line charts as text for a terminal.
 
 use super::character_grid::{CharacterGrid, TerminalColour};
-use super::dots::{ACROSS, DOWN, Dots, Trace};
+use super::dots::{ACROSS, CurveStyle, DOWN, Dots};
 use super::{Colours, Glyphs, TerminalStyle};
-use crate::output::axis::{Axis, Factor, Tick};
+use crate::output::axis::{Factor, PlotAxis, Tick};
 use crate::output::chart::LineChart;
 use crate::output::frame::Frame;
 use crate::output::width::columns;
@@ -179,8 +179,8 @@ impl Layout {
 
     fn raster(
         &self,
-        x: &Axis,
-        y: &Axis,
+        x: &PlotAxis,
+        y: &PlotAxis,
         chart: &LineChart,
         series: impl IntoIterator<Item = usize>,
     ) -> Dots {
@@ -193,7 +193,7 @@ impl Layout {
                 false => (f64::NAN, f64::NAN),
             };
             let points = chart.series[index].points.iter().map(seen);
-            dots.curve(points, Trace::Solid, TerminalColour::Series(index));
+            dots.curve(points, CurveStyle::Solid, TerminalColour::Series(index));
         }
         dots
     }

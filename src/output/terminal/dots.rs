@@ -13,7 +13,7 @@ pub const DOWN: usize = 4;
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trace {
+pub enum CurveStyle {
     /// Every dot of a line is drawn.
     Solid,
     /// Every third dot of a line is drawn.
@@ -44,7 +44,7 @@ impl Dots {
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
-        trace: Trace,
+        trace: CurveStyle,
         ink: TerminalColour,
     ) {
         if self.cells.is_empty() {
@@ -52,8 +52,8 @@ impl Dots {
         }
         let (right, bottom) = self.last();
         let every = match trace {
-            Trace::Solid => 1,
-            Trace::Dotted => 3,
+            CurveStyle::Solid => 1,
+            CurveStyle::Dotted => 3,
         };
         for piece in pieces(points, &Area { left: 0.0, top: 0.0, right, bottom }) {
             let stops: Vec<(i64, i64)> =
@@ -142,7 +142,7 @@ mod tests {
 
     fn curve(points: &[Point]) -> Dots {
         let mut dots = Dots::new(4, 2);
-        dots.curve(points.iter().copied(), Trace::Solid, TerminalColour::Plain);
+        dots.curve(points.iter().copied(), CurveStyle::Solid, TerminalColour::Plain);
         dots
     }
 
@@ -177,7 +177,7 @@ mod tests {
         let beyond = curve(&[(-1e6, 0.0), (1e6, 0.0), (1e6, 1e6), (f64::INFINITY, 1.0)]);
         assert_eq!(drawn(&beyond, Glyphs::Ascii), "''''\n    ");
         let mut nothing = Dots::new(0, 3);
-        nothing.curve([(0.0, 0.0)], Trace::Solid, TerminalColour::Plain);
+        nothing.curve([(0.0, 0.0)], CurveStyle::Solid, TerminalColour::Plain);
         assert_eq!(nothing.drawn().count(), 0);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
-use super::dots::{ACROSS, DOWN, Dots, Trace};
+use super::dots::{ACROSS, CurveStyle, DOWN, Dots};
 use crate::output::axis::extent;
 use crate::output::canvas::{Area, Point};
 use crate::output::number::significant;
@@ -112,10 +112,12 @@ impl ConfigurationPicture {
         let area = Area { left: 0.0, top: 0.0, right, bottom };
         for obstacle in &self.obstacles {
             let outline = obstacle.outline(|point| window.place(point), &area);
-            dots.curve(outline, Trace::Solid, TerminalColour::Faint);
+            dots.curve(outline, CurveStyle::Solid, TerminalColour::Faint);
         }
-        let traces =
-            [(&self.reference_beams, Trace::Dotted, true), (&self.lines, Trace::Solid, false)];
+        let traces = [
+            (&self.reference_beams, CurveStyle::Dotted, true),
+            (&self.lines, CurveStyle::Solid, false),
+        ];
         for (lines, trace, is_ghost) in traces {
             for (index, line) in lines.iter().enumerate() {
                 let ink =

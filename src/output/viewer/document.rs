@@ -42,7 +42,7 @@ pub struct Viewer {
     /// Title of the page.
     pub title: String,
     /// Motions that the page shows.
-    pub films: Vec<ViewerData>,
+    pub motions: Vec<ViewerData>,
 }
 
 impl Viewer {
@@ -51,14 +51,14 @@ impl Viewer {
     /// # Errors
     /// Fails if the data cannot be compressed.
     pub fn to_html(&self) -> Result<String, OutputError> {
-        let films = self.films.iter().map(packed_film).collect::<Result<Vec<_>, _>>()?;
+        let motions = self.motions.iter().map(packed_motion).collect::<Result<Vec<_>, _>>()?;
         let hues: Vec<[u8; 3]> = (0..HUE_COUNT)
             .map(|index| {
                 let Colour(red, green, blue) = hue(index);
                 [red, green, blue]
             })
             .collect();
-        let data = json!({ "title": self.title, "hues": hues, "films": films });
+        let data = json!({ "title": self.title, "hues": hues, "films": motions });
         // Within a script element, only the character `<` could end the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
@@ -100,33 +100,34 @@ fn escaped(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-fn packed_film(film: &ViewerData) -> Result<Value, OutputError> {
+fn packed_motion(viewer_data: &ViewerData) -> Result<Value, OutputError> {
     let mut shapes: Vec<Value> = Vec::new();
-    let beams: Vec<Value> = film.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
+    let beams: Vec<Value> =
+        viewer_data.beams.iter().map(|beam| packed_beam(beam, &mut shapes)).collect();
     let particle = |particle: &super::ParticleShape| json!({ "name": particle.name, "at": place(&particle.at, 0) });
     let trail = |trail: &super::Trail| json!({ "name": trail.name, "at": place(&trail.at, 0) });
-    let bodies = View::of(film.points.iter().flatten().copied(), &AxisLimits::default());
+    let bodies = View::of(viewer_data.points.iter().flatten().copied(), &AxisLimits::default());
     let obstacle = |(name, placed): &(String, PlacedSymbol)| {
         let PlacedSymbol { symbol, at, direction } = placed;
         json!({ "kind": symbol.name(), "name": name, "at": at, "direction": direction, "shown": placed.shown_points(&bodies) })
     };
-    let (x, y) = packed_points(film)?;
+    let (x, y) = packed_points(viewer_data)?;
     Ok(json!({
-        "label": film.label,
-        "times": film.times,
+        "label": viewer_data.label,
+        "times": viewer_data.times,
         "x": x,
         "y": y,
         "shapes": shapes,
         "beams": beams,
-        "particles": film.particles.iter().map(particle).collect::<Vec<_>>(),
-        "bodies": film.bodies.iter().map(packed_body).collect::<Vec<_>>(),
-        "symbols": film.signs.iter().map(packed_sign).collect::<Vec<_>>(),
-        "obstacles": film.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
-        "springs": film.springs.iter().map(packed_spring).collect::<Vec<_>>(),
-        "trails": film.trails.iter().map(trail).collect::<Vec<_>>(),
-        "arrows": packed_arrows(&film.arrows, film.times.len())?,
-        "fields": film.fields.iter().map(packed_field).collect::<Result<Vec<_>, _>>()?,
-        "history": packed_history(film)?,
+        "particles": viewer_data.particles.iter().map(particle).collect::<Vec<_>>(),
+        "bodies": viewer_data.bodies.iter().map(packed_body).collect::<Vec<_>>(),
+        "symbols": viewer_data.signs.iter().map(packed_sign).collect::<Vec<_>>(),
+        "obstacles": viewer_data.obstacles.iter().map(obstacle).collect::<Vec<_>>(),
+        "springs": viewer_data.springs.iter().map(packed_spring).collect::<Vec<_>>(),
+        "trails": viewer_data.trails.iter().map(trail).collect::<Vec<_>>(),
+        "arrows": packed_arrows(&viewer_data.arrows, viewer_data.times.len())?,
+        "fields": viewer_data.fields.iter().map(packed_field).collect::<Result<Vec<_>, _>>()?,
+        "history": packed_history(viewer_data)?,
     }))
 }
 
@@ -182,15 +183,17 @@ fn place(place: &PointCombination, from: usize) -> Value {
 }
 
 /// Packs the coordinates of all points, with the same resolution along both axes.
-fn packed_points(film: &ViewerData) -> Result<(Value, Value), OutputError> {
+fn packed_points(viewer_data: &ViewerData) -> Result<(Value, Value), OutputError> {
     let along = |pick: fn(&Point) -> f64| {
-        Quantisation::over(film.points.iter().flatten().map(pick), FINEST)
+        Quantisation::over(viewer_data.points.iter().flatten().map(pick), FINEST)
     };
     let (x, y) = (along(|point| point.0), along(|point| point.1));
     let step = x.step.max(y.step);
-    let shape = (film.points.first().map_or(0, Vec::len), film.points.len());
+    let shape = (viewer_data.points.first().map_or(0, Vec::len), viewer_data.points.len());
     let packed = |scale: Quantisation, pick: fn(&Point) -> f64| {
-        pack(Quantisation { step, ..scale }, shape, |point, frame| pick(&film.points[frame][point]))
+        pack(Quantisation { step, ..scale }, shape, |point, frame| {
+            pick(&viewer_data.points[frame][point])
+        })
     };
     Ok((packed(x, |point| point.0)?, packed(y, |point| point.1)?))
 }
@@ -221,9 +224,10 @@ fn packed_field(field: &ColourField) -> Result<Value, OutputError> {
     Ok(json!({ "name": field.name, "unit": field.unit, "values": values }))
 }
 
-fn packed_history(film: &ViewerData) -> Result<Value, OutputError> {
-    let columns: Vec<&[f64]> = film.columns.iter().map(|column| column.values.as_slice()).collect();
-    let kept = rows_to_keep(film.rows.len(), &columns);
+fn packed_history(viewer_data: &ViewerData) -> Result<Value, OutputError> {
+    let columns: Vec<&[f64]> =
+        viewer_data.columns.iter().map(|column| column.values.as_slice()).collect();
+    let kept = rows_to_keep(viewer_data.rows.len(), &columns);
     let column = |column: &TimeCurve| {
         let values = || kept.iter().map(|row| column.values[*row]);
         let packed = pack(Quantisation::over(values(), FINEST), (1, kept.len()), |_, row| {
@@ -231,8 +235,9 @@ fn packed_history(film: &ViewerData) -> Result<Value, OutputError> {
         })?;
         Ok(json!({ "name": column.name, "unit": column.unit, "values": packed }))
     };
-    let times: Vec<f64> = kept.iter().map(|row| film.rows[*row]).collect();
-    let columns = film.columns.iter().map(column).collect::<Result<Vec<_>, OutputError>>()?;
+    let times: Vec<f64> = kept.iter().map(|row| viewer_data.rows[*row]).collect();
+    let columns =
+        viewer_data.columns.iter().map(column).collect::<Result<Vec<_>, OutputError>>()?;
     Ok(json!({ "times": times, "columns": columns }))
 }
 

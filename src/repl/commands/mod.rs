@@ -1,4 +1,4 @@
-//! Commands of the prompt: a table, and their implementations.
+//! Commands of the prompt: a table, and their implementations. Scripts are evaluated by the shell, not here.
 
 mod help;
 mod inspection;

@@ -144,7 +144,7 @@ fn describe(parameter: &Parameter) -> String {
         Presence::Number(x) => Some(format_number(x)),
         Presence::Integer(n) => Some(n.to_string()),
         Presence::Text(text) => Some(format!("\"{text}\"")),
-        Presence::Boolean(truth) => Some(truth.to_string()),
+        Presence::Boolean(value) => Some(value.to_string()),
     };
     let mut text = format!("{}: {}", parameter.name, parameter.expectation());
     if let Some(default) = default {

@@ -9,6 +9,7 @@ use rhai::{Dynamic, Engine};
 use super::parameter::Parameter;
 use super::parameter_variants::{self, ParameterSet};
 use crate::script::messages::nouns::with_article;
+use crate::script::messages::numbers::format_number;
 
 /// Native type of the language.
 pub trait Scripted: Clone + 'static {
@@ -192,7 +193,9 @@ impl NumberRange {
             Self::Finite | Self::Unlimited => format!("a {noun}"),
             Self::Positive => format!("a positive {noun}"),
             Self::NonNegative => format!("a {noun} of zero or more"),
-            Self::Between(least, most) => format!("a {noun} from {least} to {most}"),
+            Self::Between(least, most) => {
+                format!("a {noun} from {} to {}", format_number(least), format_number(most))
+            }
         }
     }
 }

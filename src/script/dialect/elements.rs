@@ -140,7 +140,7 @@ fn part_map(
             [],
             Some(1),
         )?;
-        let is_passed = truth(native, &answer)?;
+        let is_passed = boolean_result(native, &answer)?;
         if is_passed { &mut passed } else { &mut others }.insert(key, value);
     }
     Ok((passed.into(), others.into()))
@@ -232,12 +232,12 @@ impl<'a> ElementCallback<'a> {
     }
 
     fn test_element(&self, index: usize, element: &mut Dynamic) -> EngineResult<bool> {
-        truth(self.native, &self.call_function(index, element)?)
+        boolean_result(self.native, &self.call_function(index, element)?)
     }
 }
 
 /// Converts the result of a test function of a script to a boolean.
-pub(super) fn truth(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
+pub(super) fn boolean_result(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);
         let refusal = ScriptError::new(format!("a test must return true or false, got {got}"));

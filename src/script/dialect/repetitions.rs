@@ -4,7 +4,7 @@ use std::any::TypeId;
 
 use rhai::{Array, Dynamic, Engine, FnPtr, NativeCallContext};
 
-use super::elements::{array_of, truth};
+use super::elements::{array_of, boolean_result};
 use crate::script::messages::error::EngineResult;
 use crate::script::source::syntax::OWN;
 use crate::script::state::context::Context;
@@ -19,7 +19,7 @@ pub fn install(engine: &mut Engine, context: &Context) {
         engine.register_raw_fn("dedup", &types[..count], move |native, values| {
             let kept = match values.get(1).and_then(|same| (**same).clone().try_cast::<FnPtr>()) {
                 Some(same) => without_repetitions(&native, &context, values, |earlier, later| {
-                    truth(&native, &same.call_raw(&native, None, [earlier, later])?)
+                    boolean_result(&native, &same.call_raw(&native, None, [earlier, later])?)
                 })?,
                 None => {
                     without_repetitions(&native, &context, values, |mut earlier, mut later| {

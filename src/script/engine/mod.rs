@@ -1,4 +1,5 @@
 //! Engine of a run: construction, parsing, execution, imports, and worker threads.
+//! The functions that scripts can call are in `packages` and `library`.
 
 mod build;
 mod imports;

@@ -69,10 +69,10 @@ pub struct Worker {
 }
 
 impl Worker {
-    fn open(blueprint: &EngineConfig, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
+    fn open(config: &EngineConfig, interrupt: Arc<AtomicBool>) -> Result<Self, Diagnostic> {
         let EngineConfig {
             catalog, program, limits, snapshots, inputs, files_read, refusal, ..
-        } = blueprint;
+        } = config;
         let settings = RunSettings {
             folder: program.folder.clone(),
             limits: *limits,
@@ -142,7 +142,7 @@ impl WorkerState {
 }
 
 pub struct WorkerPool<'c, J, R> {
-    posts: &'c [WorkerState],
+    states: &'c [WorkerState],
     jobs: mpsc::Sender<(usize, J)>,
     results: mpsc::Receiver<(usize, R)>,
     is_over: &'c AtomicBool,
@@ -158,7 +158,7 @@ pub enum WorkerEvent<R> {
 
 impl<J, R> WorkerPool<'_, J, R> {
     pub fn size(&self) -> usize {
-        self.posts.len()
+        self.states.len()
     }
 
     /// Queues a job. The result of the job has the same number.
@@ -184,7 +184,7 @@ impl<J, R> WorkerPool<'_, J, R> {
         match self.results.recv_timeout(PULSE) {
             Ok((number, result)) => WorkerEvent::Done(number, result),
             Err(mpsc::RecvTimeoutError::Timeout) => {
-                self.posts.iter().for_each(|post| post.stop_after(self.wall));
+                self.states.iter().for_each(|state| state.stop_after(self.wall));
                 WorkerEvent::Timeout
             }
             Err(mpsc::RecvTimeoutError::Disconnected) => WorkerEvent::NoWorkers,
@@ -197,22 +197,22 @@ impl<J, R> WorkerPool<'_, J, R> {
 ///
 /// # Errors
 /// Fails if no worker can be created.
-pub fn with_crew<J: Send, R: Send, T>(
-    blueprint: &EngineConfig,
+pub fn with_worker_pool<J: Send, R: Send, T>(
+    config: &EngineConfig,
     wall: Duration,
     work: impl Fn(&Worker, J) -> R + Sync,
     panicked: impl Fn(String) -> R + Sync,
     drive: impl FnOnce(&WorkerPool<J, R>) -> T,
 ) -> Result<T, ScriptError> {
     let is_over = AtomicBool::new(false);
-    let (count, stack) = blueprint.workers;
-    let posts: Vec<WorkerState> = (0..count).map(|_| WorkerState::default()).collect();
+    let (count, stack) = config.workers;
+    let states: Vec<WorkerState> = (0..count).map(|_| WorkerState::default()).collect();
     let (jobs, given) = mpsc::channel();
     let (done, results) = mpsc::channel();
     let given = Mutex::new(given);
     let next = || given.lock().ok()?.recv().ok();
-    let labour = |post: &WorkerState, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
-        let worker = match Worker::open(blueprint, Arc::clone(&post.interrupt)) {
+    let run_worker = |state: &WorkerState, done: mpsc::Sender<_>| -> Result<(), Diagnostic> {
+        let worker = match Worker::open(config, Arc::clone(&state.interrupt)) {
             Err(_) if is_over.load(Ordering::Relaxed) => return Ok(()),
             opened => opened?,
         };
@@ -220,10 +220,10 @@ pub fn with_crew<J: Send, R: Send, T>(
             if is_over.load(Ordering::Relaxed) {
                 break;
             }
-            post.begin(Some(Instant::now()));
+            state.begin(Some(Instant::now()));
             let result = caught(|| work(&worker, job)).unwrap_or_else(&panicked);
-            post.begin(None);
-            post.interrupt.store(false, Ordering::Relaxed);
+            state.begin(None);
+            state.interrupt.store(false, Ordering::Relaxed);
             if done.send((number, result)).is_err() {
                 break;
             }
@@ -231,19 +231,19 @@ pub fn with_crew<J: Send, R: Send, T>(
         Ok(())
     };
     thread::scope(|scope| {
-        let hire = |post| {
-            let (done, labour, limits) = (done.clone(), &labour, blueprint.limits);
+        let spawn = |state| {
+            let (done, run_worker, limits) = (done.clone(), &run_worker, config.limits);
             let is_over = &is_over;
             scope.spawn(move || {
-                let ended = on_stack(stack, &limits, || labour(post, done)).flatten();
+                let ended = on_stack(stack, &limits, || run_worker(state, done)).flatten();
                 if is_over.load(Ordering::Relaxed) { Ok(()) } else { ended }
             })
         };
-        let running: Vec<_> = posts.iter().map(hire).collect();
+        let running: Vec<_> = states.iter().map(spawn).collect();
         drop(done);
-        let crew = WorkerPool { posts: &posts, jobs, results, is_over: &is_over, wall };
-        let driven = drive(&crew);
-        crew.dismiss();
+        let pool = WorkerPool { states: &states, jobs, results, is_over: &is_over, wall };
+        let driven = drive(&pool);
+        pool.dismiss();
         let ends = running.into_iter().filter_map(|worker| worker.join().ok());
         match ends.collect::<Result<Vec<()>, Diagnostic>>() {
             Ok(_) => Ok(driven),
@@ -258,6 +258,6 @@ pub fn with_crew<J: Send, R: Send, T>(
 impl<J, R> WorkerPool<'_, J, R> {
     fn dismiss(self) {
         self.is_over.store(true, Ordering::Relaxed);
-        self.posts.iter().for_each(|post| post.interrupt.store(true, Ordering::Relaxed));
+        self.states.iter().for_each(|state| state.interrupt.store(true, Ordering::Relaxed));
     }
 }

@@ -1,4 +1,5 @@
 //! Texts and types for messages, used by all language modules: errors, numbers, nouns, suggestions, checks, and reasons for a stop.
+//! Messages on errors of scripts are composed in `diagnose`.
 
 pub mod advice;
 pub(crate) mod brief;

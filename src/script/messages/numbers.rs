@@ -4,6 +4,7 @@ use rhai::{Array, Dynamic, Engine, INT, ImmutableString, Map};
 
 use super::nouns::with_article;
 pub(crate) use crate::output::format_number;
+use crate::output::significant;
 
 /// Largest integer up to which all integers are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
@@ -37,7 +38,7 @@ pub fn describe(engine: &Engine, value: &Dynamic) -> String {
         return format!("the text {}", shortened(&text));
     }
     if let Some(x) = as_number(value) {
-        return if value.is_int() { value.to_string() } else { format_number(x) };
+        return if value.is_int() { value.to_string() } else { six_digits(x) };
     }
     if let Ok(truth) = value.as_bool() {
         return truth.to_string();
@@ -52,6 +53,13 @@ pub fn describe(engine: &Engine, value: &Dynamic) -> String {
         return "nothing".into();
     }
     with_article(engine.map_type_name(value.type_name()))
+}
+
+/// Formats a number with six significant digits, or with all digits if six would make it a whole number.
+fn six_digits(x: f64) -> String {
+    let rounded = significant(x, 6);
+    let is_misleading = x.fract() != 0.0 && rounded.parse().is_ok_and(|y: f64| y.fract() == 0.0);
+    if is_misleading { format_number(x) } else { rounded }
 }
 
 fn shortened(text: &ImmutableString) -> String {

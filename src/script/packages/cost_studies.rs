@@ -89,8 +89,8 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         RunMode::Run => context.studies().repeats.unwrap_or(options.repeats),
     };
-    let patience = case_limits(call, RunLimits::default().wall.as_secs_f64());
-    let costs = step_costs(&cases, patience, repeats, &mut || context.stopped_by().is_none());
+    let limits = case_limits(call, RunLimits::default().wall.as_secs_f64());
+    let costs = step_costs(&cases, limits, repeats, &mut || context.stopped_by().is_none());
     let Some(costs) = costs else {
         return Err(context.why_stopped("a study of costs"));
     };

@@ -43,12 +43,12 @@ pub const TABLE: BindingTable = BindingTable {
 
 const NAME: Parameter = text("name").doc("name, as in --set NAME=VALUE");
 const DEFAULT: Parameter = of_any_type("default").doc("value without --set; it fixes the type");
-const UNIT: Parameter = either("unit", &[Kind::Text, Kind::Options(InputOptions::KEYS)])
+const UNIT: Parameter = either("unit", &[Kind::Text, Kind::Options(InputFunctionOptions::KEYS)])
     .doc("unit, such as \"N\", or a map of options")
     .optional();
 
 option_set! {
-    struct InputOptions {
+    struct InputFunctionOptions {
         unit: Option<String> = text("unit").doc("unit of the value, for messages and lists").optional(),
         min: Option<f64> = number("min").doc("smallest allowed number").optional(),
         max: Option<f64> = number("max").doc("largest allowed number").optional(),
@@ -90,10 +90,10 @@ fn declaration(call: &Call) -> Result<InputDeclaration, ScriptError> {
         return Err(call.error(message).hint(hint).at(CallPart::Argument(1)));
     };
     let options = match call.get_if::<Options>("unit") {
-        Some(options) => InputOptions::of(&options)?,
-        None => InputOptions {
+        Some(options) => InputFunctionOptions::of(&options)?,
+        None => InputFunctionOptions {
             unit: call.optional_text("unit")?,
-            ..InputOptions::of(&Options::defaults(InputOptions::KEYS))?
+            ..InputFunctionOptions::of(&Options::defaults(InputFunctionOptions::KEYS))?
         },
     };
     let unit = options.unit.unwrap_or_default();

@@ -84,20 +84,24 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let plan = StabilityPlan::read(call, &options)?;
     let made = plan.cases(call, &options)?;
     let context = call.context();
-    let patience = case_limits(call, options.patience);
+    let limits = case_limits(call, options.patience);
     let shown = MapColouring::ALL.iter().find(|(name, _)| *name == options.show);
     let shown = shown.map_or(MapColouring::EnergyGrowth, |(_, shown)| *shown);
-    let desk = CaseRunner::open(context, &plan.name)?;
+    let runner = CaseRunner::open(context, &plan.name)?;
     let verdicts = match context.mode() {
         RunMode::DryRun => {
             vec![StabilityVerdict::not_started(CaseOutcome::Finished); made.len()]
         }
         RunMode::Run => {
             let task = CaseTask { name: "cells", parts: &[] };
-            let work = |case: &_, stop: &_| StabilityVerdict::of(case, patience, stop);
+            let work = |case: &_, stop: &_| StabilityVerdict::of(case, limits, stop);
             let cases: Vec<Case> = made.iter().flatten().cloned().collect();
-            let verdicts =
-                desk.in_parallel(task, &cases, |verdict: &StabilityVerdict| verdict.steps, work)?;
+            let verdicts = runner.in_parallel(
+                task,
+                &cases,
+                |verdict: &StabilityVerdict| verdict.steps,
+                work,
+            )?;
             let pretended =
                 || vec![Ok(StabilityVerdict::not_started(CaseOutcome::Finished)); cases.len()];
             let verdicts = verdicts.unwrap_or_else(pretended);

@@ -326,7 +326,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
             )
             .at(CallPart::Argument(0)));
     };
-    let (used, rows) = (sweep.telling_rows(&result), sweep.design.rows);
+    let (used, rows) = (sweep.usable_rows(&result), sweep.design.rows);
     if used < rows && call.context().mode() == RunMode::Run {
         let failed = sweep.results.failures().len();
         let message = format!(

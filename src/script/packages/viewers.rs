@@ -20,7 +20,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::messages::suggest::nearest;
 use crate::script::presentation::plots::column_hint;
-use crate::script::presentation::viewer_data::{FIELDS, FieldReader, ViewerOptions, film};
+use crate::script::presentation::viewer_data::{FIELDS, FieldReader, ViewerOptions, viewer_data};
 use crate::script::state::settings::RunMode;
 
 pub const TABLE: BindingTable = BindingTable {
@@ -105,13 +105,13 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let trails = trails.map(|trails| assigned(&trails, &simulations)).transpose()?;
     let fields = fields(call, &options)?;
     let fields: Vec<&str> = fields.iter().map(String::as_str).collect();
-    let mut films = Vec::new();
+    let mut motions = Vec::new();
     for (index, (of, label)) in simulations.iter().zip(labels).enumerate() {
         call.proceed()?;
         let span = span(call, of, &options)?;
         let most = options.count("frames")?;
         let frames = of.simulation().frames_between(span.0, span.1, most);
-        let wishes = ViewerOptions {
+        let viewer_options = ViewerOptions {
             span,
             inside: inside(call, of, &frames, (&fields, options.has("fields")))?,
             frames,
@@ -120,11 +120,11 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
             columns: &columns(call, of, &options)?,
             fields: &fields,
         };
-        films.push(film(&of.simulation(), wishes)?);
+        motions.push(viewer_data(&of.simulation(), viewer_options)?);
     }
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
-    let page = Viewer { title, films }.to_html()?;
+    let page = Viewer { title, motions }.to_html()?;
     call.context().write_file(&file, page.as_bytes())?;
     Ok(Dynamic::UNIT)
 }

@@ -21,7 +21,7 @@ pub struct SectionForceProfile {
     /// Time as text; may be empty.
     pub when: String,
     beams: Vec<BeamProfile>,
-    scenery: MechanismOutline,
+    outline: MechanismOutline,
 }
 
 struct BeamProfile {
@@ -68,7 +68,7 @@ impl SectionForceProfile {
             title: scene.name.clone(),
             when: String::new(),
             beams: beams.collect::<Result<_, SystemError>>()?,
-            scenery: MechanismOutline {
+            outline: MechanismOutline {
                 bodies: drawn.bodies.iter().map(|body| body.iter().map(plain).collect()).collect(),
                 symbols: at.symbols(model)?,
             },
@@ -77,7 +77,7 @@ impl SectionForceProfile {
 
     /// Removes symbols that are not drawn.
     pub fn with_symbols(mut self, shown: Visibility) -> Self {
-        self.scenery.symbols = shown.visible(self.scenery.symbols);
+        self.outline.symbols = shown.visible(self.outline.symbols);
         self
     }
 
@@ -102,7 +102,7 @@ impl SectionForceProfile {
         let picture = StripPicture::new(self.heading(quantity))
             .caption(format!("{}; {caption}", quantity.label()))
             .side(quantity.side)
-            .scenery(self.scenery.clone());
+            .outline(self.outline.clone());
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
@@ -125,7 +125,7 @@ impl SectionForceProfile {
             _ => format!("[{}]", quantity.dimension),
         };
         let picture =
-            FieldPicture::new(self.heading(quantity), label).scenery(self.scenery.clone());
+            FieldPicture::new(self.heading(quantity), label).outline(self.outline.clone());
         self.beams.iter().fold(picture, |picture, beam| {
             let value = |at: &BeamSample| (plain(&at.position), (quantity.of)(at).abs());
             picture.beam(beam.along.iter().map(value).collect())

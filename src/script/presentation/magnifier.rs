@@ -4,7 +4,7 @@ use super::travel::{Travel, joint_ends};
 use crate::beams::Station;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::joints::Partner;
-use crate::simulation::{Configuration, Simulation};
+use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
 /// Magnification of deformations since the start.
@@ -14,7 +14,7 @@ pub struct Magnifier<'a> {
     simulation: &'a Simulation,
     factor: f64,
     travel: Travel,
-    start: Configuration,
+    start: DrawnConfiguration,
     joints: Vec<Vec<Station>>,
 }
 
@@ -78,7 +78,10 @@ impl<'a> Magnifier<'a> {
     ///
     /// # Errors
     /// Fails if a station lies outside its beam.
-    pub fn configuration(&self, now: &Configuration) -> Result<Configuration, SystemError> {
+    pub fn configuration(
+        &self,
+        now: &DrawnConfiguration,
+    ) -> Result<DrawnConfiguration, SystemError> {
         let bodies = self.rigid_motions(now)?;
         let start = &self.start;
         let first = self.simulation.scene().beams.len();
@@ -88,7 +91,7 @@ impl<'a> Magnifier<'a> {
         let particles = (first..).zip(particles);
         let owners = self.owners_of_marks();
         let marks = owners.zip(start.marks.iter().zip(&now.marks));
-        Ok(Configuration {
+        Ok(DrawnConfiguration {
             time: now.time,
             lines: lines
                 .map(|(body, (start, now))| bodies.magnified_positions(body, start, now))
@@ -109,7 +112,7 @@ impl<'a> Magnifier<'a> {
     ///
     /// # Errors
     /// Fails if a station lies outside its beam.
-    pub fn rigid_motions(&self, now: &Configuration) -> Result<MagnifiedBodies, SystemError> {
+    pub fn rigid_motions(&self, now: &DrawnConfiguration) -> Result<MagnifiedBodies, SystemError> {
         let mut motions = Vec::new();
         for (body, joints) in self.joints.iter().enumerate() {
             let is_held = self.travel.is_held(body);
@@ -136,7 +139,7 @@ impl<'a> Magnifier<'a> {
         &self,
         body: usize,
         joints: &[Station],
-        now: &Configuration,
+        now: &DrawnConfiguration,
     ) -> Result<RigidMotion, SystemError> {
         let [start, end] = [0.0, now.time].map(|time| positions(self.simulation, joints, time));
         let joints = [start?, end?];
@@ -156,7 +159,7 @@ impl<'a> Magnifier<'a> {
         Ok(RigidMotion { from, to, turn, shift: Vec2::zeros() })
     }
 
-    fn points(&self, body: usize, of: &Configuration) -> Vec<Vec2> {
+    fn points(&self, body: usize, of: &DrawnConfiguration) -> Vec<Vec2> {
         let particle = body.checked_sub(self.simulation.scene().beams.len());
         let Some(particle) = particle else { return of.lines[body].clone() };
         let outline = self.outlined().position(|other| other == body);
@@ -168,7 +171,7 @@ impl<'a> Magnifier<'a> {
     fn shifts(
         &self,
         bodies: &MagnifiedBodies,
-        now: &Configuration,
+        now: &DrawnConfiguration,
     ) -> Result<Vec<(usize, Vec2)>, SystemError> {
         let scene = self.simulation.scene();
         let mut shifts = Vec::new();

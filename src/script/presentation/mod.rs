@@ -1,4 +1,4 @@
-//! Presentation of values as text at the prompt, and in charts and coloured pictures.
+//! Presentation of values as text at the prompt, and in charts and coloured pictures. Drawing and file formats belong to `output`.
 
 pub(crate) mod along;
 pub(crate) mod arrays;

@@ -9,7 +9,7 @@ use crate::output::{
     Symbol, TerminalStyle, format_number, significant,
 };
 use crate::script::messages::error::ScriptError;
-use crate::simulation::{Configuration, Simulation};
+use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
 /// Largest number of spans for which knots are marked by default.
@@ -202,7 +202,10 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
 }
 
 /// Recorded configuration nearest to a time. For the present time, the present configuration, even if it is not recorded.
-fn configuration(simulation: &Simulation, time: f64) -> Result<Option<Configuration>, SystemError> {
+fn configuration(
+    simulation: &Simulation,
+    time: f64,
+) -> Result<Option<DrawnConfiguration>, SystemError> {
     Ok(match time >= simulation.time() {
         true => Some(simulation.configuration()?),
         false => simulation.configuration_near(time)?,
@@ -216,7 +219,7 @@ pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     spans <= MOST_SPANS_WITH_DOTS
 }
 
-pub fn snapshot(configuration: &Configuration) -> MotionFrame {
+pub fn snapshot(configuration: &DrawnConfiguration) -> MotionFrame {
     let plain = |point: &Vec2| (point.x, point.y);
     let plain_line = |line: &Vec<Vec2>| line.iter().map(plain).collect();
     MotionFrame {

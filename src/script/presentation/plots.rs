@@ -8,7 +8,7 @@ use crate::output::{
 };
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::suggest::nearest;
-use crate::simulation::{Configuration, History, Invariant, Simulation};
+use crate::simulation::{DrawnConfiguration, History, Invariant, Simulation};
 
 const DIGITS: usize = 6;
 /// Smallest height of one of several charts in a terminal [lines].
@@ -190,7 +190,7 @@ pub fn configuration_summary(
 fn shown_at(
     simulation: &Simulation,
     time: Option<f64>,
-) -> Result<Option<Configuration>, ScriptError> {
+) -> Result<Option<DrawnConfiguration>, ScriptError> {
     Ok(match time {
         Some(time) => simulation.configuration_near(time)?,
         None => Some(simulation.configuration()?),

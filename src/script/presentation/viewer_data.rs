@@ -46,9 +46,12 @@ pub struct ViewerOptions<'a> {
 ///
 /// # Errors
 /// Fails if nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
-pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData, ScriptError> {
-    let (from, to) = wishes.span;
-    let shown = FrameSelection::of(simulation, wishes.frames);
+pub fn viewer_data(
+    simulation: &Simulation,
+    options: ViewerOptions,
+) -> Result<ViewerData, ScriptError> {
+    let (from, to) = options.span;
+    let shown = FrameSelection::of(simulation, options.frames);
     let history = simulation.history().between(from, to);
     let column = |name: &String| TimeCurve {
         name: name.replace('_', " "),
@@ -56,7 +59,7 @@ pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData
         values: history.column(name).unwrap_or_default(),
     };
     Ok(ViewerData {
-        label: wishes.label,
+        label: options.label,
         times: shown.indices.iter().map(|&at| simulation.trajectory().times()[at]).collect(),
         points: shown.frames.iter().map(|bodies| plain(bodies.iter().flatten())).collect(),
         beams: beams(simulation, &shown)?,
@@ -68,10 +71,10 @@ pub fn film(simulation: &Simulation, wishes: ViewerOptions) -> Result<ViewerData
             .map(|(name, placed)| (name.to_owned(), placed))
             .collect(),
         arrows: arrows(simulation, &shown)?,
-        trails: trails(simulation, &shown, wishes.trails)?,
-        fields: fields(simulation, &shown, wishes.fields, wishes.inside)?,
+        trails: trails(simulation, &shown, options.trails)?,
+        fields: fields(simulation, &shown, options.fields, options.inside)?,
         rows: history.samples().iter().map(|row| row.measures.time).collect(),
-        columns: wishes.columns.iter().map(column).collect(),
+        columns: options.columns.iter().map(column).collect(),
     })
 }
 

@@ -73,15 +73,15 @@ impl<'c> CaseRunner<'c> {
     /// # Errors
     /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
-        let wishes = context.studies();
+        let options = context.studies();
         let path = |file: String| context.output().path_of(&file);
-        let journal = match (wishes.part, wishes.merge.as_slice()) {
+        let journal = match (options.part, options.merge.as_slice()) {
             (Some(part), _) => {
-                let kept = (wishes.journal, JournalLifetime::Persistent);
+                let kept = (options.journal, JournalLifetime::Persistent);
                 context.journals().open(path(part.file(name))?, kept)?
             }
             (None, []) => {
-                let kept = (wishes.journal, JournalLifetime::Run);
+                let kept = (options.journal, JournalLifetime::Run);
                 context.journals().open(path(format!("{name}.journal"))?, kept)?
             }
             (None, _) if context.mode() == RunMode::DryRun => None,
@@ -130,29 +130,30 @@ impl<'c> CaseRunner<'c> {
         self.report_known(task, known, cases.len());
         self.context.progress().begin_cases(&self.name, cases.len());
         let asked: Vec<Case> = unknown.iter().map(|at| cases[*at].clone()).collect();
-        let (mut done, mut trouble) = (known, None);
+        let (mut done, mut write_error) = (known, None);
         let context = self.context;
         let stop = AtomicBool::new(false);
         let found = on_all_cores(
             &asked,
             &stop,
             |case| work(case, &stop),
-            |news| {
-                if let Some((number, result)) = news {
+            |completed| {
+                if let Some((number, result)) = completed {
                     done += 1;
                     context.progress().report_case(done);
                     if let Ok(result) = result {
                         context.meter().count_steps(steps_of(result));
-                        trouble = self.write(task, &asked[number], result).err();
+                        write_error = self.write(task, &asked[number], result).err();
                     }
                 }
                 let has_steps = done == cases.len() || context.meter().allows_a_step();
-                let may_go_on = trouble.is_none() && has_steps && context.stopped_by().is_none();
+                let may_go_on =
+                    write_error.is_none() && has_steps && context.stopped_by().is_none();
                 if may_go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
         context.progress().end();
-        trouble.map_or(Ok(()), Err)?;
+        write_error.map_or(Ok(()), Err)?;
         for (at, result) in unknown.into_iter().zip(found) {
             results[at] = result;
         }

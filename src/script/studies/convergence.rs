@@ -27,15 +27,15 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     if plan.subjects.len() > 1 {
         reference::expect_finer_than_all_meshes(call, options.reference.as_ref())?;
     }
-    let desk = CaseRunner::open(call.context(), &plan.name)?;
+    let runner = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let found = match call.context().mode() {
         RunMode::DryRun => None,
-        RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
+        RunMode::Run => reference.trials(call, &runner, &plan, &cases)?,
     };
-    let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
+    let (trials, reference_solution) = found.unwrap_or_else(|| Reference::no_trials(&cases));
     let size = |subject: usize, settings: &SimulationSettings| match refined {
         RefinedParameter::Step => match settings.dt {
             StepSize::Fixed(dt) => dt,
@@ -53,7 +53,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
         for (size, trial) in rungs.iter().filter(|(_, trial)| !trial.outcome.is_finished()) {
             failures.push((*size, *method, trial.outcome.describe()));
         }
-        let by = (plan.observables(), &truth, plan.length);
+        let by = (plan.observables(), &reference_solution, plan.length);
         ladders.extend(Convergence::ladders_of(*method, &rungs, by));
     }
     let fixed = match refined {
@@ -61,8 +61,16 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
         RefinedParameter::Mesh => format!("dt = {}", labels::step_size(&plan.all_settings()[0])),
     };
     let (name, times, length) = (plan.name, plan.times, plan.length);
-    let study =
-        Convergence { name, refined, fixed, times, length, reference: truth, ladders, failures };
+    let study = Convergence {
+        name,
+        refined,
+        fixed,
+        times,
+        length,
+        reference: reference_solution,
+        ladders,
+        failures,
+    };
     print_table(call.context(), &summary(&study));
     write(call, &study)?;
     Ok(study)

@@ -8,7 +8,7 @@ use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 /// Largest difference of two orders that count as equal.
 const SAME_ORDER: f64 = 0.3;
 
-struct Slope {
+struct SlopeLine {
     label: String,
     ends: [(f64, f64); 2],
 }
@@ -48,7 +48,7 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
         let name = labels::method(&ladder.method);
         chart =
             chart.series(Series::new(name, points).ink(ink).marker(marker).stroke(Stroke::Marked));
-        let Some(Slope { label, ends }) = slope else { continue };
+        let Some(SlopeLine { label, ends }) = slope else { continue };
         let [(coarse, large), (fine, small)] = ends;
         // Overlapping lines of the same order share one label.
         let is_near =
@@ -65,20 +65,20 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
 
 /// Refinement levels that can be used to compute an order, from coarse to fine.
 fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
-    (0..ladder.sizes.len()).filter(|rung| ladder.tells_an_order(*rung))
+    (0..ladder.sizes.len()).filter(|rung| ladder.counts_for_order(*rung))
 }
 
-fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slope> {
+fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<SlopeLine> {
     let last = usable_rungs(ladder).next_back()?;
     let line = through(ladder, last, f64::from(order));
-    Some(Slope {
+    Some(SlopeLine {
         label: format!("order {order}"),
         ends: [line(points.first()?.0)?, line(ladder.sizes[last])?],
     })
 }
 
 /// Line of the order observed for the finest sizes. It covers the range of nearly equal neighbouring orders. `None` outside the asymptotic range.
-fn observed_order_line(ladder: &Refinement) -> Option<Slope> {
+fn observed_order_line(ladder: &Refinement) -> Option<SlopeLine> {
     let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];
     for rung in (1..last).rev() {
@@ -95,7 +95,7 @@ fn observed_order_line(ladder: &Refinement) -> Option<Slope> {
     let order = orders.iter().sum::<f64>() / orders.len() as f64;
     let line = through(ladder, last, order);
     let coarsest = ladder.sizes[last - orders.len()];
-    Some(Slope {
+    Some(SlopeLine {
         label: format!("order {order:.1}"),
         ends: [line(coarsest)?, line(ladder.sizes[last])?],
     })

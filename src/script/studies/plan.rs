@@ -28,7 +28,7 @@ pub struct ErrorStudyPlan {
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,
-    pub patience: RunLimits,
+    pub limits: RunLimits,
 }
 
 impl ErrorStudyPlan {
@@ -61,8 +61,8 @@ impl ErrorStudyPlan {
             .collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
         let length = options.length.unwrap_or_else(|| size_of(&subjects[0].scene));
-        let patience = case_limits(call, options.patience);
-        Ok(Self { name, subjects, methods, dts, times, length, patience })
+        let limits = case_limits(call, options.patience);
+        Ok(Self { name, subjects, methods, dts, times, length, limits })
     }
 
     pub fn settings(method: Method, dt: StepSize) -> SimulationSettings {
@@ -86,7 +86,7 @@ impl ErrorStudyPlan {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
         let built =
-            case.start(self.patience).map_err(|outcome| ScriptError::new(outcome.describe()))?;
+            case.start(self.limits).map_err(|outcome| ScriptError::new(outcome.describe()))?;
         Ok(built.history().clone())
     }
 

@@ -22,38 +22,40 @@ pub fn study(
 ) -> Result<Precision, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let reference = Reference::read(call, options, &mut plan)?;
-    let rivals = match &timed.rivals {
+    let external_results = match &timed.rivals {
         Some(file) => Some((read_sheet(call, "rivals", file)?, file)),
         None => None,
     };
-    let compared = |truth: &ReferenceSolution| {
-        let Some((sheet, file)) = &rivals else { return Ok(Vec::new()) };
+    let compared = |reference_solution: &ReferenceSolution| {
+        let Some((sheet, file)) = &external_results else { return Ok(Vec::new()) };
         let by = (plan.times.as_slice(), plan.length);
-        ExternalResult::of_sheet(sheet, plan.observables(), truth, by).map_err(|error| {
-            let hint = "rivals are compared at one time, at stations named as in the reference";
-            at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
-        })
+        ExternalResult::of_sheet(sheet, plan.observables(), reference_solution, by).map_err(
+            |error| {
+                let hint = "rivals are compared at one time, at stations named as in the reference";
+                at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
+            },
+        )
     };
     // Errors in the table of other programs are reported before any run.
     compared(&reference.placeholder(call, &plan)?)?;
-    let desk = CaseRunner::open(call.context(), &plan.name)?;
+    let runner = CaseRunner::open(call.context(), &plan.name)?;
     let combinations = all_combinations(&plan.subjects, &plan.all_settings());
     let cases: Vec<Case> =
         combinations.iter().map(|of| of.case(&plan.subjects, &plan.times)).collect();
     let repeats = call.context().studies().repeats.unwrap_or(timed.repeats);
     let found = match call.context().mode() {
         RunMode::DryRun => None,
-        RunMode::Run => reference.trials(call, &desk, &plan, &cases)?,
+        RunMode::Run => reference.trials(call, &runner, &plan, &cases)?,
     };
     let is_found = found.is_some();
-    let (trials, truth) = found.unwrap_or_else(|| Reference::no_trials(&cases));
+    let (trials, reference_solution) = found.unwrap_or_else(|| Reference::no_trials(&cases));
     // Run times of different machines are not comparable. For a study computed in parts, they are measured when the parts are merged.
     let timings = match is_found {
-        true => timings(&desk, &plan, (&cases, &trials), repeats)?,
+        true => timings(&runner, &plan, (&cases, &trials), repeats)?,
         false => vec![None; cases.len()],
     };
-    let rivals = if is_found { compared(&truth)? } else { Vec::new() };
-    let judge = (plan.observables(), &truth, plan.length);
+    let external_results = if is_found { compared(&reference_solution)? } else { Vec::new() };
+    let judge = (plan.observables(), &reference_solution, plan.length);
     let found = combinations.iter().zip(trials).zip(timings);
     let rows = found.map(|((of, trial), timing)| {
         let mesh = plan.subjects[of.subject].mesh.clone();
@@ -65,8 +67,8 @@ pub fn study(
         times: plan.times.clone(),
         length: plan.length,
         observables: plan.observables().to_vec(),
-        reference: truth,
-        external_results: rivals,
+        reference: reference_solution,
+        external_results,
     };
     study.mark_front();
     print_table(call.context(), &table(&study));
@@ -75,7 +77,7 @@ pub fn study(
 }
 
 fn timings(
-    desk: &CaseRunner,
+    runner: &CaseRunner,
     plan: &ErrorStudyPlan,
     (cases, trials): (&[Case], &[RunResult]),
     repeats: usize,
@@ -84,8 +86,8 @@ fn timings(
     let both = cases.iter().zip(trials).filter(|(_, trial)| is_finished(trial));
     let finished: Vec<Case> = both.map(|(case, _)| case.clone()).collect();
     let task = CaseTask { name: "run times", parts: &repeats.to_le_bytes() };
-    let timed = desk.run_sequentially(task, &finished, |case, may_go_on| {
-        Timing::of(case, plan.patience, repeats, may_go_on)
+    let timed = runner.run_sequentially(task, &finished, |case, may_go_on| {
+        Timing::of(case, plan.limits, repeats, may_go_on)
     })?;
     let mut timed = timed.into_iter();
     let of = |trial: &RunResult| if is_finished(trial) { timed.next().flatten() } else { None };

@@ -58,16 +58,21 @@ pub fn chart(study: &Precision) -> LineChart {
         chart = chart.series(look(Series::new(name, best.collect())).stroke(Stroke::MarkersOnly));
     }
     let mut series: Vec<&str> = Vec::new();
-    for rival in &study.external_results {
-        if !series.contains(&rival.series.as_str()) {
-            series.push(&rival.series);
+    for external_result in &study.external_results {
+        if !series.contains(&external_result.series.as_str()) {
+            series.push(&external_result.series);
         }
     }
     for (number, name) in series.into_iter().enumerate() {
-        let own: Vec<_> =
-            study.external_results.iter().filter(|rival| rival.series == name).collect();
-        let points: Vec<(f64, f64)> =
-            own.iter().map(|rival| (rival.run_time, rival.error)).collect();
+        let own: Vec<_> = study
+            .external_results
+            .iter()
+            .filter(|external_result| external_result.series == name)
+            .collect();
+        let points: Vec<(f64, f64)> = own
+            .iter()
+            .map(|external_result| (external_result.run_time, external_result.error))
+            .collect();
         let is_best = crate::analysis::pareto_front(&points);
         let number = methods.len() + number;
         let look = |points: Vec<(f64, f64)>, name: &str| {

@@ -29,7 +29,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     });
     for (error, peer) in pairs {
         let ours = study.cheapest(*error);
-        let rival = peer.and_then(|peer| study.cheapest_of(peer, *error));
+        let external_result = peer.and_then(|peer| study.cheapest_of(peer, *error));
         let mut cells = vec![number(format_number(*error))];
         cells.extend(match ours {
             Some(row) => [
@@ -42,16 +42,18 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         });
         if let Some(peer) = peer {
             cells.push(Cell::Text(peer.to_owned()));
-            cells.extend(match rival {
-                Some(rival) => [
-                    number(labels::milliseconds(rival.run_time)),
-                    number(scientific(rival.error, 2)),
-                    number(labels::drift(rival.energy_drift)),
-                    Cell::Text(format!("{}, {}", rival.series, rival.setting)),
+            cells.extend(match external_result {
+                Some(external_result) => [
+                    number(labels::milliseconds(external_result.run_time)),
+                    number(scientific(external_result.error, 2)),
+                    number(labels::drift(external_result.energy_drift)),
+                    Cell::Text(format!("{}, {}", external_result.series, external_result.setting)),
                 ],
                 None => [none(), none(), none(), Cell::Text("no run".to_owned())],
             });
-            let ratio = ours.zip(rival).map(|(row, rival)| rival.run_time / row.cost_and_error().0);
+            let ratio = ours
+                .zip(external_result)
+                .map(|(row, external_result)| external_result.run_time / row.cost_and_error().0);
             cells.push(ratio.map_or_else(none, |ratio| number(format!("{ratio:.1}"))));
         }
         table.row(cells);

@@ -36,7 +36,7 @@ impl Scripted for FinestRun {
     fn show(&self) -> String {
         let dt = self.dt.map(|dt| format!(", dt = {}", format_number(dt)));
         let method = self.method.map(|method| format!(", {}", labels::method(&method)));
-        let mesh = self.mesh.as_ref().map(|_| ", on a mesh of its own");
+        let mesh = self.mesh.as_ref().map(|_| ", on a finer mesh");
         let settings =
             [mesh.unwrap_or_default(), &method.unwrap_or_default(), &dt.unwrap_or_default()];
         format!("reference: own finest run{}", settings.concat())
@@ -179,7 +179,7 @@ impl Reference {
                 let sheet = read_sheet(call, "reference", file)?;
                 plan.add_columns(call, columns, Some(&sheet))?;
                 let reference = Self::Table(file.clone(), sheet);
-                reference.truth(call, plan, &[])?;
+                reference.reference_solution(call, plan, &[])?;
                 return Ok(reference);
             }
             Some(ReferenceOption::Run(run)) => run.clone(),
@@ -224,7 +224,7 @@ impl Reference {
     }
 
     /// Reference values of the observables. `own` contains the results of the reference run.
-    fn truth(
+    fn reference_solution(
         &self,
         call: &Call,
         plan: &ErrorStudyPlan,
@@ -248,10 +248,10 @@ impl Reference {
                     let message = format!("the reference failed: {source}: {why}");
                     return Err(at_key(call, "reference", message, hint));
                 }
-                let truth = ReferenceSolution::of_run(source, &finest.readings);
-                Ok(coarser
-                    .iter()
-                    .fold(truth, |truth, other| truth.with_errors_from(&other.readings)))
+                let reference_solution = ReferenceSolution::of_run(source, &finest.readings);
+                Ok(coarser.iter().fold(reference_solution, |reference_solution, other| {
+                    reference_solution.with_errors_from(&other.readings)
+                }))
             }
             (Self::ReferenceRun(..), []) => {
                 Err(ScriptError::internal_error("a study has lost its reference"))
@@ -266,7 +266,7 @@ impl Reference {
         plan: &ErrorStudyPlan,
     ) -> Result<ReferenceSolution, ScriptError> {
         match self {
-            Self::Table(..) => self.truth(call, plan, &[]),
+            Self::Table(..) => self.reference_solution(call, plan, &[]),
             Self::ReferenceRun(source, _) => {
                 let nothing = vec![vec![Vec2::zeros(); plan.observables().len()]; plan.times.len()];
                 Ok(ReferenceSolution::of_run(source, &nothing))
@@ -278,23 +278,25 @@ impl Reference {
     pub fn trials(
         &self,
         call: &Call,
-        desk: &CaseRunner,
+        runner: &CaseRunner,
         plan: &ErrorStudyPlan,
         cases: &[Case],
     ) -> Result<Option<(Vec<RunResult>, ReferenceSolution)>, ScriptError> {
         let all: Vec<Case> = self.cases().iter().chain(cases).cloned().collect();
-        let (observables, patience) = (plan.observables(), plan.patience);
+        let (observables, limits) = (plan.observables(), plan.limits);
         let parts = postcard::to_stdvec(observables).unwrap_or_default();
         let task = CaseTask { name: "runs", parts: &parts };
-        let work = |case: &Case, stop: &_| RunResult::of(case, observables, patience, stop);
+        let work = |case: &Case, stop: &_| RunResult::of(case, observables, limits, stop);
         let steps_of = |trial: &RunResult| trial.steps + trial.retries;
-        let Some(results) = desk.in_parallel(task, &all, steps_of, work)? else { return Ok(None) };
+        let Some(results) = runner.in_parallel(task, &all, steps_of, work)? else {
+            return Ok(None);
+        };
         let panicked = |message| RunResult::not_started(CaseOutcome::Panicked { message });
         let mut own: Vec<RunResult> =
             results.into_iter().map(|result| result.unwrap_or_else(panicked)).collect();
         let trials = own.split_off(self.cases().len());
-        let truth = self.truth(call, plan, &own)?;
-        Ok(Some((trials, truth)))
+        let reference_solution = self.reference_solution(call, plan, &own)?;
+        Ok(Some((trials, reference_solution)))
     }
 
     pub fn no_trials(cases: &[Case]) -> (Vec<RunResult>, ReferenceSolution) {

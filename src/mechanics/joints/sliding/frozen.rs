@@ -14,10 +14,10 @@ pub struct Frozen;
 impl SlidingLaw for Frozen {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS] {
         let Some(kink) = &contact.kink else { return Conserving.equations(contact) };
-        let jets = ContactDuals::of(contact);
-        let step = FrozenInStep::of(&jets, kink);
-        let balance = (jets.force - step.inertia).dot(&step.direction) - step.energy_slope;
-        vanish(step.on_path.imbalances((contact, kink), &jets, step.jump, balance))
+        let duals = ContactDuals::of(contact);
+        let step = FrozenInStep::of(&duals, kink);
+        let balance = (duals.force - step.inertia).dot(&step.direction) - step.energy_slope;
+        vanish(step.on_path.imbalances((contact, kink), &duals, step.jump, balance))
     }
 
     fn kink_at_end(&self, contact: &Contact<'_>) -> KinkState {
@@ -38,12 +38,12 @@ struct FrozenInStep<const SLOPES: usize> {
 }
 
 impl<const SLOPES: usize> FrozenInStep<SLOPES> {
-    fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
-        let &ContactDuals { tangent, tangent_change: swing, increment: way, .. } = jets;
+    fn of(duals: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
+        let &ContactDuals { tangent, tangent_change: swing, increment: way, .. } = duals;
         let (along, motion, before) =
             (&kink.along, &kink.motion, DualVector::constant(kink.before));
         let one = Dual::constant(1.0);
-        let on_path = KinkOnPath::of(jets, kink);
+        let on_path = KinkOnPath::of(duals, kink);
         let &KinkOnPath { length, difference, stretch, over_square, .. } = &on_path;
 
         let turn = tangent.turned().dot(&swing) * over_square * 2.0;

@@ -26,16 +26,16 @@ pub(super) fn vanish(
 }
 
 impl<const SLOPES: usize> KinkOnPath<SLOPES> {
-    pub fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
+    pub fn of(duals: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
         let (along, arc) = (&kink.along, &kink.motion.arc);
         let offset_before = DualVector::constant(kink.before * (along.start * kink.compliance));
         Self {
             length: path_dual(along.end, along.slope),
             difference: path_dual(along.difference, along.change),
             stretch: path_dual(arc.difference, arc.change),
-            over_square: jets.tangent.dot(&jets.tangent).inverse(),
+            over_square: duals.tangent.dot(&duals.tangent).inverse(),
             offset_before,
-            arm: jets.tangent_change * jets.increment + (offset_before + jets.offset) * 0.5,
+            arm: duals.tangent_change * duals.increment + (offset_before + duals.offset) * 0.5,
         }
     }
 
@@ -44,11 +44,11 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
     pub fn imbalances(
         &self,
         (contact, kink): (&Contact<'_>, &Kink),
-        jets: &ContactDuals<SLOPES>,
+        duals: &ContactDuals<SLOPES>,
         jump: DualVector<SLOPES>,
         balance: Dual<SLOPES>,
     ) -> [Dual<SLOPES>; CONTACT_UNKNOWNS] {
-        let &ContactDuals { offset, tangent, force, couple, .. } = jets;
+        let &ContactDuals { offset, tangent, force, couple, .. } = duals;
         let gap = offset - jump * self.length * kink.compliance;
         let balanced = couple * tangent.dot(&tangent) + tangent.turned() * self.arm.cross(&force);
         let couple = balanced * (1.0 / square(contact.length));

@@ -37,11 +37,11 @@ fn imbalances<const SLOPES: usize>(
     contact: &Contact<'_>,
     kink: &Kink,
 ) -> [Dual<SLOPES>; CONTACT_UNKNOWNS] {
-    let jets = ContactDuals::of(contact);
-    let step = KinkInStep::of(&jets, kink);
+    let duals = ContactDuals::of(contact);
+    let step = KinkInStep::of(&duals, kink);
     let set_in_motion = step.inertia * step.on_path.stretch;
-    let balance = (jets.force - step.mean_force).dot(&jets.tangent) - set_in_motion;
-    step.on_path.imbalances((contact, kink), &jets, step.jump, balance)
+    let balance = (duals.force - step.mean_force).dot(&duals.tangent) - set_in_motion;
+    step.on_path.imbalances((contact, kink), &duals, step.jump, balance)
 }
 
 struct KinkInStep<const SLOPES: usize> {
@@ -53,12 +53,12 @@ struct KinkInStep<const SLOPES: usize> {
 }
 
 impl<const SLOPES: usize> KinkInStep<SLOPES> {
-    fn of(jets: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
+    fn of(duals: &ContactDuals<SLOPES>, kink: &Kink) -> Self {
         let &ContactDuals { offset, tangent, tangent_change: swing, force, increment: way, .. } =
-            jets;
+            duals;
         let (along, motion, before) =
             (&kink.along, &kink.motion, DualVector::constant(kink.before));
-        let on_path = KinkOnPath::of(jets, kink);
+        let on_path = KinkOnPath::of(duals, kink);
         let &KinkOnPath { length, difference, stretch, over_square, offset_before, arm } = &on_path;
 
         let swung = tangent.turned().dot(&swing) * over_square * 4.0;

@@ -53,7 +53,7 @@ impl Schedule {
                 return Ok(gauss_mean(self.gauss_values(middle, half)?));
             }
             Some(shape) if shape.suits_waves() => {
-                let factors = Factors { first: self, others: None };
+                let factors = ScheduleFactors { first: self, others: None };
                 let mean = Step { middle, half }.mean(Some(&factors), Wave::one());
                 if let Some(mean) = mean {
                     let found = StepMean { mean, sampling_error: 0.0, largest: mean.abs() };
@@ -108,13 +108,13 @@ impl Schedule {
         Ok(values)
     }
 
-    fn shape(&self) -> Option<Shape> {
-        let wave = |waves| Shape { degree: 0, waves, is_polynomial: false };
+    fn shape(&self) -> Option<ScheduleShape> {
+        let wave = |waves| ScheduleShape { degree: 0, waves, is_polynomial: false };
         match self {
             Self::Constant(_) | Self::Sampled(_) | Self::DigitalController { .. } => {
-                Some(Shape { degree: 0, waves: 1, is_polynomial: true })
+                Some(ScheduleShape { degree: 0, waves: 1, is_polynomial: true })
             }
-            Self::Table(_) => Some(Shape { degree: 1, waves: 1, is_polynomial: true }),
+            Self::Table(_) => Some(ScheduleShape { degree: 1, waves: 1, is_polynomial: true }),
             Self::Sine { .. } => Some(wave(2)),
             Self::SmoothPulse { .. } => Some(wave(7)),
             Self::Function { .. } => None,
@@ -125,7 +125,7 @@ impl Schedule {
                     Operation::Sum => (a.degree.max(b.degree), a.waves.saturating_add(b.waves)),
                     Operation::Product => (a.degree + b.degree, a.waves.saturating_mul(b.waves)),
                 };
-                Some(Shape { degree, waves, is_polynomial })
+                Some(ScheduleShape { degree, waves, is_polynomial })
             }
         }
     }
@@ -140,13 +140,13 @@ fn gauss_mean(values: [f64; 3]) -> StepMean {
     found
 }
 
-struct Shape {
+struct ScheduleShape {
     degree: usize,
     waves: usize,
     is_polynomial: bool,
 }
 
-impl Shape {
+impl ScheduleShape {
     fn suits_points(&self) -> bool {
         self.is_polynomial && self.degree <= EXACT_DEGREE
     }
@@ -157,9 +157,9 @@ impl Shape {
 }
 
 /// Product of schedules, as a linked list in local variables.
-struct Factors<'a> {
+struct ScheduleFactors<'a> {
     first: &'a Schedule,
-    others: Option<&'a Factors<'a>>,
+    others: Option<&'a ScheduleFactors<'a>>,
 }
 
 struct Step {
@@ -169,8 +169,8 @@ struct Step {
 
 impl Step {
     /// Mean of the product of a wave and the schedules `factors`; `None` if there is no closed form.
-    fn mean(&self, factors: Option<&Factors>, wave: Wave) -> Option<f64> {
-        let Some(Factors { first, others }) = factors else { return Some(wave.mean()) };
+    fn mean(&self, factors: Option<&ScheduleFactors>, wave: Wave) -> Option<f64> {
+        let Some(ScheduleFactors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
         match first {
             Schedule::Constant(factor) => self.mean(*others, wave.times([*factor, 0.0])),
@@ -199,13 +199,15 @@ impl Step {
                 let (a, b) = (&parts.0, &parts.1);
                 match operation {
                     Operation::Sum => {
-                        let a = self.mean(Some(&Factors { first: a, others: *others }), wave)?;
-                        let b = self.mean(Some(&Factors { first: b, others: *others }), wave)?;
+                        let a =
+                            self.mean(Some(&ScheduleFactors { first: a, others: *others }), wave)?;
+                        let b =
+                            self.mean(Some(&ScheduleFactors { first: b, others: *others }), wave)?;
                         Some(a + b)
                     }
                     Operation::Product => {
-                        let b = Factors { first: b, others: *others };
-                        self.mean(Some(&Factors { first: a, others: Some(&b) }), wave)
+                        let b = ScheduleFactors { first: b, others: *others };
+                        self.mean(Some(&ScheduleFactors { first: a, others: Some(&b) }), wave)
                     }
                 }
             }
@@ -219,7 +221,7 @@ impl Step {
     /// Mean of the product of a wave, `Re(amplitude exp(i turn x))` and the schedules `factors`.
     fn mean_of_product(
         &self,
-        factors: Option<&Factors>,
+        factors: Option<&ScheduleFactors>,
         wave: Wave,
         (amplitude, turn): ([f64; 2], f64),
     ) -> Option<f64> {

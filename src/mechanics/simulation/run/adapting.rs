@@ -103,13 +103,14 @@ impl Simulation {
                     controller.fail(&mut state, dt);
                     if is_least {
                         let (time, smallest) = (interval.start, controller.smallest);
-                        let (source, plight) = (Box::new(self.with_name(source)), self.plight());
+                        let (source, conditions) =
+                            (Box::new(self.with_name(source)), self.conditions());
                         return Err(SimulationError::Smallest {
                             time,
                             dt,
                             smallest,
                             source,
-                            conditions: plight,
+                            conditions,
                         });
                     }
                 }

@@ -23,7 +23,7 @@ const FOLDING_FORCE: f64 = 0.1;
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {
-    pub(super) fn plight(&self) -> String {
+    pub(super) fn conditions(&self) -> String {
         let extreme = self.extreme_axes().chain(self.extreme_contacts());
         let others = self.bodies_without_inertia().chain(self.driven_backwards());
         extreme.chain(others).map(|message| format!("; {message}")).collect()

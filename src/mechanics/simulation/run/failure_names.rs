@@ -10,12 +10,12 @@ const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {
     pub(super) fn with_name(&self, mut error: StepError) -> StepError {
-        if let StepError::Newton { failure_source: culprit, .. } = &mut error {
-            let name = culprit.take().and_then(|culprit| match *culprit {
+        if let StepError::Newton { failure_source, .. } = &mut error {
+            let name = failure_source.take().and_then(|failure_source| match *failure_source {
                 FailureSource::Unknown(unknown) => self.name_of_unknown(unknown),
                 FailureSource::Named(name) => Some(name),
             });
-            *culprit = name.map(|name| Box::new(FailureSource::Named(name)));
+            *failure_source = name.map(|name| Box::new(FailureSource::Named(name)));
         }
         error
     }

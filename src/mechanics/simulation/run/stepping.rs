@@ -150,7 +150,7 @@ impl Simulation {
     }
 
     fn no_step(&self, dt: f64, divisions: u64, source: StepError) -> SimulationError {
-        let (time, plight) = (self.time(), self.plight());
+        let (time, conditions) = (self.time(), self.conditions());
         if let StepError::Overshoot { overshoot, .. } = &source {
             let (slider, event) = match SliderEvent::of(overshoot.event) {
                 SliderEvent::Limit(limit) => {
@@ -167,10 +167,10 @@ impl Simulation {
                 time,
                 dt,
                 divisions,
-                conditions: plight,
+                conditions,
             };
         }
         let source = Box::new(self.with_name(source));
-        SimulationError::Step { time, dt, divisions, source, conditions: plight }
+        SimulationError::Step { time, dt, divisions, source, conditions }
     }
 }

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::beams::{BodyPoint, Station};
 use crate::geometry::Vec2;
 use crate::joints::Releasable;
-use crate::simulation::{Arrival, ArrivalKind, Configuration, Outline, ReleaseEvent};
+use crate::simulation::{Arrival, ArrivalKind, DrawnConfiguration, Outline, ReleaseEvent};
 use crate::system::SystemError;
 use crate::vibration::{Modes, VibrationError};
 
@@ -64,7 +64,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
-    pub fn configuration(&self) -> Result<Configuration, SystemError> {
+    pub fn configuration(&self) -> Result<DrawnConfiguration, SystemError> {
         let bodies: Vec<&[Vec2]> = self.model.control_points().collect();
         Ok(Outline::draw(self.outlines()?, self.time(), &bodies))
     }
@@ -73,7 +73,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
-    pub fn configuration_near(&self, time: f64) -> Result<Option<Configuration>, SystemError> {
+    pub fn configuration_near(&self, time: f64) -> Result<Option<DrawnConfiguration>, SystemError> {
         let Some(index) = self.record.trajectory.nearest(time) else { return Ok(None) };
         let bodies = self.control_points_at(index);
         let bodies: Vec<&[Vec2]> = bodies.iter().map(Vec::as_slice).collect();

@@ -31,9 +31,9 @@ impl PerturbedRuns {
             return Err(DerivativeError::Times { parameter: name }.into());
         }
         let states = [state.blank(), state.blank()];
-        let mut twins = Self { name, distance, runs, derivative: Vec::new(), states };
-        twins.differentiate();
-        Ok(twins)
+        let mut perturbation = Self { name, distance, runs, derivative: Vec::new(), states };
+        perturbation.differentiate();
+        Ok(perturbation)
     }
 
     /// Executes a release in both runs. Afterwards, their states have the same structure as `state`.

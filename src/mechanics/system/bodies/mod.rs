@@ -1,4 +1,4 @@
-//! Beams, particles and rigid bodies, with their degrees of freedom.
+//! Beams, particles and rigid bodies, with their degrees of freedom. Strains and section forces are computed in `beams`.
 
 mod all;
 mod body;

@@ -48,8 +48,8 @@ impl DragForces {
             return [0.0, taken];
         }
         let duration = self.rate_history.duration();
-        let besides = force.dot(&point.besides(movement, duration));
-        let lost = point.power(&self.medium.law) * duration + besides;
+        let remainder = force.dot(&point.displacement_remainder(movement, duration));
+        let lost = point.power(&self.medium.law) * duration + remainder;
         [lost - taken, lost]
     }
 

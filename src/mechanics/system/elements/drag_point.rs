@@ -255,7 +255,7 @@ impl DragPoint {
     }
 
     /// Displacement of the point minus the product of `duration` and the velocity that the drag law uses [length].
-    pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
+    pub fn displacement_remainder(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)
             + self.last_velocity * (rates.by_last * duration)

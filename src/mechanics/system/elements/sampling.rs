@@ -42,8 +42,8 @@ impl SpringLaw {
             let (finer, error) = match is_fine {
                 true => {
                     let beside = (SECOND_TEST_POINT, OFF_MIDDLE_MARGIN * allowed);
-                    let (finer, besides) = refined(&points, &mut force, beside)?;
-                    (finer, larger(error, besides))
+                    let (finer, second_error) = refined(&points, &mut force, beside)?;
+                    (finer, larger(error, second_error))
                 }
                 false => (finer, error),
             };

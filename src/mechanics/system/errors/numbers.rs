@@ -50,7 +50,7 @@ mod tests {
 
     #[test]
     fn very_small_and_large_numbers_are_powers_of_ten() {
-        for (number, told) in [
+        for (number, message) in [
             (0.0, "0"),
             (1.0 / 3.0, "0.333333"),
             (-1234567.8, "-1234570"),
@@ -59,7 +59,7 @@ mod tests {
             (1e300, "1e300"),
             (f64::NAN, "NaN"),
         ] {
-            assert_eq!(rounded(number), told);
+            assert_eq!(rounded(number), message);
         }
     }
 

@@ -45,7 +45,8 @@ impl fmt::Display for Approach {
             Self::Distant { place, guide, distance } => {
                 write!(
                     f,
-                    "the nearest point of the {guide} is {distance:.3e} away, at {} of its length",
+                    "the nearest point of the {guide} is {} away, at {} of its length",
+                    rounded(*distance),
                     rounded(*place)
                 )
             }
@@ -63,8 +64,8 @@ pub enum SliderError {
     )]
     SlaveOnMaster(SliderParts),
     #[error(
-        "slider '{}': {} is at {from}, {gap:.3e} from its place {to} on the {}; {nearest}",
-        parts.slider, parts.slave, parts.guide
+        "slider '{}': {} is at {from}, {} from its place {to} on the {}; {nearest}",
+        parts.slider, parts.slave, rounded(*gap), parts.guide
     )]
     Open { parts: SliderParts, from: String, to: String, gap: f64, nearest: Approach },
     #[error(

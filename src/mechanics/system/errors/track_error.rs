@@ -1,5 +1,7 @@
 //! Errors of tracks.
 
+use super::rounded;
+
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
@@ -12,7 +14,7 @@ pub enum TrackError {
     )]
     Gap { track: String, before: String, next: String, place: String, start: String, end: String },
     #[error(
-        "track '{track}' is declared closed, but it ends at {place}, {gap:.3e} from its start {start}"
+        "track '{track}' is declared closed, but it ends at {place}, {} from its start {start}", rounded(*gap)
     )]
     Open { track: String, place: String, start: String, gap: f64 },
     #[error("track '{track}': {first_end} and {other} are both at {place}, but are not joined")]

@@ -1,4 +1,5 @@
 //! Constraints with force unknowns: inclined rollers, and rigid links between the points of rigid bodies and their centres.
+//! Joints that share unknowns need no link; contacts of sliders are in `sliders`.
 
 mod all;
 mod inclined_roller;

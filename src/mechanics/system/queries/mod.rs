@@ -1,4 +1,4 @@
-//! Queries of a model: positions, motion and features in use.
+//! Queries of a model: positions, motion and features in use. Queries do not change the model.
 
 mod beam_places;
 mod drives;

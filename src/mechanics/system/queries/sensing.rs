@@ -3,9 +3,9 @@
 use super::{CrossSection, Transmission};
 use crate::beams::{BodyIndex, BodyPoint};
 use crate::integrators::Mechanism;
-use crate::system::sensors::quantities::Read;
+use crate::system::sensors::quantities::QuantityReader;
 use crate::system::{
-    Instant, Quantity, Reactions, Scene, Sensor, SensorSource, System, SystemError, Timing,
+    Instant, Quantity, Reactions, Scene, Sensor, SensorSource, System, SystemError, ValueTime,
 };
 
 /// Sensors of a scene, located in its model.
@@ -38,7 +38,7 @@ impl SensorReader {
             sensors.iter().map(|sensor| Ok((sensor.locate(scene, model)?, sensor.quantity)));
         let located = located.collect::<Result<Vec<_>, SystemError>>()?;
         let values = Vec::with_capacity(located.len());
-        let needs_instant = sensors.iter().any(|one| one.quantity.timing == Timing::Instant);
+        let needs_instant = sensors.iter().any(|one| one.quantity.timing == ValueTime::Instant);
         let needs_mean = sensors.iter().any(Sensor::is_mean_of_joint);
         Ok(Self { located, needs_instant, needs_mean, values })
     }
@@ -50,7 +50,7 @@ impl SensorReader {
         let mean = if self.needs_mean { model.mean_reactions() } else { None };
         for (located, quantity) in &self.located {
             let reactions = match quantity.timing {
-                Timing::SummedMean => mean.as_ref(),
+                ValueTime::SummedMean => mean.as_ref(),
                 _ => now.as_ref().map(Instant::reactions),
             };
             let value = located.read(quantity.read, model, (now.as_ref(), reactions));
@@ -64,8 +64,10 @@ impl Sensor {
     fn locate(&self, scene: &Scene, model: &System) -> Result<Located, SystemError> {
         Ok(match &self.source {
             SensorSource::Station(station) => match self.quantity.read {
-                Read::Section(_) => Located::Section(model.cross_section(scene, station)?),
-                Read::Angle => model
+                QuantityReader::Section(_) => {
+                    Located::Section(model.cross_section(scene, station)?)
+                }
+                QuantityReader::Angle => model
                     .tracked_section(scene, station)
                     .map_or(Located::Source(SensorSource::External), Located::Number),
                 _ => Located::Point(scene.place(station, model.meshes())?),
@@ -85,27 +87,29 @@ impl Located {
     /// Value of a quantity; `None` if it is unavailable or provided by the caller.
     fn read(
         &self,
-        read: Read,
+        read: QuantityReader,
         model: &mut System,
         (now, reactions): (Option<&Instant>, Option<&Reactions>),
     ) -> Option<f64> {
         use SensorSource::{Drive, InternalForce, Load, Slider};
         Some(match (self, read) {
-            (Self::Point(at), Read::Motion(read)) => read(model, at),
-            (Self::Point(at), Read::Acceleration(read)) => read(model.acceleration(now?, at)),
-            (Self::Number(section), Read::Angle) => model.section_angle(*section)?,
-            (Self::Section(at), Read::Section(read)) => read(&model.section_forces(at)),
-            (Self::Number(body), Read::Energy(read)) => read(&model.energy_of(*body)),
-            (Self::Joint(joint), Read::Force(read)) => {
+            (Self::Point(at), QuantityReader::Motion(read)) => read(model, at),
+            (Self::Point(at), QuantityReader::Acceleration(read)) => {
+                read(model.acceleration(now?, at))
+            }
+            (Self::Number(section), QuantityReader::Angle) => model.section_angle(*section)?,
+            (Self::Section(at), QuantityReader::Section(read)) => read(&model.section_forces(at)),
+            (Self::Number(body), QuantityReader::Energy(read)) => read(&model.energy_of(*body)),
+            (Self::Joint(joint), QuantityReader::Force(read)) => {
                 let (force, moment) = joint.read(reactions?);
                 read(force, moment)
             }
-            (Self::Source(Slider(at)), Read::Force(read)) => read(now?.contact(*at), 0.0),
+            (Self::Source(Slider(at)), QuantityReader::Force(read)) => read(now?.contact(*at), 0.0),
             (
                 Self::Source(Slider(at) | Drive(at) | Load(at) | InternalForce(at)),
-                Read::Index(read),
+                QuantityReader::Index(read),
             ) => read(model, *at),
-            (Self::Source(source), Read::Sum(read)) => read(model, *source)?,
+            (Self::Source(source), QuantityReader::Sum(read)) => read(model, *source)?,
             _ => return None,
         })
     }

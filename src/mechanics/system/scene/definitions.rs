@@ -131,7 +131,7 @@ impl RigidBodyDefinition {
             0 => None,
             1 | 2 => Some("it needs at least three corners"),
             _ if self.links().next().is_none() => Some(
-                "its rotation is known from a point off the centre, and it has none; give it such a point",
+                "the body has no point off its centre, which shows its rotation; add one in points",
             ),
             _ => None,
         }

@@ -22,7 +22,7 @@ impl Scene {
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
             (Ok(own), Ok(others)) => {
-                let mut scales = Scales::new();
+                let mut scales = FieldScales::new();
                 for scene in [&own, &others] {
                     add_scales(scene, "", &mut scales);
                 }
@@ -51,9 +51,9 @@ impl Scene {
 }
 
 /// Largest absolute number of each field. A field has the same dimension in all objects.
-type Scales<'v> = BTreeMap<&'v str, f64>;
+type FieldScales<'v> = BTreeMap<&'v str, f64>;
 
-fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut Scales<'v>) {
+fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut FieldScales<'v>) {
     match value {
         Value::Number(number) => {
             let scale = scales.entry(field).or_default();
@@ -67,7 +67,7 @@ fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut Scales<'v>) {
     }
 }
 
-fn is_near(a: &Value, b: &Value, field: &str, scales: &Scales<'_>) -> bool {
+fn is_near(a: &Value, b: &Value, field: &str, scales: &FieldScales<'_>) -> bool {
     match (a, b) {
         (Value::Number(x), Value::Number(y)) => match (x.as_f64(), y.as_f64()) {
             (Some(x), Some(y)) => {

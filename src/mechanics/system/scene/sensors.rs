@@ -7,7 +7,8 @@ use crate::beams::{BodyIndex, Station};
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::errors::check_name;
 use crate::system::sensors::quantities::{
-    OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER, Read,
+    OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER,
+    QuantityReader,
 };
 use crate::system::{Quantity, Sensor, SensorSource, SystemError};
 
@@ -53,7 +54,7 @@ impl Scene {
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let (source, quantity) = self.find_sensor(name)?;
-        if let (SensorSource::Station(station), Read::Angle) = (source, quantity.read)
+        if let (SensorSource::Station(station), QuantityReader::Angle) = (source, quantity.read)
             && let Some(beam) = station.beam()
         {
             self.station(beam, station.arc_length)?;

@@ -7,5 +7,5 @@
 pub(in crate::system) mod quantities;
 mod sensor;
 
-pub use quantities::{Quantity, RECORDABLE, Timing, body_energies, section_values};
+pub use quantities::{Quantity, RECORDABLE, ValueTime, body_energies, section_values};
 pub use sensor::{Sensor, SensorSource};

@@ -1,7 +1,7 @@
 //! List of all quantities that can be measured.
 
-use Read::{Acceleration, Angle, Energy, External, Force, Index, Motion, Section, Sum};
-use Timing::{Instant, MeanOfMethod, Present, StepMean, SummedMean};
+use QuantityReader::{Acceleration, Angle, Energy, External, Force, Index, Motion, Section, Sum};
+use ValueTime::{Instant, MeanOfMethod, Present, StepMean, SummedMean};
 
 use super::SensorSource;
 use crate::beams::{BodyPoint, SectionForces};
@@ -18,13 +18,13 @@ pub struct Quantity {
     /// Dimension of the values.
     pub dimension: &'static str,
     /// Time to which a value belongs.
-    pub timing: Timing,
-    pub(in crate::system) read: Read,
+    pub timing: ValueTime,
+    pub(in crate::system) read: QuantityReader,
 }
 
 /// Time to which a value belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Timing {
+pub enum ValueTime {
     /// Present time.
     Present,
     /// Present time; the value follows from the equations of motion.
@@ -39,7 +39,7 @@ pub enum Timing {
 
 /// Function that reads a value, by the type of its argument.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::system) enum Read {
+pub(in crate::system) enum QuantityReader {
     Motion(fn(&System, &BodyPoint) -> f64),
     Acceleration(fn(Vec2) -> f64),
     /// Angle of a tracked section.
@@ -59,8 +59,8 @@ pub(in crate::system) enum Read {
 const fn quantity(
     name: &'static str,
     dimension: &'static str,
-    timing: Timing,
-    read: Read,
+    timing: ValueTime,
+    read: QuantityReader,
 ) -> Quantity {
     Quantity { name, dimension, timing, read }
 }

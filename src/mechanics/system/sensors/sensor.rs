@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{Quantity, Timing};
+use super::{Quantity, ValueTime};
 use crate::beams::{BodyIndex, Station};
 use crate::integrators::Method;
 
@@ -60,17 +60,17 @@ impl Sensor {
     /// Returns true if the values are means over the last step with the given method.
     pub(crate) fn is_step_mean(&self, method: Method) -> bool {
         match self.quantity.timing {
-            Timing::StepMean | Timing::SummedMean => true,
-            Timing::MeanOfMethod => {
+            ValueTime::StepMean | ValueTime::SummedMean => true,
+            ValueTime::MeanOfMethod => {
                 matches!(method, Method::EnergyMomentum | Method::EnergyDecaying { .. })
             }
-            Timing::Present | Timing::Instant => false,
+            ValueTime::Present | ValueTime::Instant => false,
         }
     }
 
     /// Returns true if the values are means over the last step that the model accumulates on request.
     pub(crate) fn is_summed(&self) -> bool {
-        self.quantity.timing == Timing::SummedMean
+        self.quantity.timing == ValueTime::SummedMean
     }
 
     /// Returns true if the values are means of a joint force over the last step.

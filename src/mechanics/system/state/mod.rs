@@ -1,4 +1,5 @@
 //! Motion of a model: rates, prediction of the next step, and force scales of the present step.
+//! Configurations of bodies are in `bodies`.
 
 mod accelerations;
 mod forecast;

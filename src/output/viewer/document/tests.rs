@@ -1,6 +1,6 @@
 use super::*;
 
-fn film() -> ViewerData {
+fn viewer_data() -> ViewerData {
     let place =
         |first: usize, weights: &[f64]| PointCombination { first, weights: weights.to_vec() };
     ViewerData {
@@ -20,8 +20,8 @@ fn film() -> ViewerData {
 #[test]
 fn texts_cannot_leave_their_place() {
     let title = "</script><script>alert('{{data}}')</script> & \"so on\"";
-    let film = ViewerData { label: title.into(), ..film() };
-    let page = Viewer { title: title.into(), films: vec![film] }.to_html().unwrap();
+    let viewer_data = ViewerData { label: title.into(), ..viewer_data() };
+    let page = Viewer { title: title.into(), motions: vec![viewer_data] }.to_html().unwrap();
     assert!(!page.contains("alert('{{data}}')<"), "the title is escaped");
     assert_eq!(page.matches("</script>").count(), 2, "of the data and of the program");
     assert!(page.contains("&lt;/script&gt;&lt;script&gt;alert(&#39;{{data}}&#39;)&lt;/script&gt; &amp; &quot;so on&quot;"));
@@ -30,23 +30,23 @@ fn texts_cannot_leave_their_place() {
 
 #[test]
 fn a_page_is_whole_and_asks_for_nothing() {
-    let page = Viewer { title: "t".into(), films: vec![film()] }.to_html().unwrap();
+    let page = Viewer { title: "t".into(), motions: vec![viewer_data()] }.to_html().unwrap();
     for mark in ["{{", "http:", "https:", " src=", "fetch(", "import(", "@import", "url("] {
         assert!(!page.contains(mark), "{mark}");
     }
     assert!(page.contains("default-src 'none'") && page.trim_end().ends_with("</html>"));
-    let again = Viewer { title: "t".into(), films: vec![film()] }.to_html().unwrap();
+    let again = Viewer { title: "t".into(), motions: vec![viewer_data()] }.to_html().unwrap();
     assert_eq!(page, again);
 }
 
 #[test]
 fn beams_of_the_same_mesh_share_their_shape() {
-    let mut two = film();
+    let mut two = viewer_data();
     two.points.iter_mut().for_each(|points| points.extend([(5.0, 5.0), (6.0, 6.0)]));
     let mut other = two.beams[0].clone();
     other.line.iter_mut().for_each(|place| place.first += 2);
     two.beams.push(other);
-    let packed = packed_film(&two).unwrap();
+    let packed = packed_motion(&two).unwrap();
     assert_eq!(packed["shapes"].as_array().unwrap().len(), 1);
     assert_eq!(packed["beams"][1]["first"], 2);
 }
@@ -57,7 +57,7 @@ fn obstacles_are_in_the_data_with_the_points_that_are_shown() {
     let floor = place(Symbol::Wall, (5.0, -0.25), (0.0, 1.0));
     let peg = place(Symbol::Disc, (3.0, 1.0), (0.5, 0.0));
     let obstacles = vec![("floor".into(), floor), ("peg".into(), peg)];
-    let packed = packed_film(&ViewerData { obstacles, ..film() }).unwrap();
+    let packed = packed_motion(&ViewerData { obstacles, ..viewer_data() }).unwrap();
     let [floor, peg] = packed["obstacles"].as_array().unwrap().as_slice() else { panic!() };
     assert_eq!((&floor["kind"], &floor["name"]), (&json!("wall"), &json!("floor")));
     assert_eq!(floor["shown"][0][1], -0.25);
@@ -68,5 +68,5 @@ fn obstacles_are_in_the_data_with_the_points_that_are_shown() {
 #[test]
 fn a_film_of_nothing_is_a_page_too() {
     let nothing = ViewerData { times: vec![0.0], points: vec![vec![]], ..ViewerData::default() };
-    assert!(Viewer { title: String::new(), films: vec![nothing] }.to_html().is_ok());
+    assert!(Viewer { title: String::new(), motions: vec![nothing] }.to_html().is_ok());
 }

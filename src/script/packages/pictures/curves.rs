@@ -56,7 +56,7 @@ const OPTIONS: &[Parameter] =
 
 const MOST_CURVES: usize = 1000;
 
-type Curve = (String, Vec<Point>);
+type LabelledCurve = (String, Vec<Point>);
 
 fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let options = call.options_or_defaults("options")?;
@@ -90,7 +90,10 @@ fn plot(call: &mut Call) -> Result<Dynamic, ScriptError> {
     write_picture(call, &chart.map_err(|wrong| wrong.in_call(call))?)
 }
 
-fn labelled(options: &Options, mut curves: Vec<Curve>) -> Result<Vec<Curve>, OptionError> {
+fn labelled(
+    options: &Options,
+    mut curves: Vec<LabelledCurve>,
+) -> Result<Vec<LabelledCurve>, OptionError> {
     let labels = labels(options, curves.len())?.unwrap_or_default();
     curves.iter_mut().zip(labels).for_each(|(curve, label)| curve.0 = label);
     Ok(curves)
@@ -99,7 +102,7 @@ fn labelled(options: &Options, mut curves: Vec<Curve>) -> Result<Vec<Curve>, Opt
 fn chart(
     options: &Options,
     chart: LineChart,
-    curves: Vec<Curve>,
+    curves: Vec<LabelledCurve>,
 ) -> Result<LineChart, OptionError> {
     let series = curves.into_iter().enumerate();
     let series = series.map(|(at, (name, points))| marked(options, at, Series::new(name, points)));
@@ -114,7 +117,7 @@ pub fn typed_charts(
     engine: &rhai::Engine,
     map: &Map,
     over: &str,
-    groups: Vec<Vec<Curve>>,
+    groups: Vec<Vec<LabelledCurve>>,
 ) -> Result<Vec<LineChart>, ScriptError> {
     let options = Options::read(engine, ":plot", OPTIONS, map)?;
     let title = options.optional_text("title")?;
@@ -123,7 +126,7 @@ pub fn typed_charts(
         let counts: Vec<usize> = groups.iter().map(Vec::len).collect();
         let mut named = labelled(&options, groups.into_iter().flatten().collect())?.into_iter();
         let draw_group = |count: usize| {
-            let curves: Vec<Curve> = named.by_ref().take(count).collect();
+            let curves: Vec<LabelledCurve> = named.by_ref().take(count).collect();
             let names = curves.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
             let title = title.as_ref().map_or(names, |title| title.to_string());
             chart(&options, LineChart::new(title).x_label(over), curves)

@@ -9,7 +9,7 @@ use super::function::RunFunction;
 use crate::fitting::{Evaluation, Sloped};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter_variants::{ParameterSet, VariantValue};
-use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_crew};
+use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_worker_pool};
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
@@ -22,13 +22,13 @@ pub enum FunctionResult {
     Wrong(String),
 }
 
-pub type Read = fn(&Dynamic) -> FunctionResult;
+pub type ResultReader = fn(&Dynamic) -> FunctionResult;
 
 pub struct FunctionQuery<'q> {
     pub key: &'static str,
     pub names: &'q [String],
     pub function: &'q RunFunction,
-    pub read: Read,
+    pub read: ResultReader,
     pub wall: Duration,
 }
 
@@ -87,8 +87,7 @@ impl FunctionQuery<'_> {
         calling: &Call,
         drive: impl FnOnce(&mut Evaluator) -> Result<T, ScriptError>,
     ) -> Result<T, ScriptError> {
-        let Some(blueprint) = EngineConfig::of(calling.engine(), calling.context(), NO_FILES)
-        else {
+        let Some(config) = EngineConfig::of(calling.engine(), calling.context(), NO_FILES) else {
             return drive(&mut Evaluator::of(calling, self, Executor::ThisThread));
         };
         let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
@@ -105,8 +104,8 @@ impl FunctionQuery<'_> {
             result: FunctionResult::Failed(format!("internal error of withy: {message}")),
             steps: 0,
         };
-        with_crew(&blueprint, self.wall, work, panicked, |crew| {
-            drive(&mut Evaluator::of(calling, self, Executor::Workers(crew)))
+        with_worker_pool(&config, self.wall, work, panicked, |pool| {
+            drive(&mut Evaluator::of(calling, self, Executor::Workers(pool)))
         })?
     }
 
@@ -195,21 +194,21 @@ impl<'w> Evaluator<'w> {
 
     fn evaluate_points(&self, points: Vec<QueryPoint>) -> Result<Vec<FunctionResult>, ScriptError> {
         match self.whom {
-            Executor::Workers(crew) => self.evaluate_in_workers(crew, &points),
+            Executor::Workers(pool) => self.evaluate_in_workers(pool, &points),
             Executor::ThisThread => points.iter().map(|point| self.evaluate_here(point)).collect(),
         }
     }
 
     fn evaluate_in_workers(
         &self,
-        crew: &WorkerPool<QueryPoint, CallWork<FunctionResult>>,
+        pool: &WorkerPool<QueryPoint, CallWork<FunctionResult>>,
         points: &[QueryPoint],
     ) -> Result<Vec<FunctionResult>, ScriptError> {
         let context = self.call.context();
         let mut answers: Vec<Option<FunctionResult>> = points.iter().map(|_| None).collect();
-        points.iter().enumerate().for_each(|(number, point)| crew.submit(number, point.clone()));
+        points.iter().enumerate().for_each(|(number, point)| pool.submit(number, point.clone()));
         while answers.iter().any(Option::is_none) {
-            match crew.receive() {
+            match pool.receive() {
                 WorkerEvent::Done(number, CallWork { result, steps }) => {
                     context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                     context.meter().allows_a_step();

@@ -17,7 +17,7 @@ pub struct RunFunction {
     pub name: String,
     pub captured: Vec<(String, Portable)>,
     /// Arguments that follow the map of values.
-    pub besides: Vec<Portable>,
+    pub extra: Vec<Portable>,
 }
 
 pub fn changes(name: &str) -> String {
@@ -79,7 +79,7 @@ impl RunFunction {
                 value as a result"
             ));
         }
-        Ok(Self { name: function.fn_name().to_owned(), captured, besides: Vec::new() })
+        Ok(Self { name: function.fn_name().to_owned(), captured, extra: Vec::new() })
     }
 
     /// Adds a further argument after the map.
@@ -99,7 +99,7 @@ impl RunFunction {
                 .hint("give numbers, texts, arrays and maps of them")
                 .at(CallPart::Key(key.to_owned()))
         })?;
-        self.besides.push(portable);
+        self.extra.push(portable);
         Ok(())
     }
 
@@ -114,8 +114,8 @@ impl RunFunction {
         let shared =
             |(_, value): &(String, Portable)| Some(value.value(function_of)?.into_shared());
         let captured = self.captured.iter().map(shared).collect::<Option<_>>()?;
-        let besides = self.besides.iter().map(|value| value.value(function_of));
-        let given = [Some(values.into())].into_iter().chain(besides).collect::<Option<_>>()?;
+        let extra = self.extra.iter().map(|value| value.value(function_of));
+        let given = [Some(values.into())].into_iter().chain(extra).collect::<Option<_>>()?;
         Some((captured, given))
     }
 

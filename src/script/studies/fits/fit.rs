@@ -11,7 +11,6 @@ use crate::output::{Cell, LineChart, Marker, Page, Panel, Series, Stroke, TextTa
 use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter_variants::{RELATIVE_DISTANCE, VariantValue};
 use crate::script::messages::error::ScriptError;
-use crate::script::messages::numbers::format_number;
 use crate::script::studies::calls::evaluator::{FunctionQuery, FunctionResult};
 use crate::script::studies::calls::function::RunFunction;
 use crate::script::studies::plan::at_key;
@@ -153,7 +152,7 @@ impl FitRequest<'_> {
         }
         let pairs = self.ranges.names.iter().zip(point);
         let at: Vec<String> =
-            pairs.map(|(name, x)| format!("{name} = {}", format_number(*x))).collect();
+            pairs.map(|(name, x)| format!("{name} = {}", significant(*x, 6))).collect();
         let message = format!(
             "{}: with {} it returns {count} numbers, but at the start it returned {before}",
             self.key,

@@ -22,38 +22,38 @@ impl SweepRequest<'_> {
         &self,
         call: &Call,
         function: &RunFunction,
-        ledger: &mut SweepProgress,
+        progress: &mut SweepProgress,
     ) -> Result<Option<RowKeeper>, ScriptError> {
         let context = call.context();
-        let (wishes, rows) = (context.studies(), ledger.rows as u64);
+        let (options, rows) = (context.studies(), progress.rows as u64);
         let fingerprint = self.fingerprint(call, function);
         let about =
             |part: StudyPart| RowEntry::Sweep { fingerprint, rows, part: (part.number, part.of) };
-        if wishes.part.is_none() && !wishes.merge.is_empty() {
-            self.join(&wishes.merge, about, ledger)?;
+        if options.part.is_none() && !options.merge.is_empty() {
+            self.join(&options.merge, about, progress)?;
             return Ok(None);
         }
-        let (file, lasting) = match wishes.part {
+        let (file, lasting) = match options.part {
             Some(part) => (part.file(&self.name), JournalLifetime::Persistent),
             None => (format!("{}.journal", self.name), JournalLifetime::Run),
         };
         let path = context.output().path_of(&file)?;
-        let about = about(wishes.part.unwrap_or(StudyPart::WHOLE));
-        let kept = (wishes.journal, lasting);
-        context.journals().open_rows(path, kept, about, |entry| ledger.recall(entry))
+        let about = about(options.part.unwrap_or(StudyPart::WHOLE));
+        let kept = (options.journal, lasting);
+        context.journals().open_rows(path, kept, about, |entry| progress.recall(entry))
     }
 
     fn join(
         &self,
         folders: &[PathBuf],
         about: impl Fn(StudyPart) -> RowEntry,
-        ledger: &mut SweepProgress,
+        progress: &mut SweepProgress,
     ) -> Result<(), ScriptError> {
         for (part, file) in find_parts(&self.name, folders)? {
             let (expected, mut is_same) = (about(part), None);
             let read = read_rows::<std::io::Error>(&file, |entry| {
                 if *is_same.get_or_insert(entry == expected) {
-                    ledger.recall(entry);
+                    progress.recall(entry);
                 }
                 Ok(())
             });
@@ -69,8 +69,8 @@ impl SweepRequest<'_> {
                 return Err(ScriptError::new(message)
                     .hint("run the part again with this script and this withy"));
             }
-            let is_missing = |row: &usize| part.has(*row) && !ledger.knows(*row);
-            let missing = (0..ledger.rows).filter(is_missing).count();
+            let is_missing = |row: &usize| part.has(*row) && !progress.knows(*row);
+            let missing = (0..progress.rows).filter(is_missing).count();
             if missing > 0 {
                 let name = &self.name;
                 let message = format!(

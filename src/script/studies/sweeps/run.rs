@@ -11,7 +11,7 @@ use super::sweep_progress::{SweepError, SweepProgress, listed};
 use super::table::FinishedSweep;
 use crate::analysis::Sweep;
 use crate::script::bindings::call::Call;
-use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_crew};
+use crate::script::engine::workers::{EngineConfig, WorkerEvent, WorkerPool, with_worker_pool};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::script::state::journals::RowKeeper;
@@ -41,20 +41,20 @@ impl SweepRequest<'_> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
         let rows = self.plan.design.rows;
-        let mut ledger = SweepProgress::new(rows);
-        let mut keeper = self.keeper(call, &function, &mut ledger)?;
+        let mut progress = SweepProgress::new(rows);
+        let mut keeper = self.keeper(call, &function, &mut progress)?;
         if context.studies().merge.is_empty() {
-            report_known(context, &self.name, ledger.done, rows);
+            report_known(context, &self.name, progress.done, rows);
         }
         let part = context.studies().part;
-        part.into_iter().for_each(|part| ledger.mark_other_parts(part));
+        part.into_iter().for_each(|part| progress.mark_other_parts(part));
         context.progress().begin_cases(&self.name, rows);
         let outcome = match EngineConfig::of(call.engine(), context, NO_FILES) {
-            _ if ledger.done == rows => Ok(()),
-            Some(blueprint) => {
-                self.on_all_cores(call, &blueprint, &function, (&mut ledger, &mut keeper))
+            _ if progress.done == rows => Ok(()),
+            Some(config) => {
+                self.on_all_cores(call, &config, &function, (&mut progress, &mut keeper))
             }
-            None => self.on_this_thread(call, &mut ledger, &mut keeper),
+            None => self.on_this_thread(call, &mut progress, &mut keeper),
         };
         context.progress().end();
         if let Some(keeper) = &mut keeper {
@@ -63,15 +63,15 @@ impl SweepRequest<'_> {
         match outcome {
             Err(SweepError::Other(error)) => return Err(error),
             Err(SweepError::Row(row, message)) => {
-                return Err(self.located_error(call, &ledger, row, &message));
+                return Err(self.located_error(call, &progress, row, &message));
             }
-            Ok(()) if ledger.done < rows => return Err(context.why_stopped("a sweep")),
+            Ok(()) if progress.done < rows => return Err(context.why_stopped("a sweep")),
             Ok(()) => (),
         }
         if part.is_some() {
-            ledger.fill_other_parts();
+            progress.fill_other_parts();
         }
-        let SweepProgress { results, model, .. } = ledger;
+        let SweepProgress { results, model, .. } = progress;
         if model.is_none()
             && part.is_none()
             && let Some((row, reason)) = results.failures().next()
@@ -91,9 +91,9 @@ impl SweepRequest<'_> {
     fn on_all_cores(
         &self,
         calling: &Call,
-        blueprint: &EngineConfig,
+        config: &EngineConfig,
         function: &RunFunction,
-        (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
+        (progress, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
     ) -> Result<(), SweepError> {
         let plan = &self.plan;
         let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
@@ -106,8 +106,8 @@ impl SweepRequest<'_> {
             result: RowOutcome::Failed(format!("internal error of withy: {message}")),
             steps: 0,
         };
-        let driven = with_crew(blueprint, self.wall, work, panicked, |crew| {
-            drive(crew, calling.context(), (ledger, keeper))
+        let driven = with_worker_pool(config, self.wall, work, panicked, |pool| {
+            drive(pool, calling.context(), (progress, keeper))
         });
         driven.map_err(SweepError::Other)?
     }
@@ -116,12 +116,12 @@ impl SweepRequest<'_> {
     fn on_this_thread(
         &self,
         call: &Call,
-        ledger: &mut SweepProgress,
+        progress: &mut SweepProgress,
         keeper: &mut Option<RowKeeper>,
     ) -> Result<(), SweepError> {
         let context = call.context();
         for row in 0..self.plan.design.rows {
-            if ledger.knows(row) {
+            if progress.knows(row) {
                 continue;
             }
             let of = match context.without_output_or_files(NO_FILES, || self.invoked(call, row)) {
@@ -138,7 +138,7 @@ impl SweepRequest<'_> {
                 },
                 Err(ScriptError::Failure(failure)) => RowOutcome::Failed(failure.message),
             };
-            take(context, (ledger, keeper), row, of)?;
+            take(context, (progress, keeper), row, of)?;
         }
         Ok(())
     }
@@ -157,7 +157,7 @@ impl SweepRequest<'_> {
     fn located_error(
         &self,
         call: &Call,
-        ledger: &SweepProgress,
+        progress: &SweepProgress,
         row: usize,
         message: &str,
     ) -> ScriptError {
@@ -166,8 +166,8 @@ impl SweepRequest<'_> {
             Err(error) => error,
             Ok(_) => {
                 let values = self.row_in_words(row);
-                let other = ledger.model.map_or(String::new(), |model| {
-                    let names = listed(&ledger.results.names);
+                let other = progress.model.map_or(String::new(), |model| {
+                    let names = listed(&progress.results.names);
                     format!("; the run with {} returned {names}", self.row_in_words(model))
                 });
                 let message = format!("run: with {values}, {message}{other}");
@@ -195,34 +195,34 @@ impl SweepRequest<'_> {
 /// The first completed row defines the names of the results.
 /// Until the first completed row, results are processed in the order of the rows, so that the outcome is deterministic.
 fn drive(
-    crew: &WorkerPool<usize, CallWork<RowOutcome>>,
+    pool: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,
-    (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
+    (progress, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
 ) -> Result<(), SweepError> {
     let unknown: Vec<u32> =
-        (0..ledger.rows).filter(|row| !ledger.knows(*row)).map(|row| row as u32).collect();
+        (0..progress.rows).filter(|row| !progress.knows(*row)).map(|row| row as u32).collect();
     let mut in_order = unknown.iter().map(|row| *row as usize).peekable();
     let mut early = BTreeMap::new();
     let mut rows = unknown.iter().map(|row| *row as usize);
-    rows.by_ref().take(AHEAD * crew.size()).for_each(|row| crew.submit(row, row));
-    while ledger.done < ledger.rows {
-        match crew.receive_batch() {
+    rows.by_ref().take(AHEAD * pool.size()).for_each(|row| pool.submit(row, row));
+    while progress.done < progress.rows {
+        match pool.receive_batch() {
             WorkerEvent::Done(row, CallWork { result, steps }) => {
                 context.meter().count_steps(usize::try_from(steps).unwrap_or(usize::MAX));
                 early.insert(row, result);
-                while let Some(row) = match ledger.model {
+                while let Some(row) = match progress.model {
                     Some(_) => early.keys().next().copied(),
                     None => in_order.next_if(|next| early.contains_key(next)),
                 } && let Some(result) = early.remove(&row)
                 {
-                    take(context, (ledger, keeper), row, result)?;
+                    take(context, (progress, keeper), row, result)?;
                 }
-                rows.by_ref().take(1).for_each(|row| crew.submit(row, row));
+                rows.by_ref().take(1).for_each(|row| pool.submit(row, row));
             }
             WorkerEvent::Timeout => sync_periodically(keeper).map_err(SweepError::Other)?,
             WorkerEvent::NoWorkers => break,
         }
-        let has_steps = ledger.done == ledger.rows || context.meter().allows_a_step();
+        let has_steps = progress.done == progress.rows || context.meter().allows_a_step();
         if !has_steps || context.stopped_by().is_some() {
             break;
         }
@@ -232,12 +232,12 @@ fn drive(
 
 fn take(
     context: &Context,
-    (ledger, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
+    (progress, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
     row: usize,
     of: RowOutcome,
 ) -> Result<(), SweepError> {
-    let entries = ledger.record_result(row, of)?;
-    context.progress().report_case(ledger.done);
+    let entries = progress.record_result(row, of)?;
+    context.progress().report_case(progress.done);
     if let Some(keeper) = keeper {
         for entry in &entries {
             let bytes = keeper.write(context.journals(), entry).map_err(SweepError::Other)?;
