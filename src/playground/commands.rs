@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::start::FAILURE;
 use crate::script::diagnose::Diagnostic;
 use crate::script::engine::runner::{self, Ending, RunOutcome};
+use crate::script::help::lookup;
 use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::limits::Limits;
@@ -19,6 +20,9 @@ const CHECK_FAILED: u8 = 1;
 
 /// Call depth. The stack of a WebAssembly module in Chromium is sufficient for 80 nested calls.
 const DEPTH: usize = 64;
+
+/// Columns of help pages.
+const HELP_WIDTH: usize = 72;
 
 /// Limits without supervision by a thread. The page ends runs that take too long.
 pub(super) fn limits() -> Limits {
@@ -80,6 +84,17 @@ pub(super) fn check(file: &Path) -> ExitCode {
     };
     println!("{}", Value::Array(found));
     ExitCode::SUCCESS
+}
+
+/// Prints the help page of a name like `withy docs`, as a JSON text.
+pub(super) fn help(name: &str) -> ExitCode {
+    match lookup::page(&language(), name) {
+        Ok(page) => {
+            println!("{}", json!(page.plain(HELP_WIDTH)));
+            ExitCode::SUCCESS
+        }
+        Err(unknown) => fail(&Diagnostic::general(unknown.to_string())),
+    }
 }
 
 fn to_json(diagnostic: &Diagnostic) -> Value {

@@ -45,6 +45,7 @@ fn completions(file: &Path, offset: usize) -> Result<Value, Diagnostic> {
         json!({ "label": display, "insert": replacement, "about": summary })
     });
     let options: Vec<Value> = options.collect();
-    let hint = hint(text, text.len(), &surroundings).map(|hint| hint.shown.trim().to_owned());
+    let hint = hint(text, text.len(), &surroundings).filter(|hint| hint.insertable.is_none());
+    let hint = hint.map(|hint| hint.shown.trim().to_owned());
     Ok(json!({ "start": start, "options": options, "hint": hint }))
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use super::commands::{check, run};
+use super::commands::{check, help, run};
 use super::completion::complete_at;
 
 /// Exit code for errors of the script or the arguments, as of `withy`.
@@ -13,6 +13,7 @@ const USAGE: &str = "\
 usage: playground run FILE              runs a script; its files are written to the current folder
        playground check FILE            prints the errors of a script as JSON, without running its simulations
        playground complete FILE OFFSET  prints completions at a byte of a script as JSON
+       playground help NAME             prints the help page of a name as JSON
 ";
 
 /// Parses the arguments, runs the selected command, and returns its exit code.
@@ -25,6 +26,7 @@ pub fn main() -> ExitCode {
         ["complete", file, offset] if offset.parse::<usize>().is_ok() => {
             complete_at(Path::new(file), offset.parse().unwrap_or_default())
         }
+        ["help", name] => help(name),
         _ => {
             eprint!("{USAGE}");
             ExitCode::from(FAILURE)

@@ -173,6 +173,11 @@ const tests = {
     await page.locator(".cm-tooltip-autocomplete").getByText("clamp(").first().waitFor();
     await shot(page, "completion");
     await page.keyboard.press("Escape");
+    await page.locator(".cm-lintRange-error").first().waitFor();
+    assert.equal(await text(page, "#hint"), "");
+    await page.getByText("new_scene").hover();
+    await page.locator(".help").getByText("new_scene(").first().waitFor();
+    await shot(page, "help");
     await write(page, "let s = section(");
     await page.locator("#hint").getByText("section").waitFor();
     await close(page);

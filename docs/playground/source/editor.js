@@ -1,11 +1,11 @@
 // Editor with highlighting, and with completion and errors from the program.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
-import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
+import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting, syntaxTree } from "@codemirror/language";
 import { linter, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
 import { EditorState } from "@codemirror/state";
-import { drawSelection, EditorView, highlightActiveLine, highlightSpecialChars, keymap, lineNumbers } from "@codemirror/view";
+import { drawSelection, EditorView, highlightActiveLine, highlightSpecialChars, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { classHighlighter } from "@lezer/highlight";
 import { language } from "./grammar.js";
 import { ask, SCRIPT } from "./jobs.js";
@@ -40,6 +40,21 @@ async function check(view) {
   const doc = view.state.doc;
   const found = await ask(["check", SCRIPT], doc.toString()).value;
   return (found ?? []).map((diagnostic) => diagnosticOf(doc, diagnostic));
+}
+
+/** Help page of the name at a position. */
+async function help(view, position) {
+  const kind = syntaxTree(view.state).resolveInner(position, 1).name;
+  const word = view.state.wordAt(position);
+  if (!word || /comment|string/.test(kind)) return null;
+  const page = await ask(["help", view.state.sliceDoc(word.from, word.to)]).value;
+  if (!page) return null;
+  const create = () => {
+    const dom = document.createElement("pre");
+    Object.assign(dom, { className: "help", textContent: page });
+    return { dom };
+  };
+  return { pos: word.from, end: word.to, create };
 }
 
 /** Extension that passes the hint at the cursor, such as the signature of a call, to `show`. */
@@ -79,6 +94,7 @@ export function createEditor(parent, { text, keys, onChange, onHint }) {
     autocompletion({ override: [complete] }),
     linter(check, { delay: PAUSE }),
     hints(onHint),
+    hoverTooltip(help),
     EditorView.contentAttributes.of({ "aria-label": "Script", tabindex: "0" }),
     EditorView.updateListener.of(({ docChanged, state }) => docChanged && onChange(state.doc.toString())),
     keymap.of([...keys, ...closeBracketsKeymap, ...completionKeymap, ...lintKeymap, ...searchKeymap, ...historyKeymap, ...defaultKeymap]),

@@ -10,12 +10,13 @@ class RunFolder extends PreopenDirectory {
 
   path_link(path, inode, allowDirectory) {
     const result = super.path_link(path, inode, allowDirectory);
-    if (result === 0 && inode instanceof File && !isHidden(path)) this.onFile(path, inode.data);
+    const name = path.replace(/^\.\//, "");
+    if (result === 0 && inode instanceof File && !isHidden(name)) this.onFile(name, inode.data);
     return result;
   }
 }
 
-const isHidden = (path) => path.split("/").pop().startsWith(".");
+const isHidden = (name) => name.split("/").pop().startsWith(".");
 
 /** Reason why the program ended early; `undefined` after a normal end. */
 function reasonOf(error, messages) {
