@@ -92,10 +92,16 @@ impl PairForces {
 
     /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
+        self.prepare_pairs();
         for &CandidatePair { shape, target, law } in &self.candidates {
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
-            let apart = own.end.bounds().squared_distance(&other.end.bounds());
-            if apart >= square(own.radius + other.radius) {
+            let reach = square(own.radius + other.radius);
+            if own.swept_bounds().squared_distance(&other.swept_bounds()) >= reach {
+                continue;
+            }
+            let is_far = own.end.bounds().squared_distance(&other.end.bounds()) >= reach;
+            self.shapes[target].prepare_search();
+            if is_far {
                 continue;
             }
             for site in 0..own.sites.len() {
@@ -106,6 +112,11 @@ impl PairForces {
                 }
             }
         }
+    }
+
+    /// Prepares the bodies that are touched for searches of nearest points.
+    fn prepare_pairs(&mut self) {
+        self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
 
     /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
@@ -152,21 +163,34 @@ impl PairForces {
         }
         for at in 0..self.candidates.len() {
             let CandidatePair { shape, target, .. } = self.candidates[at];
+            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
+            let limit = self.gap_limit(own.radius + other.radius);
+            let apart = own.start.bounds().squared_distance(&other.start.bounds());
+            if self.gap <= 0.0 || apart >= square(limit) {
+                continue;
+            }
             for site in 0..self.shapes[shape].sites.len() {
                 self.reduce_gap(PairIndex { shape, site, target });
             }
         }
     }
 
+    /// Distance between two bodies with the sum of radii `reach`, from which they cannot reduce the smallest gap.
+    fn gap_limit(&self, reach: f64) -> f64 {
+        (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
+    }
+
     /// Reduces the smallest gap to that of a pair.
     fn reduce_gap(&mut self, index: PairIndex) {
-        let (own, target) = (&self.shapes[index.shape], &self.shapes[index.target]);
         let reach = index.reach(&self.shapes);
-        let limit = (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach;
+        let limit = self.gap_limit(reach);
+        let own = &self.shapes[index.shape];
         let position = index.place(&self.shapes).interpolate(&own.start.points);
-        if self.gap <= 0.0 || target.start.is_beyond(position, limit) {
+        if self.gap <= 0.0 || self.shapes[index.target].start.is_beyond(position, limit) {
             return;
         }
+        self.shapes[index.target].prepare_search();
+        let target = &self.shapes[index.target];
         let search =
             NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint: 0 };
         if let Some(foot) = target.nearest(&target.start, &search) {
@@ -259,6 +283,7 @@ impl InternalForce for PairForces {
             let moved = bodies[shape.body].moved();
             shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));
         }
+        self.prepare_pairs();
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
         let (mut force, mut rate) = (0.0, 0.0);
         let (mut on_first, mut lost) = (Vec2::zeros(), 0.0);
@@ -317,12 +342,12 @@ impl InternalForce for PairForces {
     }
 
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
-        let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
         self.candidates.iter().any(|&CandidatePair { shape, target, .. }| {
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
             let radius = own.radius + other.radius;
             let reach = if other.is_disc() { radius } else { 0.0 };
-            let is_near = swept(own).squared_distance(&swept(other)) <= square(reach);
+            let apart = own.swept_bounds().squared_distance(&other.swept_bounds());
+            let is_near = apart <= square(reach);
             is_near
                 && (0..own.sites.len()).any(|site| {
                     let index = PairIndex { shape, site, target };

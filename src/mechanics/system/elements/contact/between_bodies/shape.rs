@@ -111,15 +111,17 @@ pub(super) struct ContactSite {
     pub(super) touched: Vec<usize>,
 }
 
-/// Configuration of a body: its control points, and boxes around its spans.
+/// Configuration of a body: its control points, and the box around it.
+/// Boxes around its spans and samples are computed on demand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
+    /// Box around the body.
+    bounds: Bounds,
+    /// Boxes around the spans; empty until they are needed.
     spans: Vec<Bounds>,
     /// Samples of all spans, one span after the other.
     samples: Vec<Vec2>,
-    /// Box around all spans.
-    bounds: Bounds,
 }
 
 impl Configuration {
@@ -236,10 +238,12 @@ impl Shape {
 
     /// Sets the configuration at the start of the step.
     pub(super) fn begin(&mut self, controls: &[Vec2]) {
-        self.start.points.clear();
-        self.start.points.extend(controls);
-        self.axis.bound(&mut self.start);
-        self.end.clone_from(&self.start);
+        for configuration in [&mut self.start, &mut self.end] {
+            configuration.points.clear();
+            configuration.points.extend(controls);
+            configuration.spans.clear();
+            configuration.bounds = self.axis.bounds(controls);
+        }
         self.movements.clear();
         self.movements.resize(controls.len(), Vec2::zeros());
     }
@@ -262,7 +266,19 @@ impl Shape {
             *movement = displacement(at);
             self.end.points[at] = self.start.points[at] + *movement;
         }
-        self.axis.bound(&mut self.end);
+        self.end.spans.clear();
+        self.end.bounds = self.axis.bounds(&self.end.points);
+    }
+
+    /// Prepares both configurations for searches of nearest points.
+    pub(super) fn prepare_search(&mut self) {
+        self.axis.divide(&mut self.start);
+        self.axis.divide(&mut self.end);
+    }
+
+    /// Box around the body at the start and at the end of the step.
+    pub(super) fn swept_bounds(&self) -> Bounds {
+        self.start.bounds.joined(self.end.bounds)
     }
 
     /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
@@ -326,6 +342,9 @@ impl Shape {
             }
         };
         let bounds = Bounds::of([from, to].into_iter());
+        if self.swept_bounds().squared_distance(&bounds) > 0.0 {
+            return false;
+        }
         let is_near = |(index, span): &(usize, &Span)| {
             let swept = self.start.spans[*index].joined(self.end.spans[*index]);
             let is_within = |(low, high): &(f64, f64)| *low <= span.start && span.end <= *high;
@@ -389,27 +408,34 @@ pub(super) struct NearestSearch {
 }
 
 impl Axis {
-    /// Computes the boxes and samples of a configuration from its control points.
-    fn bound(&self, at: &mut Configuration) {
-        let Configuration { points, spans: bounds, samples, bounds: all } = at;
-        bounds.clear();
-        samples.clear();
+    /// Box around an axis with the given control points.
+    fn bounds(&self, points: &[Vec2]) -> Bounds {
         match self {
-            Self::Point(foot) => bounds.push(Bounds::of([points[foot.values.first]].into_iter())),
-            Self::Curve(SampledCurve { basis, spans, weights, growth }) => {
-                let order = basis.degree() + 1;
-                bounds.extend(spans.iter().map(|span| {
-                    let own = points[span.first..span.first + order].iter().copied();
-                    Bounds::of(own).grown(*growth)
-                }));
-                for (index, weights) in weights.chunks_exact(order).enumerate() {
-                    let first = spans[index / (SAMPLES + 1)].first;
-                    let own = points[first..first + order].iter().zip(weights);
-                    samples.push(own.fold(Vec2::zeros(), |sum, (at, by)| sum + at * *by));
-                }
+            Self::Point(foot) => Bounds::of([points[foot.values.first]].into_iter()),
+            Self::Curve(SampledCurve { growth, .. }) => {
+                Bounds::of(points.iter().copied()).grown(*growth)
             }
         }
-        *all = bounds.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span));
+    }
+
+    /// Computes the boxes around the spans and the samples of a configuration, unless they are known.
+    fn divide(&self, at: &mut Configuration) {
+        let Configuration { points, spans: bounds, samples, .. } = at;
+        let Self::Curve(SampledCurve { basis, spans, weights, growth }) = self else { return };
+        if !bounds.is_empty() {
+            return;
+        }
+        samples.clear();
+        let order = basis.degree() + 1;
+        bounds.extend(spans.iter().map(|span| {
+            let own = points[span.first..span.first + order].iter().copied();
+            Bounds::of(own).grown(*growth)
+        }));
+        for (index, weights) in weights.chunks_exact(order).enumerate() {
+            let first = spans[index / (SAMPLES + 1)].first;
+            let own = points[first..first + order].iter().zip(weights);
+            samples.push(own.fold(Vec2::zeros(), |sum, (at, by)| sum + at * *by));
+        }
     }
 }
 
@@ -426,8 +452,7 @@ struct SpanSearch<'a> {
 impl SpanSearch<'_> {
     /// Vector from the position to the axis, and the first two derivatives of the axis.
     fn at(&self, xi: f64) -> [Vec2; 3] {
-        let values = self.basis.evaluate_in(self.span, xi);
-        let [place, slope, bend] = [0, 1, 2].map(|order| values.combine(order, &self.at.points));
+        let [place, slope, bend] = self.basis.curve_in(self.span, xi, &self.at.points);
         [place - self.position, slope, bend]
     }
 
