@@ -99,12 +99,10 @@ impl PairForces {
             if own.swept_bounds().squared_distance(&other.swept_bounds()) >= reach {
                 continue;
             }
-            let is_far = own.end.bounds().squared_distance(&other.end.bounds()) >= reach;
+            let apart = own.end.bounds().squared_distance(&other.end.bounds());
+            let sites = if apart < reach { own.sites.len() } else { 0 };
             self.shapes[target].prepare_search();
-            if is_far {
-                continue;
-            }
-            for site in 0..own.sites.len() {
+            for site in 0..sites {
                 let index = PairIndex { shape, site, target };
                 if let Some(foot) = self.touched_foot(index) {
                     self.shapes[shape].sites[site].touched.push(target);
