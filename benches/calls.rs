@@ -1,4 +1,4 @@
-//! What the language costs: a step asked for by a script, a closure as a load, the engine's start, the prompt.
+//! Run time of the language: a step called from a script, a load given by a closure, the start of the engine, and the prompt.
 #![allow(clippy::unwrap_used)]
 
 use std::io::{Read, Write};
@@ -15,18 +15,18 @@ use withy::script::source::program::Program;
 use withy::script::state::limits::Limits;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Every figure is the least of so many repeats, taken in turns with what it is compared to.
+/// Number of repetitions. The smallest time is reported. Both compared scripts are measured alternately.
 const REPEATS: usize = 15;
-/// Steps of a repeat.
+/// Number of steps per repetition.
 const STEPS: usize = 1000;
-/// Starts of which the median is told.
+/// Number of starts, of which the median time is reported.
 const STARTS: usize = 20;
 
-/// A particle that flies: its step costs next to nothing, so that the call is seen.
+/// Scene of a free particle. Its steps take little time, so the time of the call dominates.
 const PARTICLE: &str = "let scene = new_scene(\"a\");
     scene.particle([0, 0], 1, #{ velocity: [1, 0] });\n";
 
-/// The flying spaghetti card with a schedule for its force in the place of SCHEDULE.
+/// Scene of the flying spaghetti. SCHEDULE is replaced by the schedule of its force.
 const SPAGHETTI: &str = "let scene = new_scene(\"spaghetti\");
     let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
     let rod = scene.beam(#{ name: \"rod\", axis: line([6, 0], [0, 8]), basis: bspline(14), section: s });
@@ -47,7 +47,7 @@ impl Write for Printed {
     }
 }
 
-/// The seconds that a script takes, by its own clock, for what stands between `scene` and the end.
+/// Run time of the script `work` after the scene is built, measured by the clock of the script [s].
 fn seconds(scene: &str, work: &str) -> f64 {
     let text = format!(
         "{scene} let sim = scene.start(#{{ dt: 0.05 }});
@@ -64,7 +64,7 @@ fn seconds(scene: &str, work: &str) -> f64 {
     String::from_utf8_lossy(&printed).trim().parse().unwrap()
 }
 
-/// The least times of two ways, in microseconds a step.
+/// Smallest run times of two scripts, in microseconds per step.
 fn compare(first: (&str, &str), second: (&str, &str)) -> [f64; 2] {
     let mut least = [f64::INFINITY; 2];
     for _ in 0..REPEATS {
@@ -75,14 +75,14 @@ fn compare(first: (&str, &str), second: (&str, &str)) -> [f64; 2] {
     least
 }
 
-/// How long an action takes.
+/// Duration of an action.
 fn timed(action: impl FnOnce()) -> Duration {
     let begun = Instant::now();
     action();
     begun.elapsed()
 }
 
-/// The least and the median of several times, in milliseconds.
+/// Smallest value and median of several times, in milliseconds.
 fn median(mut time: impl FnMut() -> Duration) -> [f64; 2] {
     let mut times: Vec<f64> = (0..STARTS).map(|_| time().as_secs_f64() * 1e3).collect();
     times.sort_by(f64::total_cmp);
@@ -151,7 +151,7 @@ fn main() {
     }
 }
 
-/// From the start of withy at a pseudo-terminal until it is ready for an input; its end is not counted.
+/// Time from the start of withy at a pseudo-terminal until it is ready for an input.
 #[cfg(unix)]
 fn time_to_prompt(folder: &std::path::Path) -> Duration {
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));

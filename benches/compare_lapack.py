@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Sets a Newton iteration of withy beside LAPACK's banded solver, at the same size and bandwidth, on one core.
+"""Compares a Newton iteration of withy with the banded solver of LAPACK for the same size and bandwidth, on one core.
 
     pip install numpy scipy
     cargo bench --bench step -- --csv target/step.csv
     python3 benches/compare_lapack.py target/step.csv
 
-`dgbsv` factorises and solves a matrix that is there already; an iteration of withy makes it, too. Times are the least of
-several, in nanoseconds per unknown.
+`dgbsv` factorises and solves an existing matrix; an iteration of withy also assembles it. The smallest of several times is
+reported, in nanoseconds per unknown.
 """
 
 import os
@@ -27,7 +27,7 @@ FEWEST_REPEATS = 3
 
 
 def least_time(unknowns):
-    """The least time of dgbsv, of a diagonally dominant matrix, per unknown [ns]."""
+    """Smallest time of dgbsv for a diagonally dominant matrix, per unknown [ns]."""
     b = HALF_BANDWIDTH
     random = numpy.random.default_rng(1)
     band = numpy.zeros((3 * b + 1, unknowns), order="F")

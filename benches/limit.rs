@@ -1,6 +1,6 @@
-//! What the machine can do at most: multiplications and subtractions, by vector instructions and not fused as in elimination, and bytes read and written.
+//! Peak rates of the machine: multiplications and subtractions by vector instructions (not fused, as in elimination), and bytes read and written.
 //!
-//! `cargo bench --bench limit`; docs/studies.md sets steps beside it.
+//! `cargo bench --bench limit` prints the rates. docs/studies.md compares the steps with them.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -8,17 +8,17 @@ use std::time::{Duration, Instant};
 use pulp::{Arch, Simd, WithSimd};
 
 const PATIENCE: Duration = Duration::from_millis(300);
-/// Operations that are under way at the same time: more than a core has time to wait for.
+/// Number of independent operations. It is large enough to hide the latency of an operation.
 const CHAINS: usize = 12;
 const ROUNDS: usize = 100_000;
 
-/// Chains of multiplications and subtractions.
+/// Independent chains of multiplications and subtractions.
 struct Arithmetic;
 
 impl WithSimd for Arithmetic {
     type Output = usize;
 
-    /// How many operations were done.
+    /// Number of executed operations.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> usize {
         let (factor, less) = (simd.splat_f64s(black_box(0.999)), simd.splat_f64s(black_box(1e-3)));
@@ -33,7 +33,7 @@ impl WithSimd for Arithmetic {
     }
 }
 
-/// Adds up numbers, many at a time.
+/// Sum of numbers, computed with vector instructions.
 struct Sum<'a>(&'a [f64]);
 
 impl WithSimd for Sum<'_> {
@@ -52,7 +52,7 @@ impl WithSimd for Sum<'_> {
     }
 }
 
-/// The least time of an action [s].
+/// Smallest duration of an action [s].
 fn least(mut action: impl FnMut()) -> f64 {
     let (begun, mut least) = (Instant::now(), f64::INFINITY);
     while begun.elapsed() < PATIENCE {

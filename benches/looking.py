@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What pictures, exports, the viewer and sensors cost: processor time of whole runs of `withy`, least of several, less that of the run alone.
+"""Processor time of pictures, exports, the viewer and sensors: smallest time of several runs of `withy`, minus the time of the run without them.
 
     cargo build --release && python3 benches/looking.py [target/release/withy] [repeats]
 """
@@ -30,7 +30,7 @@ let all = many.start(#{ dt: 0.01 OPTIONS });
 all.run_to(10);
 """
 
-# What is measured: its name, lines before the run, lines after it, options of the start, the scene and what it is compared with.
+# Measured features: name, lines before the run, lines after the run, options of the start, scene, and feature for comparison.
 CASES = [
     ("the run alone", "", "", "", RUN),
     ("6 ready sensors", "for n in [\"rod.end.x\", \"rod.end.speed\", \"rod[3].M\", \"rod[3].Q\", \"rod.energy\", \"rod.end.angle\"] { scene.record(n); }", "", "", RUN),
@@ -56,7 +56,7 @@ CASES = [
 
 
 def once(script):
-    """The processor time of a run, and the bytes that it wrote."""
+    """Processor time of a run, and number of written bytes."""
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "a.rhai"), "w") as file:
             file.write(script)

@@ -1,4 +1,4 @@
-//! The cost of a step with many springs and with many rigid bodies, in microseconds for each of them: it does not depend on how many there are.
+//! Time of a step with many springs and with many rigid bodies, in microseconds per object. It should not depend on the number of objects.
 //!
 //! `cargo bench --bench machines` prints the table of docs/studies.md.
 #![allow(clippy::unwrap_used)]
@@ -16,13 +16,13 @@ use withy::system::{
     StartMotion,
 };
 
-/// Every figure is measured for about this long.
+/// Approximate duration of each measurement.
 const PATIENCE: Duration = Duration::from_millis(600);
 const DT: f64 = 0.01;
-/// Steps of a run, which then begins anew.
+/// Number of steps of a run. Runs are repeated from the start.
 const RUN: u32 = 50;
 
-/// Particles in a row with a spring between neighbours, which fall.
+/// Falling row of particles with a spring between neighbours.
 fn springs(count: usize) -> Scene {
     let mut scene = Scene::new("many springs");
     let mut before = None;
@@ -41,7 +41,7 @@ fn springs(count: usize) -> Scene {
     scene
 }
 
-/// A chain of rigid bodies with a hinge between neighbours, which swings down from its end.
+/// Chain of rigid bodies with a hinge between neighbours. It is hinged at one end and swings down.
 fn bodies(count: usize) -> Scene {
     let mut scene = Scene::new("many bodies");
     let mut before = Partner::Ground;
@@ -65,7 +65,7 @@ fn bodies(count: usize) -> Scene {
     scene
 }
 
-/// The time of a step: the shortest mean of a run.
+/// Duration of a step: smallest mean over a run.
 fn step(scene: &Scene) -> Duration {
     let settings = || SimulationSettings {
         method: Method::EnergyMomentum,

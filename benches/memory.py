@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Peak memory and processor time of runs of a flying beam, by spans, steps and records.
+"""Peak memory and processor time of runs of a free beam, for several numbers of spans, steps and records.
 
     cargo build --release
     python3 benches/memory.py target/release/withy
@@ -11,7 +11,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-# Spans, steps, steps of which one is recorded.
+# Numbers of spans and steps, and interval of recorded steps.
 RUNS = [(1000, 200, 1), (1000, 2000, 10), (1000, 2000, 1), (1000, 10_000, 1), (14, 1000, 1), (14, 20_000, 1)]
 
 SCRIPT = """

@@ -1,5 +1,5 @@
-//! What the search for ten modes of a beam with 100 000 unknowns costs, in factorisations of its static stiffness matrix: processor time of
-//! this process, as Linux tells it (`cargo bench --bench modes`).
+//! Time of the search for ten modes of a beam with 100 000 unknowns, in units of the time of one factorisation of its static stiffness matrix.
+//! The processor time of this process is measured, which requires Linux (`cargo bench --bench modes`).
 #![allow(clippy::unwrap_used)]
 
 use withy::beams::{Mesh, Section};
@@ -47,7 +47,7 @@ fn main() {
         let none = BorderShape::default();
         let mut matrix = BorderedMatrix::zeros(model.unknowns(), model.half_bandwidth(), none);
         model.add_linearised_static_forces(&still, 1.0, &mut forces, &mut matrix);
-        // The clock ticks by milliseconds: many are measured together.
+        // The clock has a resolution of milliseconds, so several factorisations are measured together.
         let mut copies = vec![matrix; FACTORISATIONS];
         let start = processor_time();
         assert!(copies.iter_mut().all(|copy| copy.factorise().is_ok()));

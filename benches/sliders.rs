@@ -1,5 +1,5 @@
-//! The cost of a step with many sliders, in milliseconds, beside that of the same scene without them: beads on a flying beam, a rope
-//! through eyelets, and a chain whose links hang in rings that slide on them.
+//! Time of a step with many sliders, in milliseconds, compared with the same scene without sliders: beads on a flying beam, a rope
+//! through eyelets, and a chain whose links are connected by rings that slide on them.
 //!
 //! `cargo bench --bench sliders` prints the tables of docs/studies.md.
 #![allow(clippy::unwrap_used)]
@@ -14,10 +14,10 @@ use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
 use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
-/// Every figure is measured for about this long.
+/// Approximate duration of each measurement.
 const PATIENCE: Duration = Duration::from_millis(600);
 const FEWEST_REPEATS: usize = 5;
-/// Steps of a run, which then begins anew: nothing comes to an end of its beam.
+/// Number of steps of a run. Runs are repeated from the start, so that no slider reaches an end of its beam.
 const RUN: usize = 12;
 
 fn add_beam(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize, section: Section) -> usize {
@@ -31,7 +31,7 @@ fn add_beam(scene: &mut Scene, from: Vec2, to: Vec2, spans: usize, section: Sect
     scene.add_beam(beam).unwrap()
 }
 
-/// A particle that slides on a beam.
+/// Adds a particle that slides on a beam.
 fn add_bead(scene: &mut Scene, master: usize, arc_length: f64, mass: f64) -> Station {
     let position = scene.drawn_at(&Station::on_beam(master, arc_length)).unwrap();
     let name = format!("bead{}", scene.particles.len());
@@ -57,7 +57,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
     scene.add_slider(slider).unwrap();
 }
 
-/// A beam of so many spans, thrown by a force and a moment at its end, with as many beads, each a tenth as heavy as a span.
+/// Scene of a free beam with beads. A force and a moment act at its end. Each bead has a tenth of the mass of a span.
 fn beads(spans: usize, beads: usize) -> Scene {
     let mut scene = Scene::new("beads");
     let length = 10.0 / 14.0 * spans as f64;
@@ -75,14 +75,14 @@ fn beads(spans: usize, beads: usize) -> Scene {
     scene.add_load(force, push.clone());
     scene.add_load(LoadKind::Moment { station, moment: -80.0 }, push);
     for bead in 0..beads {
-        // Away from the ends.
+        // The beads are placed away from the ends.
         let along = 0.1 + 0.8 * (bead as f64 + 0.5) / beads as f64;
         add_bead(&mut scene, rod, length * along, 0.07);
     }
     scene
 }
 
-/// A rope of so many spans that is drawn through as many points held by the ground.
+/// Scene of a rope that is drawn through eyelets fixed to the ground.
 fn eyelets(spans: usize, eyelets: usize) -> Scene {
     let mut scene = Scene::new("eyelets");
     let length = spans as f64;
@@ -105,7 +105,7 @@ fn eyelets(spans: usize, eyelets: usize) -> Scene {
     scene
 }
 
-/// Links of four spans in a row, each of which hangs in a ring that slides on the link before it and on itself.
+/// Chain of links of four spans. A ring slides on each pair of consecutive links.
 fn chain(links: usize) -> Scene {
     let mut scene = Scene::new("chain");
     let section = Section {
@@ -116,7 +116,7 @@ fn chain(links: usize) -> Scene {
         rotary_inertia: 0.01,
     };
     for link in 0..links {
-        // In zigzag, so that a ring is where two links cross.
+        // The links form a zigzag, so that consecutive links cross at their ring.
         let from = Vec2::new(0.8 * link as f64, if link % 2 == 0 { 0.0 } else { 0.5 });
         let to = from + Vec2::new(1.0, if link % 2 == 0 { 0.5 } else { -0.5 });
         add_beam(&mut scene, from, to, 4, section);
@@ -132,7 +132,7 @@ fn chain(links: usize) -> Scene {
     scene
 }
 
-/// The unknowns, the least time of a step and its mean Newton iterations.
+/// Number of unknowns, smallest duration of a step, and mean number of Newton iterations.
 fn cost(scene: &Scene, dt: f64) -> (usize, Duration, f64) {
     let mut model = System::assemble(scene).unwrap();
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
@@ -147,7 +147,7 @@ fn cost(scene: &Scene, dt: f64) -> (usize, Duration, f64) {
         let interval = Interval::between(step as f64 * dt, (step + 1) as f64 * dt);
         let before = Instant::now();
         iterations += integrator.step(&mut model, interval).unwrap().iterations;
-        // The first steps are those of an arrangement that is too regular.
+        // The first steps are ignored, because the initial arrangement is too regular.
         if step > 2 {
             least = least.min(before.elapsed());
         }

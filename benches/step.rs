@@ -1,9 +1,10 @@
-//! The cost of a Newton iteration and of a step, in nanoseconds per unknown, from ten unknowns to a million.
+//! Time of a Newton iteration and of a step, in nanoseconds per unknown, for ten to a million unknowns.
 //!
-//! `cargo bench --bench step` prints all tables; `cargo bench --bench step -- --csv FILE` measures only what depends on the
-//! number of unknowns, and writes it as a table that `benches/compare_lapack.py FILE` sets beside LAPACK. `--spans 1000,10000`
-//! measures beams of so many spans only; `--steps BEAMS,SPANS,STEPS` takes steps and nothing else, whose instructions valgrind counts; `--threads 1` with one thread where large beams are worked on by as many as there are
-//! cores.
+//! `cargo bench --bench step` prints all tables. Options after `--`:
+//! - `--csv FILE`: measures only times that depend on the number of unknowns, and writes a table for `benches/compare_lapack.py FILE`.
+//! - `--spans 1000,10000`: measures only beams with these numbers of spans.
+//! - `--steps BEAMS,SPANS,STEPS`: only takes steps, for example to count instructions with valgrind.
+//! - `--threads 1`: uses one thread. By default, large beams use all cores.
 #![allow(clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -19,16 +20,16 @@ use withy::newton::Tolerance;
 use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
-/// Every figure is measured for about this long.
+/// Approximate duration of each measurement.
 const PATIENCE: Duration = Duration::from_millis(300);
 const FEWEST_REPEATS: usize = 5;
 const DT: f64 = 0.1;
-/// Where the flight of the spaghetti ends.
+/// End time of the flying spaghetti.
 const END: f64 = 7.5;
-/// Steps of a run with sliders.
+/// Number of steps of a run with sliders.
 const RUN: usize = 15;
 
-/// A flying beam whose spans are as long as those of the spaghetti, however many there are.
+/// Scene of a free beam. Its span length is that of the flying spaghetti, for any number of spans.
 fn flying_scene(spans: usize) -> Scene {
     let mut scene = Scene::new("bench");
     let length = 10.0 / 14.0 * spans as f64;
@@ -59,7 +60,7 @@ fn flying_beam(spans: usize) -> System {
     System::assemble(&flying_scene(spans)).unwrap()
 }
 
-/// The same with particles that slide along it.
+/// Free beam with particles that slide along it.
 fn beaded_beam(spans: usize, beads: usize) -> System {
     let mut scene = flying_scene(spans);
     let length = scene.beams[0].axis.length();
@@ -87,14 +88,14 @@ fn beaded_beam(spans: usize, beads: usize) -> System {
     System::assemble(&scene).unwrap()
 }
 
-/// A whole step with so many sliders.
+/// Duration of a step with sliders.
 fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
     let mut model = beaded_beam(spans, beads);
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());
     let (mut steps, mut iterations) = (0, 0);
     let start = model.state();
     let cost = measure(|| {
-        // Starting anew again and again keeps the particles on the beam.
+        // The run is restarted repeatedly, so that the particles stay on the beam.
         let step = steps % RUN;
         if step == 0 {
             model.restore(&start);
@@ -106,7 +107,7 @@ fn sliding_cost(spans: usize, beads: usize) -> (usize, (f64, f64), f64) {
     (model.unknowns(), cost, iterations as f64 / steps as f64)
 }
 
-/// A step of a simulation, its rows recorded, with a limit for snapshots [bytes]; and the bytes of a snapshot.
+/// Duration of a recorded step of a simulation with a memory limit for snapshots [bytes], and size of a snapshot [bytes].
 fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     let (method, tolerance) = (Method::EnergyMomentum, Tolerance::default());
     let settings = SimulationSettings { method, dt: DT.into(), tolerance };
@@ -117,7 +118,7 @@ fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
     (cost, bytes / kept.max(1))
 }
 
-/// Repeats an action whose timed part it reports itself; the shortest and the median, in nanoseconds.
+/// Repeats an action that reports its own duration. Returns the smallest duration and the median, in nanoseconds.
 fn measure(mut action: impl FnMut() -> Duration) -> (f64, f64) {
     let begun = Instant::now();
     let mut times = Vec::new();
@@ -134,7 +135,7 @@ fn timed(action: impl FnOnce()) -> Duration {
     begun.elapsed()
 }
 
-/// A step of the flying spaghetti, those of its whole flight again and again; with its mean Newton iterations.
+/// Duration of a step of the flying spaghetti over its whole run, and mean number of Newton iterations.
 fn method_cost(method: Method, spans: usize, dt: f64) -> ((f64, f64), f64) {
     let mut model = flying_beam(spans);
     let flight = (END / dt).round() as usize;
@@ -153,19 +154,19 @@ fn method_cost(method: Method, spans: usize, dt: f64) -> ((f64, f64), f64) {
     (cost, iterations as f64 / steps as f64)
 }
 
-/// What a beam costs.
+/// Memory and times of a beam.
 struct Costs {
     spans: usize,
     unknowns: usize,
     /// Memory of the model and of the work space of its integrator [bytes].
     bytes: usize,
-    /// Assembly, factorisation, solution, the residual after it, and a whole step [ns].
+    /// Times of assembly, factorisation, solution, final residual, and a whole step [ns].
     parts: [(f64, f64); 5],
-    /// The mean of a step.
+    /// Mean number of Newton iterations per step.
     iterations: f64,
 }
 
-/// The memory that this process occupies [bytes].
+/// Resident memory of this process [bytes].
 fn occupied() -> usize {
     memory_stats::memory_stats().unwrap().physical_mem
 }
@@ -223,7 +224,7 @@ fn costs(spans: usize, threads: usize) -> Costs {
     Costs { spans, unknowns, bytes, parts, iterations: iterations as f64 / steps as f64 }
 }
 
-/// Flying beams of so many spans, side by side.
+/// System of parallel free beams.
 fn flying_beams(beams: usize, spans: usize) -> System {
     let mut scene = flying_scene(spans);
     let first = scene.beams[0].clone();
@@ -238,8 +239,8 @@ fn flying_beams(beams: usize, spans: usize) -> System {
     System::assemble(&scene).unwrap()
 }
 
-/// Takes steps of flying beams with so many threads, and nothing else: to be counted by valgrind, as the difference of two numbers of steps, or timed.
-/// `rule` is beams, spans and steps.
+/// Only takes steps of free beams. The difference between two numbers of steps gives the instructions per step in valgrind.
+/// The argument `rule` contains the numbers of beams, spans and steps.
 fn take_steps(rule: &str, threads: usize) {
     let numbers: Vec<usize> = rule.split(',').map(|number| number.parse().unwrap()).collect();
     let [beams, spans, steps] = numbers[..] else { panic!("--steps BEAMS,SPANS,STEPS") };
@@ -271,10 +272,10 @@ fn take_steps(rule: &str, threads: usize) {
     );
 }
 
-/// The beams whose costs are measured, the largest one with a million unknowns.
+/// Numbers of spans of the measured beams. The largest beam has a million unknowns.
 const SPANS: [usize; 6] = [14, 100, 1000, 10_000, 100_000, 333_331];
 
-/// Prints what depends on the number of unknowns.
+/// Prints the times that depend on the number of unknowns.
 fn print_sizes(spans: &[usize], threads: usize) {
     println!(
         "nanoseconds per unknown, least / median; iteration = assembly + factorisation + solution\n"
@@ -314,7 +315,7 @@ fn print_sizes(spans: &[usize], threads: usize) {
     }
 }
 
-/// Writes the least times of what depends on the number of unknowns, in nanoseconds per unknown.
+/// Writes the smallest times that depend on the number of unknowns, in nanoseconds per unknown.
 fn write_sizes(file: &str, threads: usize) {
     let mut table = "spans,unknowns,assembly,factorise,solve,residual,step,bytes\n".to_owned();
     for Costs { spans, unknowns, bytes, parts, .. } in SPANS.map(|spans| costs(spans, threads)) {

@@ -1,4 +1,4 @@
-//! What a viewer costs: time and size of the page for rods that turn, by beams and frames.
+//! Time to write the page of a viewer, and its size, for rotating rods with several numbers of beams and frames.
 //!
 //! `cargo bench --bench viewer`
 
@@ -13,10 +13,10 @@ use withy::script::presentation::viewer_data::{FieldReader, ViewerOptions, film}
 use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy::system::{BeamDefinition, Scene, StartMotion};
 
-/// Beams and frames.
+/// Numbers of beams and frames.
 const SIZES: [(usize, usize); 4] = [(1, 200), (1, 1000), (10, 1000), (50, 1000)];
 
-/// Flexible rods, each of eight cubic spans, that turn each at its own rate, after so many steps.
+/// Simulation of rotating flexible rods with eight cubic spans each and different angular velocities, after a number of steps.
 fn turning(beams: usize, steps: usize) -> Simulation {
     let mut scene = Scene::new("rods");
     let section = Section {
@@ -56,7 +56,7 @@ fn main() {
         let fields = ["speed", "M", "strain_energy", "stretch", "curvature"];
         let begun = Instant::now();
         let shown = simulation.frames_between(0.0, f64::INFINITY, frames);
-        // Where the states come from is not of the film: all frames have the last one here.
+        // The time to restore states is not measured, so all frames use the last state.
         let mut inside = FieldReader::of(&simulation, shown.len(), &fields).expect("places");
         if let Some(inside) = &mut inside {
             (0..shown.len()).for_each(|frame| inside.store_frame(frame, &simulation));

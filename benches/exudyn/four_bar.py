@@ -1,4 +1,4 @@
-"""A four-bar linkage with a flexible coupler: a heavy crank that turns freely drives a rocker, both rigid."""
+"""Four-bar linkage with a flexible coupler. A heavy rigid crank without a motor drives a rigid rocker."""
 
 import math
 
@@ -9,7 +9,7 @@ import exudyn
 import pairs
 from solving import Clock, positions
 
-# The aluminium strips of Turcic, Midha & Bosnik (1984): lengths, width and thickness [m].
+# Aluminium strips of Turcic, Midha & Bosnik (1984): lengths, width and thickness [m].
 CRANK, COUPLER, ROCKER, GROUND = 0.108, 0.2794, 0.2705, 0.254
 WIDTH, THICKNESS, E, DENSITY, POISSON = 0.0254, 0.0016, 7.1e10, 2710.0, 0.33
 ANGLE, SPIN = 0.5, 340 * 2 * math.pi / 60
@@ -26,7 +26,7 @@ KNEE = (CRANK * math.cos(ANGLE), CRANK * math.sin(ANGLE))
 
 
 def elbow():
-    """Where coupler and rocker meet, above the line between their other ends."""
+    """Position of the joint of coupler and rocker, above the line between their other ends."""
     along = (FIXED[0] - KNEE[0], FIXED[1] - KNEE[1])
     distance = math.hypot(*along)
     share = (COUPLER**2 - ROCKER**2 + distance**2) / (2 * distance)
@@ -55,7 +55,7 @@ ROCKER_CENTRE = ((ELBOW[0] + FIXED[0]) / 2, (ELBOW[1] + FIXED[1]) / 2)
 
 
 def moved(centre, spin, place, velocity=(0.0, 0.0)):
-    """The velocity of a place of something that turns about a centre."""
+    """Velocity of a point of a body that rotates about a centre."""
     return [velocity[0] - spin * (place[1] - centre[1]), velocity[1] + spin * (place[0] - centre[0])]
 
 
@@ -80,17 +80,17 @@ fn make(mesh) {{
 
 
 class FourBar:
-    """Two turns of the crank; judged by what both programs converge to."""
+    """Two revolutions of the crank. The reference is the common limit of both programs."""
 
     TITLE, DURATION = "four-bar with a flexible coupler", 0.35
     SCRIPT = SCRIPT + pairs.PRINT_RUN
     LEVELS = pairs.LEVELS
-    # Where start, middle and end of the coupler are: withy with 32 spans, fourth_order and 3200 steps; EXUDYN with 16 elements and the trapezoidal rule,
-    # extrapolated from 6400 and 12800 steps, is within 2e-7.
+    # Positions of start, middle and end of the coupler: withy with 32 spans, fourth_order and 3200 steps. EXUDYN with 16 elements and the trapezoidal rule,
+    # extrapolated from 6400 and 12800 steps, differs by at most 2e-7.
     reference = [[0.10218258, 0.03496742], [0.1798312, 0.1510937], [0.2523350, 0.27049488]]
 
     def error(self, points):
-        """The largest distance of start, middle and end of the coupler from where they should be, by its length."""
+        """Largest position error of start, middle and end of the coupler, divided by its length."""
         return pairs.largest_distance(points, self.reference) / COUPLER
 
     def withy_runs(self):
@@ -111,7 +111,7 @@ class FourBar:
         return clock.least(), positions(system, nodes)
 
     def model(self, elements):
-        """Elements of three nodes: the system, and the nodes of start, middle and end of the coupler."""
+        """Model with elements of three nodes. Returns the system, and the nodes of start, middle and end of the coupler."""
         self.container = exudyn.SystemContainer()
         system = self.container.AddSystem()
         count = 2 * elements + 1

@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""Sets withy beside EXUDYN: by turns, on one machine, on one core, each at its cheapest for an error.
+"""Compares the run times of withy and EXUDYN for the same error, alternately on one core of the same machine.
 
     pip install exudyn==1.13.6 numpy
     cargo build --release
     python3 benches/exudyn/pairs.py [PROBLEM ...] [--rounds N]
 
-Problems: flying_spaghetti, stiffer_spaghetti, smooth_throw, four_bar, cable_slider; all of them unless some are named.
+Problems: flying_spaghetti, stiffer_spaghetti, smooth_throw, four_bar, cable_slider. Default: all problems.
 
-First both programs are swept over their meshes, methods and step sizes. A run counts for an error only where all runs of the same mesh and method with
-smaller steps are as good: what is good by chance does not count. Of each program the three cheapest runs for each error are then made again by turns, in
-rounds (5 unless given), for about a quarter of a second each; what counts is the least time of all, which is that of a run that nothing else disturbed.
-withy's is by the clock of its own process, from the first step to the last, records included; EXUDYN's that of its calls of the solver, by the clock or of
-the processor, whichever is less. Neither holds the start of the process or the building of the model.
+First, both programs run with several meshes, methods and step sizes. A run is accepted for an error level only if all runs of the same mesh and method with
+smaller steps are also below this level. This excludes runs that are accurate by chance. For each program and level, the three fastest runs are repeated
+alternately in several rounds (default 5), for about a quarter of a second each. The smallest time is reported, because it is least affected by other processes.
+The time of withy is measured within its process, from the first to the last step, including recording. The time of EXUDYN is the time of its solver calls: wall
+clock or processor time, whichever is smaller. The start of the process and the assembly of the model are excluded.
 
-Errors are judged by solutions that come from neither program where there are some (scripts/studies/reference/README.md), else by what both converge to.
+Errors are computed from independent solutions if available (scripts/studies/reference/README.md), otherwise from the common limit of both programs.
 """
 
 import os
@@ -42,7 +42,7 @@ LONGEST = 8.0  # seconds that a run of a sweep may take; smaller steps of the sa
 
 
 class Run(NamedTuple):
-    """What a program is asked for: a mesh, a method of its own, and how many steps."""
+    """Settings of a run: mesh, method of the program, and number of steps."""
 
     mesh: str
     method: str
@@ -53,7 +53,7 @@ class Run(NamedTuple):
 
 
 class Made(NamedTuple):
-    """A run that was made: its error, and how long it took [s]."""
+    """Completed run: settings, error, and run time [s]."""
 
     run: Run
     error: float
@@ -61,18 +61,18 @@ class Made(NamedTuple):
 
 
 def largest_distance(points, reference):
-    """The largest distance of a point from where it should be."""
+    """Largest position error of the points."""
     return max(math.dist(a, b) for a, b in zip(points, reference, strict=True))
 
 
 class Exudyn:
-    """EXUDYN's side of a problem, made anew for each run."""
+    """Model of a problem in EXUDYN, built again for each run."""
 
     def __init__(self, problem):
         self.problem, self.name = problem, f"EXUDYN {VERSION}"
 
     def make(self, runs):
-        """The runs, as far as they can be solved, one after another."""
+        """Executes the runs one after another. Runs without a solution are omitted."""
         for run in runs:
             try:
                 seconds, points = self.problem.run_exudyn(run)
@@ -83,7 +83,7 @@ class Exudyn:
 
 
 class Withy:
-    """withy's side of a problem: one script for all runs."""
+    """Script of a problem for withy, which executes all runs."""
 
     def __init__(self, problem):
         self.problem, self.name = problem, "withy"
@@ -104,11 +104,11 @@ class Withy:
             yield Made(run, self.problem.error(points), seconds)
 
     def call(self, run):
-        """The statement of the script that makes a run and prints its time and its points."""
+        """Statement of the script that executes a run and prints its time and its points."""
         return f"print_run(make({run.mesh}), {run.method}(), {self.problem.DURATION}, {run.steps});\n"
 
 
-# What the scripts of all problems end with: make(mesh) gives a scene and the points to look at.
+# Common last part of the scripts: make(mesh) returns a scene and the compared points.
 PRINT_RUN = """
 fn print_run(made, integrator, duration, steps) {
     let sim = made.scene.start(#{ integrator: integrator, dt: duration / steps });
@@ -125,7 +125,7 @@ fn print_run(made, integrator, duration, steps) {
 
 
 def sweep(side, ladders):
-    """All runs of ladders, lists of runs of one mesh and method with ever smaller steps, until one takes too long."""
+    """Executes all runs of the ladders. A ladder is a list of runs with one mesh and method and decreasing steps. It ends when a run takes too long."""
     made = []
     for ladder in ladders:
         rungs = []
@@ -138,7 +138,7 @@ def sweep(side, ladders):
 
 
 def cheapest_confirmed(ladders, level):
-    """The cheapest runs with an error below a level of which all with smaller steps are as good."""
+    """Fastest runs with an error below a level, for which all runs with smaller steps are also below this level."""
     confirmed = []
     for rungs in ladders:
         bad = [at for at, rung in enumerate(rungs) if not rung.error < level]
@@ -147,7 +147,7 @@ def cheapest_confirmed(ladders, level):
 
 
 def race(sides, candidates, rounds):
-    """The least time of each candidate, made by turns."""
+    """Smallest time of each candidate. The candidates of both programs run alternately."""
     least = {}
     for _ in range(rounds):
         for side in sides:
@@ -185,7 +185,7 @@ def compare(problem, rounds):
 
 
 def machine():
-    """What runs it: processor, cores, load."""
+    """Description of the machine: processor, cores, load."""
     try:
         names = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.M)
     except OSError:

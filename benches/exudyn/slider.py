@@ -1,7 +1,7 @@
-"""A mass that slides along a beam that turns about a hinge, as scripts/studies/sliding_mass.rhai, but without shear.
+"""A mass slides along a beam that rotates about a hinge, as in scripts/studies/sliding_mass.rhai, but without shear.
 
-EXUDYN's sliding joint runs on cables, which bend and stretch and do not shear, and whose sections have no rotary inertia; the beam of the study shears. Here
-withy's beam is so stiff against shear, 1e4 times as stiff as against stretching, and has so little rotary inertia, that both programs converge to one answer.
+The sliding joint of EXUDYN requires cable elements, which have neither shear deformation nor rotary inertia. The beam of the study has both. Here the shear
+stiffness of the beam in withy is 1e4 times its axial stiffness, and its rotary inertia is so small that both programs converge to the same solution.
 """
 
 import math
@@ -36,17 +36,17 @@ fn make(mesh) {{
 
 
 class CableSlider:
-    """Until t = 0.4: the mass slides inwards, and is slowed down by the rotation; judged by what both programs converge to."""
+    """Motion until t = 0.4: the mass slides inwards and is slowed down by the rotation. The reference is the common limit of both programs."""
 
     TITLE, DURATION = "a mass that slides on a turning cable", 0.4
     SCRIPT = SCRIPT + pairs.PRINT_RUN
     LEVELS = pairs.LEVELS[:3]
-    # Where the mass and the end of the beam are: withy with 32 and 64 spans, GA = 1e6 and 1e7, and EXUDYN with 16 elements and generalized-alpha, extrapolated
-    # from 2560 and 5120 steps, are within 2e-5.
+    # Positions of the mass and the end of the beam. The results of withy with 32 and 64 spans and GA = 1e6 and 1e7, and of EXUDYN with 16 elements and
+    # generalized-alpha, extrapolated from 2560 and 5120 steps, agree within 2e-5.
     reference = [[0.652261, 1.336716], [1.577236, 2.825838]]
 
     def error(self, points):
-        """The larger distance of the mass and the end of the beam from where they should be, by the length."""
+        """Larger position error of the mass and the end of the beam, divided by the length."""
         return pairs.largest_distance(points, self.reference) / LENGTH
 
     def withy_runs(self):
@@ -61,14 +61,14 @@ class CableSlider:
 
     def run_exudyn(self, run):
         elements = int(run.mesh.split()[0])
-        # The index-2 method takes the equations of the joint in velocities, the others the classical ones.
+        # The index-2 method uses the joint equations for velocities, the other methods those for positions.
         system, nodes = self.model(elements, classical=not run.method.startswith("trapezoidal"))
         clock = Clock()
         clock.solve(system, 0.0, self.DURATION, run.method, run.steps, dense=elements <= 8)
         return clock.least(), positions(system, nodes)
 
     def model(self, elements, *, classical):
-        """Cables of two nodes: the system, and the nodes of the mass and of the end."""
+        """Model with cable elements of two nodes. Returns the system, and the nodes of the mass and of the end."""
         self.container = exudyn.SystemContainer()
         system = self.container.AddSystem()
         span = LENGTH / elements

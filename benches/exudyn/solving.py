@@ -1,4 +1,4 @@
-"""How EXUDYN solves a model: its settings, and how long its calls of the solver take."""
+"""Solution of a model with EXUDYN: settings, and measurement of the solver calls."""
 
 import sys
 import time
@@ -13,7 +13,7 @@ except ImportError as missing:
 if exudyn.__version__ != VERSION:
     print(f"This is EXUDYN {exudyn.__version__}; the settings are those of {VERSION}.", file=sys.stderr)
 
-# Steps that fail are told by their exceptions.
+# Failed steps raise exceptions, so the messages of the solver are not needed.
 exudyn.config.printToConsole = False
 
 KINDS = {
@@ -24,7 +24,7 @@ KINDS = {
 
 
 class Clock:
-    """The time of all solves of a run [s], by the clock and of the processor."""
+    """Wall-clock and processor time of all solver calls of a run [s]."""
 
     def __init__(self):
         self.clock = self.processor = 0.0
@@ -33,9 +33,9 @@ class Clock:
         return min(self.clock, self.processor)
 
     def solve(self, system, start, end, method, steps, *, dense=False):
-        """Solves from one time to another, going on from the last solve.
+        """Solves from `start` to `end`, continuing the last solution.
 
-        A method is one of KINDS, or generalized-alpha as "alpha RHO", with modified Newton unless "full" is put behind.
+        The method is one of KINDS, or "alpha RHO" for generalized-alpha. Modified Newton is used unless "full" is appended.
         """
         kind, *rest = method.split()
         settings = exudyn.SimulationSettings()
@@ -62,5 +62,5 @@ class Clock:
 
 
 def positions(system, nodes):
-    """Where nodes are: points of two coordinates."""
+    """Positions of nodes, as points with two coordinates."""
     return [list(system.GetNodeOutput(node, exudyn.OutputVariableType.Position)[:2]) for node in nodes]

@@ -1,4 +1,4 @@
-"""The flying spaghetti (Simo & Vu-Quoc 1986, Part II): a free beam that is thrown by a force and a moment at one end."""
+"""Flying spaghetti (Simo & Vu-Quoc 1986, Part II): a free beam that is accelerated by a force and a moment at one end."""
 
 import csv
 import math
@@ -25,17 +25,17 @@ fn make(mesh) {{
 }}
 """
 
-# Steps until the load ends, explicit, of one element of three nodes: the longest that are stable.
+# Number of the longest stable explicit steps until the load ends, for one element of three nodes.
 STABLE = 108.7
 
 
 def steps_of(first, count):
-    """Ever smaller steps: their number grows by √2."""
+    """Increasing numbers of steps, with the ratio √2."""
     return [round(first * 2 ** (at / 2)) for at in range(count)]
 
 
 class Spaghetti:
-    """The problem for a bending stiffness, with loads that act as a pulse."""
+    """Problem with a given bending stiffness and given pulses of the loads."""
 
     LEVELS = pairs.LEVELS
 
@@ -50,7 +50,7 @@ class Spaghetti:
         self.SCRIPT = SCRIPT.format(**names, EI=stiffness, pulse=pulse) + pairs.PRINT_RUN
 
     def error(self, points):
-        """The larger distance of the two ends from where they should be, by the length."""
+        """Larger position error of the two ends, divided by the length."""
         return pairs.largest_distance(points, self.reference) / LENGTH
 
     def withy_runs(self):
@@ -69,7 +69,7 @@ class Spaghetti:
                 yield [pairs.Run(f"{elements} elements", method, round(self.parts * steps)) for steps in steps_of(first, 7)]
 
     def run_exudyn(self, run):
-        """Two solves, with new accelerations where the load ends."""
+        """Solves before and after the end of the load. The accelerations are computed again in between."""
         system, ends, release = self.model(int(run.mesh.split()[0]))
         clock = Clock()
         until_release = round(run.steps / self.parts)
@@ -79,7 +79,7 @@ class Spaghetti:
         return clock.least(), positions(system, ends)
 
     def model(self, elements):
-        """Elements of three nodes: the system, the nodes of its ends, and what takes the loads away."""
+        """Model with elements of three nodes. Returns the system, the nodes of its ends, and a function that removes the loads."""
         self.container = exudyn.SystemContainer()
         system = self.container.AddSystem()
         count = 2 * elements + 1
@@ -95,7 +95,7 @@ class Spaghetti:
         loads = [system.AddLoad(kind(markerNumber=end, loadVector=vector)) for kind, vector in full]
         system.Assemble()
         if self.pulse == "smooth_pulse":
-            # Compiled expressions; kept, as the system does not own them.
+            # The compiled expressions must be kept alive, because the system does not own them.
             self.functions = [self.let_pulse(system, load, vector) for load, (_, vector) in zip(loads, full)]
 
         def release():
@@ -107,7 +107,7 @@ class Spaghetti:
 
     @staticmethod
     def let_pulse(system, load, vector):
-        """Lets a load follow (16/5) sin⁶(π t/2.5)."""
+        """Makes a load proportional to (16/5) sin⁶(π t/2.5)."""
         def pulse(system, t, load_vector):
             sine = exudyn.symbolic.sin(math.pi / T_LOAD * t)
             factor = 3.2 * sine * sine * sine * sine * sine * sine

@@ -1,9 +1,9 @@
-"""Parts of the studies of a script as tasks of Dask, and then joined.
+"""Computes the parts of the studies of a script as tasks of Dask, and merges them.
 
     python scripts/clusters/dask_parts.py SCRIPT.rhai PARTS OUT [--slurm WORKERS]
 
-Without --slurm the workers are processes of this machine; with it they are jobs of Slurm, by dask-jobqueue. A part whose worker is lost, or that
-fails, is tried again three times: it goes on where it was. All workers see the same folder.
+Without --slurm, the workers are processes of this machine; with --slurm, they are jobs of Slurm (dask-jobqueue). A part that fails, or whose worker
+is lost, is started again up to three times. Completed work is kept. All workers must share the folder.
 """
 
 import argparse
@@ -16,7 +16,7 @@ WITHY = os.environ.get("WITHY", "withy")
 
 
 def make(script, number, parts, folder):
-    """Makes a part; a process that is killed is an error, which Dask tries again."""
+    """Computes a part. A killed process raises an error, so that Dask starts the part again."""
     subprocess.run(
         [WITHY, "study", "--quiet", script, "--part", f"{number}/{parts}", "--out", folder], check=True
     )
@@ -24,7 +24,7 @@ def make(script, number, parts, folder):
 
 
 def cluster(workers):
-    """A cluster of Slurm jobs where their number is given, else of this machine."""
+    """Cluster of Slurm jobs if a number of workers is given, otherwise of processes of this machine."""
     if workers is None:
         return LocalCluster(threads_per_worker=1)
     from dask_jobqueue import SLURMCluster

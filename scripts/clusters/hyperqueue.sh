@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Parts of the studies of a script as a task array of HyperQueue, and then joined. A server and workers must run: hq server start, hq worker start.
+# Computes the parts of the studies of a script as a task array of HyperQueue, and merges them. A server and workers must run: hq server start, hq worker start.
 #
 #   scripts/clusters/hyperqueue.sh SCRIPT.rhai PARTS OUT
 #
-# A task whose worker is lost is given to another one by HyperQueue, and a part whose process is killed is begun again: both go on where they were.
+# If a worker is lost, HyperQueue assigns its task to another worker. A part whose process is killed is started again. In both cases, completed work is kept.
 set -euo pipefail
 script=$1 parts=$2 out=$3
 withy=${WITHY:-withy}

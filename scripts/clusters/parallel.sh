@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Parts of the studies of a script by GNU parallel, here or on other machines, and then joined.
+# Computes the parts of the studies of a script by GNU parallel, on this or on other machines, and merges them.
 #
 #   scripts/clusters/parallel.sh SCRIPT.rhai PARTS OUT [options of parallel, such as --jobs 4 or --sshlogin HOSTS --workdir .]
 #
-# A part that fails or is killed is tried again, three times in all: it goes on where it was. Other machines see the same folder.
+# A part that fails or is killed is started again, up to three times in total. Completed work is kept. All machines must share the folder.
 set -euo pipefail
 script=$1 parts=$2 out=$3
 shift 3

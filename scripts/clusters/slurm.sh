@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Parts of the studies of a script as a Slurm job array, and a job that joins them when all are done.
+# Computes the parts of the studies of a script as a Slurm job array, and merges them in a further job.
 #
 #   scripts/clusters/slurm.sh SCRIPT.rhai PARTS OUT
 #
-# A part that fails or is killed is put into the queue again, up to three times: it goes on where it was. Options of sbatch are taken from SBATCH_OPTIONS.
+# A part that fails or is killed is requeued, up to three times. Completed work is kept. The variable SBATCH_OPTIONS contains options of sbatch.
 set -euo pipefail
 script=$1 parts=$2 out=$3
 withy=${WITHY:-withy}

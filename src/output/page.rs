@@ -70,7 +70,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// Creates an empty page on which panels are below each other.
+    /// Creates an empty page. Its panels are arranged one below the other.
     pub fn column() -> Self {
         Self::grid(1)
     }

@@ -3,7 +3,7 @@
 use super::*;
 
 /// Writes the picture in both formats.
-/// Checks that the SVG description contains the labels, and that the PNG has the stated size, white paper and some ink.
+/// Checks that the SVG description contains the labels, and that the PNG has the stated size, a white background and other pixels.
 fn show(name: &str, panel: &impl Panel, labels: &[&str]) {
     let vanishing = tempfile::tempdir().unwrap();
     let folder =

@@ -16,7 +16,7 @@ const CHAIN: &[&[&str]] = &[
     &["system"],
 ];
 
-/// Layers below the model and beside the chain, each with the layers that it may use.
+/// Layers below the model that are not part of the chain, each with the layers that it may use.
 const BRANCHES: &[(&str, &[&str])] = &[
     ("joints", &["beams", "geometry", "elementary"]),
     ("loads", &["beams", "geometry", "elementary"]),
@@ -233,7 +233,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("errors", &[]),
 ];
 
-/// Submodule of a file of the model, from its folder or, for the file beside a folder, from its name.
+/// Submodule of a file of the model, given by its folder, or by its name if it has the name of a folder.
 fn room(path: &Path) -> Option<String> {
     let first = in_crate(path).strip_prefix("system").ok()?.components().next()?;
     let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();

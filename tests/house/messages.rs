@@ -1,5 +1,5 @@
 //! Messages of layers below the script do not depend on the script language, so that they are valid for programs that use the library.
-//! `script/words/advice.rs` adds advice on the language.
+//! `script/messages/advice.rs` adds advice on the language.
 
 use crate::layering::{layer, sources};
 

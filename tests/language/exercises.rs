@@ -191,7 +191,7 @@ fn every_exercise_has_a_title_hints_and_something_to_look_at() {
     }
 }
 
-/// What a student might try instead of solving it, and what it gets.
+/// Attempts that avoid the solution of an exercise, with the expected verdicts.
 #[test]
 fn tricks_do_not_pass() {
     let exercise = find("keep_the_energy").unwrap();

@@ -98,7 +98,7 @@ fn fifteen_times_the_steps_take_no_more_allocations() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
-            // A release allocates new work space once. A controlled speed applies an impulse before every step, with matrices of its own.
+            // A release allocates new work space once. A controlled speed applies an impulse before every step, which needs separate matrices.
             let is_struck = |scene: &Scene| scene.name == "steered trolley";
             let all = all.filter(|scene| scene.releases.is_empty() && !is_struck(scene));
             for scene in all {

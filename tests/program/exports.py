@@ -1,4 +1,4 @@
-"""Reads what withy writes for other programs, with those programs. tests/program/convert.rs calls it with a folder."""
+"""Reads files that withy exports for other programs by means of these programs. tests/program/convert.rs calls it with a folder."""
 
 import json
 import sys

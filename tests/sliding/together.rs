@@ -59,7 +59,7 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
         for (axial, dt) in [(1e2, 0.002), (1e4, 0.01), (1e8, 0.01)] {
             for restitution in [1.0, 0.6, 0.0] {
                 for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
-                    // Backward substeps excite the kink beside a soft end and amplify rounding errors.
+                    // Backward substeps excite the kink near a soft end and amplify rounding errors.
                     if rule == SlidingRule::Kinked && method == Method::FourthOrder {
                         continue;
                     }

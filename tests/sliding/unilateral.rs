@@ -249,7 +249,7 @@ fn turned_and_mirrored_copies_agree() {
     }
 }
 
-/// An impact beside a bead in contact moves the beam away from the bead.
+/// An impact near a bead in contact moves the beam away from the bead.
 #[test]
 fn a_landing_leaves_another_slider_behind() {
     let mut scene = Scene::new("seesaw");

@@ -1,7 +1,7 @@
-"""How far the archer of bow.rhai draws with 150 N, without withy: python3 bow.py.
+"""Draw of the bow of bow.rhai at 150 N, computed without withy: python3 bow.py.
 
-Each limb is a cantilever elastica, inextensible, of length 0.75 m and EI = 60 N m², that leaves (0, 0.1) at 105 degrees and is pulled at its tip by the
-string, whose half is 0.8 m at ease and stretches by its force over 1e5 N/m. Shooting from the tip, Runge–Kutta of order 4.
+Each limb is an inextensible cantilever elastica of length 0.75 m with EI = 60 N m². It starts at (0, 0.1) at an angle of 105 degrees, and the string acts on
+its tip. Half of the string has the unstretched length 0.8 m and the stiffness 1e5 N/m. Shooting method from the tip, with a Runge–Kutta method of order 4.
 """
 
 from math import cos, pi, sin
@@ -12,12 +12,12 @@ STEPS = 400
 
 
 def limb(tip_angle, tension, slope):
-    """Where the foot of the limb is as seen from its tip, and its angle there; the string pulls towards (-cos slope, -sin slope)."""
+    """Position of the foot of the limb relative to its tip, and its angle at the foot. The string pulls towards (-cos slope, -sin slope)."""
     pull = (-tension * cos(slope), -tension * sin(slope))
 
     def rates(state):
         x, y, angle = state
-        # From the tip backwards: EI times curvature is the moment of the pull about the section.
+        # The integration starts at the tip. EI times the curvature equals the moment of the string force about the section.
         return (-cos(angle), -sin(angle), -(-x * pull[1] + y * pull[0]) / EI)
 
     state, h = (0.0, 0.0, tip_angle), LIMB / STEPS

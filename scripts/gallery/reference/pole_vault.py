@@ -1,8 +1,8 @@
-"""The vaulter of pole_vault.rhai on a weightless pole, without withy: python3 pole_vault.py, in a few seconds.
+"""Motion of the vaulter of pole_vault.rhai on a massless pole, computed without withy in a few seconds: python3 pole_vault.py.
 
-The pole is an inextensible elastica, an arc of curvature k at ease, pinned at both ends: it pushes along its chord. With the angle u to
-the chord, EI u'² = EI k² + 2 P (cos u - cos a), a that at its ends; length and chord are integrals of du/u' and cos u du/u' from -a to a.
-The vaulter is a point mass that this force and gravity act on: four ordinary differential equations, Runge–Kutta of order 4.
+The pole is an inextensible elastica with the initial curvature k, pinned at both ends. Its force acts along its chord. With the angle u to the
+chord, EI u'² = EI k² + 2 P (cos u - cos a), where a is the angle at the ends. Length and chord are the integrals of du/u' and cos u du/u' from -a to a.
+The vaulter is a point mass under this force and gravity: four ordinary differential equations, solved by a Runge–Kutta method of order 4.
 """
 
 from math import asin, cos, hypot, pi, radians, sin, sqrt
@@ -12,7 +12,7 @@ RADIUS = (CHORD**2 / 4 + RISE**2) / (2 * RISE)
 HALF = asin(CHORD / 2 / RADIUS)
 LENGTH = 2 * RADIUS * HALF
 CELLS = 60
-# u = a sin(v): Simpson's rule in v from 0 to pi/2, where all is smooth.
+# Substitution u = a sin(v), which makes the integrand smooth. Simpson's rule in v from 0 to pi/2.
 NODES = [
     (sin(pi / 2 * i / CELLS), cos(pi / 2 * i / CELLS), pi / 2 / CELLS / 3 * (1 if i in (0, CELLS) else 4 if i % 2 else 2))
     for i in range(CELLS + 1)
@@ -30,7 +30,7 @@ def length_and_chord(a, force):
 
 
 def push(chord, guess):
-    """Newton's method for the end angle and the force of a pole whose chord is given."""
+    """Newton's method for the end angle and the force of a pole with a given chord."""
     a, force = guess
     for _ in range(30):
         f, g = length_and_chord(a, force)

@@ -14,7 +14,7 @@ use crate::geometry::{
 /// Largest length that is attributed to rounding, as a fraction of a span.
 const ROUNDING: f64 = 1e-11;
 
-/// Kink of the axis under a point force, as far as the mesh does not represent it.
+/// Part of the kink under a point force that the mesh does not represent.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length]: the compliance that the mesh misses, times the shear stiffness.
@@ -24,7 +24,7 @@ pub struct MissedKink {
 }
 
 /// Computes the part of a kink that is missing on the mesh (docs/theory.md, section 10.1).
-/// A force across the beam displaces the axis by more than the mesh shows: by the kink length times the force divided by the shear stiffness.
+/// The mesh underestimates the displacement under a force across the beam. The missing displacement is the kink length times the force, divided by the shear stiffness.
 ///
 /// The kink length is a polynomial of twice the degree on each span, and zero where the basis is only continuous.
 /// Returns `None` if the kink length is not positive at a smooth point, for example with fewer quadrature points than the patch rule has.

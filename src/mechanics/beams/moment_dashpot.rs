@@ -118,7 +118,7 @@ impl MomentDashpot {
         self.mismatch = wanted - self.moment;
         self.distribute(wanted * now.inverse_q, first, give);
 
-        // Derivative of the moment on control points. The geometric term contains the moment of the present iterate.
+        // Derivatives of the nodal forces due to the viscous moment. The geometric term contains the viscous moment of the present iterate.
         let resistance = now.resistance * now.inverse_q;
         let by_slope = resistance * now.inverse_q;
         let by_rotation =

@@ -167,7 +167,7 @@ impl<const N: usize> MomentPoints<N> {
         let w = part.splat(weight) * self.axis.weight.get(part);
         weighted_moment.put(part, w * stiffness * collocated_curvature * now.inverse_q);
 
-        // Derivative of the moment on control points. The geometric term contains the moment of the present iterate.
+        // Derivatives of the nodal forces due to the bending moment. The geometric term contains the bending moment of the present iterate.
         let moment = self.moment.get(part);
         let (curvature_by_slope, curvature_by_rotation) = now.curvature_by();
         let resistance = stiffness * part.splat(at.stress) * now.inverse_q;

@@ -14,8 +14,8 @@ pub(super) struct DashpotRates<'a> {
 }
 
 /// Squared errors of a rate in a step, multiplied by the damping coefficient [energy/time].
-/// The field `off` compares the rate at the start of the step with the interpolated mean rates of two steps.
-/// The field `apart` compares the mean rates of this step and the previous step.
+/// The field `off` is computed from the difference between the rate at the start of the step and the interpolated mean rates of two steps.
+/// The field `apart` is computed from the difference between the mean rates of this step and the previous step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,

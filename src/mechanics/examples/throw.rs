@@ -26,7 +26,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let kind = LoadKind::Force { station: end, force, frame: LoadFrame::Dead };
     scene.add_load(kind, schedule.clone());
     scene.add_load(LoadKind::Moment { station: end, moment: -80.0 }, schedule);
-
     let settings = SimulationSettings::new(Method::EnergyMomentum, 0.1);
     let mut simulation = Simulation::start(scene, settings)?;
     simulation.run_to(7.5, &mut NoMonitor)?;

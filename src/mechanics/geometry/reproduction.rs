@@ -111,7 +111,7 @@ impl Reproduction<'_> {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Projection error of the integral of the kernel, at a parameter of a span.
+    /// Difference between the integral of the kernel and its projection onto the space, at a parameter of a span.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);

@@ -12,12 +12,12 @@ pub struct Interval {
     ending: IntervalEnd,
 }
 
-/// Meaning of the end of an interval.
+/// Role of an interval: a whole step, or a substep of a composed method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// End of a substep. Sliders at stops are released only at the end of a whole step.
+    /// The interval is a substep. Sliders at stops are released only at the end of a whole step.
     Substep,
-    /// End of a step.
+    /// The interval is a whole step.
     Step,
 }
 
@@ -47,7 +47,7 @@ impl Interval {
         self.duration
     }
 
-    /// Meaning of the end of the interval.
+    /// Role of the interval: a whole step, or a substep.
     pub fn ending(&self) -> IntervalEnd {
         self.ending
     }

@@ -12,7 +12,7 @@ use super::block::{BLOCK, Block, BlockElimination, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
-/// Half-bandwidth that is allocated in addition to that of the band.
+/// Additional half-bandwidth that is allocated for the Schur complements.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -181,7 +181,7 @@ impl PrescribedMotion {
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
     /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over several decreasing time spans.
-    /// The result is that of the two consecutive time spans that agree best.
+    /// The result of the two consecutive time spans with the smallest difference is returned.
     ///
     /// # Errors
     /// Fails if the script function fails or a value is not finite just after the start.

@@ -107,7 +107,7 @@ impl StepController {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Factor by which a step could have been longer with the allowed error, reduced by a safety margin.
+    /// Ratio of the step size with the allowed error to the size of the last step, reduced by a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }

@@ -8,7 +8,7 @@ use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::{Placement, System, SystemState};
 
-/// Takes two half steps, and compares their result with that of a whole step, which is discarded.
+/// Takes two half steps and compares their result with the result of a whole step, which is discarded.
 ///
 /// For a method of order `p`, the error of the half steps is the difference times `1/(2^p - 1)` (Richardson).
 /// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::{Outline, Warning};
 use crate::system::SystemError;
 
-/// Properties of the initial configuration: cached outlines of the beams, the cached lowest period of vibration, and warnings.
+/// Properties of the initial configuration: outlines of the beams, the lowest period of vibration (both cached), and warnings.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,

@@ -71,7 +71,7 @@ impl Resampling {
     }
 
     /// Repeats the second half of a paused step with new controller values.
-    /// The error of the step is the larger of two errors: that of the method and that of sampling.
+    /// The error of the step is the larger of the error of the method and the error due to sampling.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

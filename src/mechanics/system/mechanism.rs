@@ -200,7 +200,7 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Returns true if the present velocity of a slider at a limit is directed beyond the limit.
+    /// Returns true if the present velocity of a slider at a limit points beyond the limit.
     /// The velocity of a slider that has just left a stop is zero within rounding, so its sign has no meaning.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];

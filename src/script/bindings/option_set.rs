@@ -99,7 +99,7 @@ macro_rules! option_set {
 
 pub(in crate::script) use option_set;
 
-/// Combines two sets of keys to a set of `N` keys.
+/// Combines two sets of keys into a set of `N` keys.
 pub const fn both<const N: usize>(
     first: &'static [Parameter],
     second: &'static [Parameter],

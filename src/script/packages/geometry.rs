@@ -1,7 +1,7 @@
 //! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
 //! Bindings of other domains declare a curve as a parameter `object("axis", geometry::CURVE)`, and read it by `call.get::<Rc<Curve>>("axis")`.
-//! They declare a knot vector in the same way by [`KNOTS`]; its native type is `Rc<KnotVector>`. Curves and knot vectors are immutable.
+//! A knot vector is declared in the same way by [`KNOTS`]; its native type is `Rc<KnotVector>`. Curves and knot vectors are immutable.
 
 pub mod curves;
 pub mod knots;

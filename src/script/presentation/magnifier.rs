@@ -25,7 +25,7 @@ struct RigidMotion {
     to: Vec2,
     /// Rotation: cosine and sine. With several joints, they are multiplied by the ratio of the distances of the joints.
     turn: Option<Vec2>,
-    /// Displacement that keeps joints and sliders at magnified bodies.
+    /// Displacement that keeps the joints and sliders of the body attached to magnified bodies.
     shift: Vec2,
 }
 

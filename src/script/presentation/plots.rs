@@ -47,7 +47,7 @@ pub fn history_charts(
     Ok(stacked_text(&charts, style))
 }
 
-/// Text of charts below each other for a terminal. The charts share the height that `style` allows.
+/// Several charts as text for a terminal, one below the other. They share the height that `style` allows.
 pub fn stacked_text(charts: &[LineChart], style: &TerminalStyle) -> String {
     let height = (style.height / charts.len().max(1)).max(LEAST_HEIGHT.min(style.height));
     let style = TerminalStyle { height, ..*style };

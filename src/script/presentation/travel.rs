@@ -11,7 +11,7 @@ pub struct Travel {
 }
 
 impl Travel {
-    /// Counts the degrees of freedom that joints leave to the bodies, which count as rigid. Sliders, drives and springs do not hold a body.
+    /// Counts the degrees of freedom of the bodies that joints do not restrain. Bodies count as rigid. Sliders, drives and springs are ignored.
     pub fn of(scene: &Scene) -> Self {
         let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut travel = Self { is_held: vec![false; count], group: (0..count).collect() };

@@ -126,7 +126,7 @@ impl Context {
         self.0.inputs.replace(inputs);
     }
 
-    /// Calls `work`, in which inputs with the names of parameters have the values of these parameters.
+    /// Calls `work`. During the call, the values of `parameters` replace the inputs with the same names.
     pub fn with_parameters<T>(&self, parameters: &Map, work: impl FnOnce() -> T) -> T {
         let before = self.0.parameters.replace(parameters.clone());
         let result = work();

@@ -127,7 +127,7 @@ impl InputValue {
         }
     }
 
-    /// Numbers in the value, to which a range applies.
+    /// Numbers that the value contains. The range of an input applies to each number.
     pub fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Number(x) => vec![*x],

@@ -61,7 +61,7 @@ impl QuantityError {
         Self { name, dimension: "-", scale: 0.0, in_time: none.clone(), in_space: none }
     }
 
-    /// Sum of the errors in time and space: at the present time, and the largest of the run.
+    /// Sum of the errors in time and space: its value at the present time, and its largest value during the run.
     pub fn total(&self) -> (f64, f64) {
         (self.sum(DiscretisationError::present), self.sum(DiscretisationError::largest))
     }

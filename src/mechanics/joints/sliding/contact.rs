@@ -11,7 +11,7 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple of the contact [force]. The forces of the couple on the master balance the angular momentum.
+    /// Couple on the master, divided by a length [force]. It balances the moment of the contact forces, so that angular momentum is conserved.
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
@@ -43,7 +43,7 @@ impl ContactUnknowns {
     }
 }
 
-/// Position or direction on the path of a slave along its master [length], with a derivative.
+/// Position or tangent vector on the path of a slave along its master, with its derivative [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
     /// Position or direction [length].

@@ -5,7 +5,7 @@ use super::kink_on_path::{KinkOnPath, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw};
 use crate::geometry::{Dual, DualVector};
 
-/// Sliding law for a master with a kink. In a step, the kink rotates with the master but does not depend on the contact force.
+/// Sliding law for a master with a kink. In a step, the kink rotates with the master and is independent of the contact force.
 /// The gap to the kinked axis is closed, and energy, linear and angular momentum are conserved for any step size.
 /// Derivation: docs/theory.md, section 10.1.
 #[derive(Debug, Clone, Copy)]

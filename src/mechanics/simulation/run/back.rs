@@ -75,12 +75,12 @@ impl Simulation {
         Some(self.snapshots.last_until(time, self.progress.counts.steps)?.steps())
     }
 
-    /// Returns, in a dry run, to the state a number of steps earlier.
+    /// Returns to the state a number of steps earlier, in a dry run.
     pub fn dry_run_back(&mut self, steps: usize) {
         self.dry_run_back_to(self.progress.counts.steps.saturating_sub(steps));
     }
 
-    /// Returns, in a dry run, to the state at a time.
+    /// Returns to the state at a time, in a dry run.
     pub fn dry_run_rewind(&mut self, time: f64) {
         self.dry_run_back_to(self.steps_until(time + self.slack()).unwrap_or(0));
     }

@@ -41,7 +41,7 @@ enum Event {
     Slider(SliderEvent),
     /// A slider would pass a limit within the step, so the step ends just before the limit.
     JustBefore,
-    /// Sliders leave stops because of tensile stop forces.
+    /// Sliders leave their stops, because the stop forces have become tensile.
     StopRelease,
 }
 
@@ -81,7 +81,7 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Replaces an attempted step that ends on the same side of the arrival.
+    /// Narrows the bracket: replaces the end that lies on the same side of the arrival as the attempted step.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -290,7 +290,7 @@ impl Simulation {
         }
     }
 
-    /// Returns true if a slider strikes its limit, judged by the velocities that the steps resolve. A slider that does not strike can only be held.
+    /// Returns true if a slider strikes its limit according to the velocities that the steps resolve. Otherwise, the slider can only be held.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -383,7 +383,7 @@ impl Simulation {
             self.restart_kinks()?;
         }
         self.record_contact_changes();
-        // The arrival that ends the run is listed last.
+        // The arrival that ends the run must be the last entry.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())

@@ -15,7 +15,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Step numbers and times of stored states. After the first of them, no state up to the present is missing.
+    /// Step numbers and times of the latest stored states without a gap up to the present.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);

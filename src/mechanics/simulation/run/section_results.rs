@@ -58,7 +58,7 @@ impl Simulation {
         sensors.filter(|sensor| sensor.is_external()).count()
     }
 
-    /// Sets, in the last row of the history, the columns whose values the caller provides.
+    /// Sets the columns whose values the caller provides, in the last row of the history.
     pub fn fill_in(&mut self, values: &[f64]) {
         let first = self.record.history.extra_width() - self.scene.sensors.len();
         let sensors = self.scene.sensors.iter().enumerate();

@@ -33,7 +33,7 @@ const LARGEST_DRIFT: f64 = 1e-7;
 /// Rounding error of dissipated energies, as a fraction of these energies.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Change of the kinetic energy in a step that counts as large, as a fraction of the total energy.
+/// Smallest change of the kinetic energy in a step that counts as large, as a fraction of the total energy.
 const MUCH: f64 = 0.3;
 
 /// Largest number of unknowns for which modes of the initial configuration are computed.
@@ -44,7 +44,7 @@ const MODES: [usize; 3] = [4, 8, 16];
 
 const RECENT_STEPS: usize = 200;
 
-/// Relative change of the step length from one step to the next that counts as an alternation.
+/// Smallest relative change of the step length from one step to the next that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
 /// Number of alternations of the step length among the recent steps, above which a warning is given.

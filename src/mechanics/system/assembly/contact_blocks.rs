@@ -43,7 +43,7 @@ impl Numbering {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];
             let is_one = own.iter().all(|at| component[*at] == root);
-            // A contact between bodies may couple the slave with others.
+            // A contact between bodies may couple the unknowns of the slave with those of other bodies.
             let is_alone = is_one && sizes[root] == own.len() && sliders_on[root] == 1;
             (is_alone && !touches).then_some(own)
         });

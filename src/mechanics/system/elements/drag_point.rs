@@ -254,7 +254,7 @@ impl DragPoint {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point minus `duration` times the velocity in the drag law [length].
+    /// Displacement of the point minus the product of `duration` and the velocity that the drag law uses [length].
     pub fn besides(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

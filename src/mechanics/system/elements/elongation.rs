@@ -64,7 +64,7 @@ pub struct Elongation {
     corrected: Vec<f64>,
     pub change: f64,
     settled: (f64, f64),
-    /// Secant: factors of the coordinates that give the elongation change [-].
+    /// Secant [-]: the elongation change is the scalar product of the secant and the coordinate changes.
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end.
     pub secant: Vec<f64>,
     /// Derivative of the elongation change with respect to the coordinates [-].

@@ -34,7 +34,7 @@ pub trait InternalForce {
     /// Writes the contacts that exist at present. Their number changes during a simulation.
     fn save_contacts(&self, _contacts: &mut Vec<f64>) {}
 
-    /// Replaces the contacts by those of a saved state, for bodies in this state. Returns `None` if they do not fit the element.
+    /// Restores the contacts of a saved state. The bodies must already be in this state. Returns `None` if the contacts do not belong to the element.
     fn restore_contacts(
         &mut self,
         _bodies: &[Body],

@@ -1,4 +1,4 @@
-//! Kinks of prescribed motions within a step.
+//! Detection of kinks: abrupt changes of the rate of a prescribed motion within a step.
 
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
@@ -6,7 +6,7 @@ use crate::loads::{MotionInStep, PrescribedMotion};
 /// Largest change of the rate of a smooth motion from one step to the next, as a fraction of the rate.
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion within a step. The integration of a step assumes a smooth motion.
+/// Kink of a prescribed motion: change of its rate within a step. The integration of a step assumes a smooth motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start of the step [time].

@@ -32,7 +32,7 @@ struct Driven {
 struct PresentMotion {
     /// Acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// Largest kink in all earlier steps. The kink in the present step is in `step_curvature`.
+    /// Largest change of the rate within an earlier step. The change within the present step is stored in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
     /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.
@@ -42,7 +42,7 @@ struct PresentMotion {
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
     goal: f64,
-    /// Displacement on the way to `goal` that has already been applied [length, rad].
+    /// Part of the displacement to `goal` that has already been applied [length, rad].
     placed: f64,
     momentum: Vec2,
 }

@@ -30,7 +30,7 @@ pub struct SpringDamper {
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Elongation changes from the initial configuration at which the stiffness jumps [length, rad].
+    /// Corners of the law, at which the stiffness jumps, as elongation changes from the initial configuration [length, rad].
     corners: Vec<f64>,
     /// Elongation for which the argument of the force law is zero [length, rad].
     offset: f64,

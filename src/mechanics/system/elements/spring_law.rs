@@ -91,7 +91,8 @@ impl SpringLaw {
         }
     }
 
-    /// Range of elongations in which the law is given. Beyond the range it is extended linearly. An end with constant force is not a limit.
+    /// Range of elongations in which the law is given. Outside the range, the law is extrapolated linearly.
+    /// An end of the range is infinite if the force is constant at this end of the table.
     /// Returns `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {

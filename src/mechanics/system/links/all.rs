@@ -169,7 +169,7 @@ impl Links {
         self.rollers().for_each(|(at, roller)| rates[at] = roller.multiplier());
     }
 
-    /// Exchanges the stored forces of all rigid links with the forces in `others` [force].
+    /// Swaps the stored forces of all rigid links with the forces in `others` [force].
     pub fn exchange_forces(&mut self, others: &mut [Vec2]) {
         self.rigid.iter_mut().zip(others).for_each(|(link, other)| link.exchange_force(other));
     }

@@ -5,11 +5,11 @@ use super::System;
 /// Energies of a body, including its point masses [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Axial strain energy.
+    /// Kinetic energy.
     pub kinetic: f64,
-    /// Shear strain energy, including kinks under sliders.
+    /// Axial strain energy.
     pub axial: f64,
-    /// Bending strain energy.
+    /// Shear strain energy, including kinks under sliders.
     pub shear: f64,
     /// Bending strain energy.
     pub bending: f64,

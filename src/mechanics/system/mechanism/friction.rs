@@ -46,7 +46,7 @@ impl System {
         self.step.inertia_solver = Some(solver);
     }
 
-    /// Solver with the factors of the present inertia. The caller stores it again after use.
+    /// Takes the solver with the factors of the present inertia. The caller must put it back after use.
     ///
     /// # Errors
     /// Fails if the inertia is singular.

@@ -17,7 +17,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Smallest ratio of two velocity responses to the same impulse: the response with only the included deformations, and the response with all deformations.
+/// Smallest ratio of the velocity response with only the included deformations to the velocity response with all deformations.
 /// Bodies with a smaller ratio count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
@@ -68,7 +68,7 @@ pub(super) enum ImpactLaw {
     Restitution(f64),
     /// Law of a slider that comes to rest at a stop. The impulse may have either sign.
     Rest,
-    /// Law of a stop that returns its stored energy with the given speed [length/time].
+    /// Law of a stop that returns its stored energy: the slider leaves the stop with the given speed [length/time].
     StoredEnergy(f64),
 }
 

@@ -96,7 +96,7 @@ impl System {
         }));
     }
 
-    /// Sets all mean forces to the present forces, which are the mean forces of a step of zero length.
+    /// Initialises all mean forces with the present forces.
     /// If the present forces are unknown, for example because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;

@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Accelerations and forces contain unresolved vibrations. The mean over two consecutive steps does not contain them.
+//! Accelerations and forces contain vibrations that the steps do not resolve. Means over two consecutive steps do not contain these vibrations.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};

@@ -1,4 +1,4 @@
-//! Consistent initial kinks: a kink begins with the contact force of a rigid contact at that moment (docs/theory.md, section 10.1).
+//! Consistent initial kinks: the initial kink is computed from the contact force of a rigid contact (docs/theory.md, section 10.1).
 //!
 //! A kink acts like an undamped spring under the slider.
 //! If the kink began without load, its force would oscillate between zero and twice the contact force.

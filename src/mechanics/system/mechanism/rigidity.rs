@@ -1,6 +1,6 @@
 //! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The impulses of section forces are separate unknowns without resultant, so momenta are conserved in spite of rounding.
+//! The impulses of section forces are separate unknowns. Their resultant is zero, so rounding does not affect the momenta.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;

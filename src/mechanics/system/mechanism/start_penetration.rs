@@ -6,7 +6,7 @@ use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
 use crate::system::{Scene, SystemError};
 
-/// Ratio of the contact force to the other forces on a body, up to which these forces explain the penetration.
+/// Largest ratio of the contact force to the other forces on a body for which these forces explain the penetration.
 const EXPLAINED: f64 = 2.0;
 
 /// Penetration that the approximation of a curved axis by the mesh explains, as a fraction of the largest coordinate of the body.

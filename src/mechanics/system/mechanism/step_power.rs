@@ -5,7 +5,7 @@ use crate::system::elements::ExternalForce;
 
 /// Power of a drive or a load over the last step.
 pub struct StepPower {
-    /// Work in the step divided by its duration [energy/time]. Before the first step, that of a drive is the present power.
+    /// Work in the step divided by its duration [energy/time]. Before the first step, it is the present power for a drive.
     pub power: f64,
     /// Work since the start of the run, at the end of the step [energy].
     pub work: f64,

@@ -203,8 +203,8 @@ impl System {
     }
 
     /// Applies impulses at several contacts at once.
-    /// Corners rotate the velocities of the sliders that pass them. All other contacts follow their impact laws.
-    /// Sliders that only push leave their masters if they move away without an impulse.
+    /// The velocity of a slider that passes a corner is rotated. All other contacts follow their impact laws.
+    /// A slider that only pushes takes off if the solution moves it away from its master.
     pub(super) fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],

@@ -41,7 +41,7 @@ impl System {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }
 
-    /// Largest speed along the master for which the kink follows the contact force [length/time]; `None` for rules without a kink.
+    /// Largest speed along the master for which the kink varies with the contact force [length/time]; `None` for rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
@@ -53,8 +53,8 @@ impl System {
         self.slider(slider).contact_force()
     }
 
-    /// Present force of the kink under a slider, if the kink follows the contact force [force].
-    /// If the kink does not follow the contact force, returns the [`contact_force`](Self::contact_force) of the slider.
+    /// Present contact force of a slider, determined from the kink of its master, if the kink varies with the contact force [force].
+    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }

@@ -50,7 +50,7 @@ pub(in crate::system) enum Read {
     Force(fn(Vec2, f64) -> f64),
     /// Object of one type, by its index.
     Index(fn(&System, usize) -> f64),
-    /// Contribution of an object of any type to a sum of the scene.
+    /// Contribution of an object of any type to a total of the scene, such as the dissipated energy.
     Sum(fn(&System, SensorSource) -> Option<f64>),
     /// The caller provides the value.
     External,

@@ -14,7 +14,7 @@ pub struct AxialImpact {
 
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactBar {
-    /// Length of the beam as drawn [length].
+    /// Length of the undeformed beam [length].
     pub length: f64,
     pub section: Section,
 }

@@ -24,7 +24,7 @@ const BESIDE_END: f64 = 0.1;
 const SLOW: f64 = 0.25;
 
 /// Fraction of the limit [`BESIDE_END`], below which even a loaded kink that moves away from an end is kept constant.
-/// So close to the end, rounding errors of positions would determine the kink.
+/// Closer to the end, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
 /// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
@@ -103,12 +103,12 @@ impl KinkedAxis {
     }
 
     /// Returns true if a kink that moves along the master with this speed [length/time] begins with the contact force.
-    /// At larger speeds, unresolved waves beside the end would determine the load of the kink.
+    /// At larger speeds, unresolved waves near the end would determine the load of the kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
 
-    /// Speed along the master that belongs to a rate of its parameter [length/time].
+    /// Converts a rate of the parameter to a speed along the master [length/time].
     pub fn speed_of(&self, rate: f64) -> f64 {
         self.stretch * rate
     }

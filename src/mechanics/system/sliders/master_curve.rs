@@ -132,7 +132,7 @@ impl SliderEvent {
     }
 }
 
-/// Master of a slider: a beam as drawn, with the parameters of its mesh.
+/// Master of a slider: the undeformed axis of a beam, with the parameters of its mesh.
 #[derive(Debug, Clone)]
 pub struct MasterCurve {
     axis: Curve,
@@ -184,13 +184,13 @@ impl MasterCurve {
         (first - slack..=last + slack).contains(&parameter)
     }
 
-    /// Arc length of the master as drawn up to a parameter of its mesh, as a fraction of the whole length [-].
+    /// Arc length of the undeformed master up to a parameter of its mesh, as a fraction of the whole length [-].
     pub fn part_before(&self, parameter: f64) -> f64 {
         let along = self.axis.length_to(self.drawn(parameter));
         along.map_or(f64::NAN, |along| along / self.axis.length())
     }
 
-    /// Derivative of the arc length of the master as drawn with respect to the parameter of its mesh [length].
+    /// Derivative of the arc length of the undeformed master with respect to the parameter of its mesh [length].
     pub fn stretch(&self, parameter: f64) -> f64 {
         let (start, end) = self.axis.domain();
         let (first, last) = self.domain;

@@ -210,8 +210,8 @@ impl SliderContact {
         self.mean_force.end_step();
     }
 
-    /// Contact force on the master at the present time [force]. If a kink follows the force, its force is returned.
-    /// If no kink follows the force, returns the mean force of the last step.
+    /// Contact force on the master at the present time [force], determined from the kink of the master.
+    /// If there is no kink or it is kept constant, the mean force of the last step is returned.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -221,7 +221,7 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_frozen)
     }
 
-    /// Largest speed along the master at which its kink follows the contact force [length/time]; `None` without a kink.
+    /// Largest speed along the master at which the kink varies with the contact force [length/time]; `None` without a kink.
     pub fn kink_speed_limit(&self) -> Option<f64> {
         self.kinked_axis.as_ref().map(KinkedAxis::fastest)
     }
@@ -238,7 +238,7 @@ impl SliderContact {
         self.friction.iter_mut().for_each(|friction| friction.unfreeze());
     }
 
-    /// Returns true if the contact force follows from the kink of the master, so that the contact transmits no impulse.
+    /// Returns true if the kink of the master determines the contact force. Such a contact transmits no impulse.
     pub fn is_compliant(&self) -> bool {
         self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_compliant)
     }

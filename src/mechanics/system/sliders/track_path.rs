@@ -27,7 +27,7 @@ pub struct TrackPathSegment {
 pub struct TrackPath {
     segments: Arc<[TrackPathSegment]>,
     end: TrackEnd,
-    /// Length of the track as drawn before each of its beams, followed by its total length [length].
+    /// Arc length of the undeformed track at the start of each beam, followed by the total length [length].
     lengths: Arc<[f64]>,
     segment: usize,
     /// Number of passages from the last beam of a closed track to its first beam, minus the number of reverse passages.
@@ -69,7 +69,7 @@ impl TrackPath {
         &self.segments[leg]
     }
 
-    /// Length of the track as drawn [length].
+    /// Length of the undeformed track [length].
     pub fn length(&self) -> f64 {
         self.lengths[self.segments.len()]
     }
@@ -88,7 +88,7 @@ impl TrackPath {
         self.seam_at(end).filter(|seam| self.evaluate_seam(bodies, end, *seam))
     }
 
-    /// Returns true if the track as drawn continues beyond an end of the present beam, but the beams have separated.
+    /// Returns true if the undeformed track continues beyond an end of the present beam, but the beams have separated.
     pub fn is_torn(&self, bodies: &[Body], end: MasterEnd) -> bool {
         self.seam_at(end).is_some_and(|seam| !self.evaluate_seam(bodies, end, seam))
     }

@@ -88,7 +88,7 @@ impl Resolution {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
 
-    /// Sum of the kinetic energies of the counted steps [energy].
+    /// Sum of the kinetic energies of all steps that contribute to the measures [energy].
     pub fn kinetic(&self) -> f64 {
         self.kinetic
     }

@@ -7,7 +7,7 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 pub enum Lifting {
     /// The call is evaluated in each variant.
     Each,
-    /// The call is evaluated once, with the values of the unperturbed variant.
+    /// The call is evaluated once, with the unperturbed values of the parameters.
     AtValues,
     /// The call is evaluated once, because its receiver contains the data of all variants. Arguments that depend on parameters are rejected.
     Once,

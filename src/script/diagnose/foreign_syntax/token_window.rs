@@ -98,7 +98,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Offset and text of the first token of the statement that is contained in `sought`. The search ends two tokens after the error.
+    /// Searches the statement for the first token that equals one of the words in `sought`, up to two tokens after the error. Returns its offset and text.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

@@ -17,7 +17,7 @@ impl SweepRequest<'_> {
     /// If parts are merged, all their rows are read and no journal is opened.
     ///
     /// # Errors
-    /// Fails if a file cannot be read or written, or if the parts are not the whole sweep.
+    /// Fails if a file cannot be read or written, or if a part of the sweep is missing.
     pub fn keeper(
         &self,
         call: &Call,

@@ -75,7 +75,7 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// Scale of a column. It is logarithmic if its values cover at least a decade and have equal ratios or a distribution of the logarithm.
+    /// Scale of a column. It is logarithmic if the values cover at least a decade, and either have equal ratios or are distributed by their logarithms.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {

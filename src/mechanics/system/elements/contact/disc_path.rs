@@ -12,7 +12,7 @@ pub struct DiscPath {
     pub start: Vec2,
     /// Displacement of the point relative to the centre [length].
     pub movement: Vec2,
-    /// Radius of the disc, plus that of the body around the point [length].
+    /// Radius of the disc plus radius of the body around the point [length].
     pub radius: f64,
     /// True if the point touches the disc at the start.
     pub is_closed: bool,

@@ -34,7 +34,7 @@ pub struct ContactTime {
 }
 
 impl ContactTime {
-    /// Stage of a step with its weight, in the step of the rate history. An increment of zero duration is not damped.
+    /// Creates the data of a stage with its weight. The rate history contains the durations of the steps. An increment of zero duration is not damped.
     pub fn new(rate_history: &RateHistory, (stage, weight): (Stage, f64)) -> Self {
         let duration = rate_history.duration();
         let rates = rate_history.at(stage, weight).filter(|_| duration.is_finite());
@@ -127,7 +127,7 @@ impl NormalForce {
         ForceTarget { force, stiffness }
     }
 
-    /// Largest tension with which the contact does not pull. At the end of a step, it balances the tension at the start.
+    /// Largest admissible tension: the mean force of the step must not be tensile. If forces act at both ends of the step, the limit contains the tension at its start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
@@ -152,7 +152,8 @@ impl NormalForce {
         }
     }
 
-    /// Tension and stiffness for the linearised equations. For a stiff contact, the tension is that of the point at which the law of contact and the impedance of the body give equal forces.
+    /// Tension and stiffness for the linearised equations.
+    /// For a stiff contact, they belong to the intersection of the contact law with the line that represents the impedance of the body.
     /// In equilibria, the impedance is a secant estimate.
     pub fn linearisation_target(
         &mut self,
@@ -200,7 +201,7 @@ impl NormalForce {
         let target = self.target(law, time, change);
         self.gap = self.gap.after(change);
         if self.compare(law, target, moved) == 0.0 {
-            // The gap fits the tension, so that the rounding error of increments stores no energy.
+            // The gap is corrected to the value that belongs to the tension. Otherwise, the rounding error of increments would store energy.
             self.gap = self.gap.after(self.tension.missing_change());
         }
         self.tension.last = self.tension.force;

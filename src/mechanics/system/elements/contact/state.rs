@@ -1,4 +1,4 @@
-//! State of a contact, and bodies inside others at the start of a simulation.
+//! State of a contact, and penetrations of bodies at the start of a simulation.
 
 use crate::geometry::Vec2;
 

@@ -29,7 +29,7 @@ pub trait Passing {
 
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
-    /// Chord of the path, as a fraction of the length of the path along the axis as drawn [-].
+    /// Chord of the path of the slider, as a fraction of the length of the path on the undeformed axis [-].
     fn chord(contact: &Contact<'_>) -> f64;
 }
 

@@ -16,13 +16,13 @@ impl SliderContact {
         self.distance_to(end) <= END_TOLERANCE
     }
 
-    /// Position along the master or track as drawn, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
+    /// Position along the undeformed master or track, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
-    /// Distance from the start of the master or track as drawn [length]. On closed tracks, completed rounds are added.
+    /// Arc length from the start of the undeformed master or track [length]. On closed tracks, completed rounds are added.
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part * self.master.length(), |route| route.arc_length(part))
@@ -39,7 +39,7 @@ impl SliderContact {
         self.master.part_before(self.parameter)
     }
 
-    /// Speed along the master or track as drawn, positive towards the end [length/time].
+    /// Speed along the undeformed master or track, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         let along = self.master.stretch(self.parameter) * self.rate(bodies, rates);
         self.heading().map_or(along, |heading| along * heading.sign())

@@ -41,7 +41,7 @@ impl SliderContact {
         !self.ends.has_stop() && self.track.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
-    /// Directions in which the slider leaves one side of a seam and enters the other side [-].
+    /// Tangents of the track on both sides of a seam, in the direction in which the slider passes [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let leg = self.track.as_ref()?.segment(seam.segment);
         let inward = -seam.end.outward();

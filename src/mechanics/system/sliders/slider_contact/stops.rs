@@ -11,7 +11,7 @@ impl SliderContact {
     }
 
     /// Subtracts the work of an impact on the bodies from the energy stored in the stop.
-    /// If the coefficient of restitution is below one, or the slider only pushes, the work is subtracted from the lost energy instead, which increases it.
+    /// If the coefficient of restitution is below one, or the slider only pushes, the lost energy is increased instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 || self.unilateral.is_some() {
             true => self.lost_energy -= work,

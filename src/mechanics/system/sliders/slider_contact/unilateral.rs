@@ -7,7 +7,7 @@ use crate::system::bodies::Body;
 use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
-/// Largest number of take-offs, landings and passages of the axis without a regular step between them. No event cuts a regular step.
+/// Largest number of take-offs, landings and passages of the axis without a regular step between them. A regular step contains no event.
 /// After these events, the slider stays in contact until the next regular step.
 const MOST_EVENTS: usize = 4;
 

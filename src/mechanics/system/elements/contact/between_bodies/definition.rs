@@ -15,7 +15,7 @@ use crate::system::elements::element::{AssemblyContext, BuiltElement, ElementDef
 /// Largest distance of the ends of a closed axis, as a fraction of its length.
 const CLOSED: f64 = 1e-9;
 
-/// Body, or point of a body, that can touch others, with its radius.
+/// Body, or point of a body, that can touch other bodies, with its radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactMember {
     /// Body, or point of a body.

@@ -155,7 +155,7 @@ impl PairForces {
         let all = self.shapes.iter().map(|shape| shape.start.bounds());
         let size = all.reduce(Bounds::joined).map_or(0.0, |all| all.diagonal());
         self.gap = accumulated.fold(size, f64::min);
-        // The pair that was the closest one excludes most of the others.
+        // The closest pair of the last step is evaluated first, because its gap excludes most of the other pairs.
         if let Some(closest) = self.closest {
             self.reduce_gap(closest);
         }
@@ -178,7 +178,7 @@ impl PairForces {
         (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
     }
 
-    /// Reduces the smallest gap to that of a pair.
+    /// Replaces the smallest gap by the gap of a pair if the latter is smaller.
     fn reduce_gap(&mut self, index: PairIndex) {
         let reach = index.reach(&self.shapes);
         let limit = self.gap_limit(reach);

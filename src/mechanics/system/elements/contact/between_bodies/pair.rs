@@ -101,7 +101,7 @@ impl ContactPair {
         self.use_foot(shapes, self.start.foot);
     }
 
-    /// Makes the foot of the accepted step the one at the start of the next step.
+    /// Uses the foot of the accepted step as the foot at the start of the next step.
     pub(super) fn end_step(&mut self, shapes: &[Shape]) {
         self.use_foot(shapes, self.foot);
     }
@@ -175,7 +175,7 @@ impl ContactPair {
             let position = self.place(shapes).interpolate(&own.end.points);
             match other.nearest(&other.end, &self.search(shapes, position)) {
                 Some(foot) => self.foot = foot,
-                // The force then acts at the same place of the axis.
+                // Without a nearest point, the force keeps its position on the axis.
                 None => self.foot.is_free = false,
             }
         }
@@ -315,7 +315,7 @@ impl ContactPair {
         self.normal.tension.correct(change);
     }
 
-    /// Adds forces on the point, on the foot at the start of the step and on another foot to `out`.
+    /// Adds three forces to `out`: on the point, on the foot at the start of the step, and on another foot.
     fn scatter(
         &self,
         shapes: &[Shape],

@@ -254,7 +254,7 @@ impl Shape {
         self.velocities.extend((0..self.start.points.len()).map(of_point));
     }
 
-    /// Makes the configuration of the iterate the one at the start of the next step.
+    /// Uses the configuration of the iterate as the start of the next step.
     pub(super) fn end_step(&mut self) {
         self.start.clone_from(&self.end);
         self.movements.fill(Vec2::zeros());

@@ -21,7 +21,7 @@ use crate::system::elements::{TrialState, WorkAndImpulse};
 pub(super) struct TouchingBody {
     body: usize,
     points: Vec<ContactPoint>,
-    /// True if the points lie in the convex hull of their control points.
+    /// True if the contact points lie in the convex hull of the control points of the body.
     is_convex: bool,
     /// True if the hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,

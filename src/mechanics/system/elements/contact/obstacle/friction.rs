@@ -22,7 +22,7 @@ struct FrictionLaw {
     stiffness: f64,
     /// Largest magnitude of the force [force].
     limit: f64,
-    /// Deflection at the start of the step [length].
+    /// Elastic deflection of the contact along the surface at the start of the step [length].
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
@@ -273,7 +273,7 @@ impl PointFriction {
     /// Ends a step. Returns the dissipated energy [energy].
     pub(super) fn advance(&mut self, contact: NormalContact) -> f64 {
         let is_met = self.compare(contact) == 0.0;
-        // The slip fits the force, so that the rounding error of increments stores no energy.
+        // The slip is corrected to the value that belongs to the force. Otherwise, the rounding error of increments would store energy.
         let slip = self.trial.slip + if is_met { self.force.missing_change() } else { 0.0 };
         let before = self.energy();
         self.deflection = self.law(contact).end_deflection(slip);

@@ -1,6 +1,6 @@
 //! Obstacles that are fixed to the ground, and their contact with beams, particles and points of rigid bodies.
 //!
-//! The definition of an obstacle is in `definition`, friction in `friction`, one contact point in `point`, and the sum over all points in `forces`.
+//! Submodules: `definition` (scene object), `point` (one contact point), `friction`, and `forces` (all contact points).
 
 mod definition;
 mod forces;

@@ -59,7 +59,7 @@ impl Surface {
         positions.all(|at| normal.dot(&at) - offset >= self.radius)
     }
 
-    /// Gradient of the gap at the given vector from the obstacle [-].
+    /// Gradient of the gap [-] at a point, which is given by its vector from the obstacle.
     fn gradient(&self, from_obstacle: Vec2) -> Vec2 {
         let none = Vec2::zeros();
         GapTrial::new(self.shape, from_obstacle, none, RotationIncrement::Angle).slope
@@ -123,7 +123,7 @@ struct PointInertia {
     mobility: f64,
     /// Rate of rotation per unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
     angular_mobility: f64,
-    /// True for a point that a rigid link holds beside the centre of mass.
+    /// True for a point off the centre of mass, which a rigid link connects to the centre.
     is_linked: bool,
 }
 
@@ -236,7 +236,7 @@ impl ContactPoint {
         }
     }
 
-    /// Effective masses at present for impulses along the normal and along the surface [mass]. At a point of a rigid body, they depend on its angle.
+    /// Present effective masses for impulses along the normal and along the surface [mass]. At a point of a rigid body, they depend on the angle of the body.
     fn masses(&self, surface: &Surface, body: &Body) -> [f64; 2] {
         let position = self.position(body);
         let normal = surface.gradient(surface.gap(position).1);
