@@ -27,6 +27,23 @@ pub(super) struct CandidatePair {
     pub(super) shape: usize,
     pub(super) target: usize,
     pub(super) law: NormalLaw,
+    pub(super) friction: Option<FrictionOfPair>,
+}
+
+/// Friction of a pair of shapes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FrictionOfPair {
+    /// Coefficient of friction [-].
+    pub(super) coefficient: f64,
+    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. Their sum is one.
+    pub(super) shares: [f64; 2],
+}
+
+impl CandidatePair {
+    /// Pair of a contact point of `shape`.
+    pub(super) fn at(&self, site: usize) -> PairIndex {
+        PairIndex { shape: self.shape, site, target: self.target }
+    }
 }
 
 /// Contact forces between bodies: the bodies, and all pairs that touch at present.
@@ -34,6 +51,7 @@ pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
     candidates: Vec<CandidatePair>,
+    has_friction: bool,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
     /// Stage of the last evaluation, and its weight.
@@ -54,6 +72,7 @@ impl PairForces {
         Self {
             name,
             shapes,
+            has_friction: candidates.iter().any(|one| one.friction.is_some()),
             candidates,
             pairs: Vec::new(),
             rate_history: RateHistory::default(),
@@ -86,6 +105,10 @@ impl PairForces {
         for shape in &mut self.shapes {
             let body = &bodies[shape.body];
             shape.move_by(|at| body.vector_at(at, increments));
+            if self.has_friction {
+                let rotation = |at: usize| body.degrees_of_freedom[at][2];
+                shape.turn_by(|at| increments.get(rotation(at)).copied().unwrap_or(0.0));
+            }
         }
         self.find_pairs();
     }
@@ -93,7 +116,8 @@ impl PairForces {
     /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
         self.prepare_pairs();
-        for &CandidatePair { shape, target, law } in &self.candidates {
+        for candidate in &self.candidates {
+            let CandidatePair { shape, target, .. } = *candidate;
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
             let reach = square(own.radius + other.radius);
             if own.swept_bounds().squared_distance(&other.swept_bounds()) >= reach {
@@ -103,10 +127,9 @@ impl PairForces {
             let sites = if apart < reach { own.sites.len() } else { 0 };
             self.shapes[target].prepare_search();
             for site in 0..sites {
-                let index = PairIndex { shape, site, target };
-                if let Some(foot) = self.touched_foot(index) {
+                if let Some(foot) = self.touched_foot(candidate.at(site)) {
                     self.shapes[shape].sites[site].touched.push(target);
-                    self.pairs.push(ContactPair::new(index, law, &self.shapes, foot));
+                    self.pairs.push(ContactPair::new(candidate, site, &self.shapes, foot));
                 }
             }
         }
@@ -138,8 +161,10 @@ impl PairForces {
         self.pairs.iter().filter(|pair| pair.normal.is_closed())
     }
 
-    /// Removes the pairs that are open at the end of a step.
+    /// Removes the pairs that are open at the end of a step. The energy of their friction is dissipated.
     fn remove_open_pairs(&mut self) {
+        let open = self.pairs.iter().filter(|pair| !pair.normal.is_closed());
+        self.dissipated += open.map(ContactPair::energy).fold(0.0, |sum, energy| sum + energy);
         self.pairs.retain(|pair| pair.normal.is_closed());
         for site in self.shapes.iter_mut().flat_map(|shape| &mut shape.sites) {
             site.touched.clear();
@@ -207,8 +232,8 @@ impl InternalForce for PairForces {
     fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
         for shape in &mut self.shapes {
             let degrees = bodies[shape.body].degrees_of_freedom.iter();
-            shape
-                .set_masses(degrees.map(|at| inertia.get(at[0]).copied().unwrap_or(f64::INFINITY)));
+            let of = |degree: usize| inertia.get(degree).copied().unwrap_or(f64::INFINITY);
+            shape.set_masses(degrees.map(|at| [of(at[0]), of(at[2])]));
         }
         self.begin_configuration(bodies);
         self.pairs.iter_mut().for_each(|pair| pair.measure_gap(&self.shapes));
@@ -257,6 +282,9 @@ impl InternalForce for PairForces {
             let derivatives = pair.add_linearised(shapes, time, at.bodies, out);
             pair.collect(shapes, at.bodies, rows, unknowns);
             tangent.add_block(&rows.unknowns, rows.entries(&derivatives));
+            if let Some(derivatives) = pair.add_linearised_friction(shapes, time, at.bodies, out) {
+                tangent.add_block(&rows.unknowns, rows.entries(&derivatives));
+            }
         }
     }
 
@@ -280,6 +308,9 @@ impl InternalForce for PairForces {
         for shape in &mut self.shapes {
             let moved = bodies[shape.body].moved();
             shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));
+            if self.has_friction {
+                shape.turn_by(|at| moved[at][2]);
+            }
         }
         self.prepare_pairs();
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
@@ -322,7 +353,10 @@ impl InternalForce for PairForces {
 
     fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
         let closed = self.closed().count();
-        Some(ContactState { force: self.last_force, friction: 0.0, gap: self.gap, closed })
+        let is_on_first = |pair: &&ContactPair| (pair.index.shape == 0) != (pair.index.target == 0);
+        let on_first = self.pairs.iter().filter(is_on_first);
+        let friction = on_first.map(ContactPair::friction_force).fold(0.0, |sum, of| sum + of);
+        Some(ContactState { force: self.last_force, friction, gap: self.gap, closed })
     }
 
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
@@ -363,14 +397,9 @@ impl InternalForce for PairForces {
     }
 
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        let rate = |shape: usize, at: usize| {
-            let [x, y, _] = rates[self.shapes[shape].body][at];
-            Vec2::new(x, y)
-        };
-        for pair in self.closed() {
-            let velocity = pair.relative(&self.shapes, rate);
-            pair.add_force_at_start(&self.shapes, velocity, bodies, out);
-        }
+        let rate = |shape: usize, at: usize| rates[self.shapes[shape].body][at];
+        let closed = self.closed();
+        closed.for_each(|pair| pair.add_force_at_start(&self.shapes, rate, bodies, out));
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
@@ -432,8 +461,9 @@ impl InternalForce for PairForces {
         let points = crate::system::errors::plural(self.closed().count(), "point");
         let is_damped = |one: &CandidatePair| one.law.damping > 0.0;
         let damped = if self.candidates.iter().any(is_damped) { ", damped" } else { "" };
+        let friction = if self.has_friction { ", with friction" } else { "" };
         format!(
-            "contact of {bodies}{damped}, at {points} at present; the contact forces are additional unknowns"
+            "contact of {bodies}{damped}{friction}, at {points} at present; the contact forces are additional unknowns"
         )
     }
 }

@@ -187,8 +187,12 @@ pub(super) struct Shape {
     pub(super) movements: Vec<Vec2>,
     /// Velocities of the control points at the start of the step [length/time].
     pub(super) velocities: Vec<Vec2>,
+    /// Rotations of the control points in the present iterate [rad]; empty without friction.
+    pub(super) rotations: Vec<f64>,
     /// Mass of each control point; infinite if it is supported [mass].
     masses: Vec<f64>,
+    /// Rotary inertia of each control point; infinite if it is supported [mass·length²].
+    rotary_inertias: Vec<f64>,
 }
 
 impl Shape {
@@ -218,7 +222,9 @@ impl Shape {
             end,
             movements: Vec::new(),
             velocities: Vec::new(),
+            rotations: Vec::new(),
             masses: Vec::new(),
+            rotary_inertias: Vec::new(),
         }
     }
 
@@ -226,14 +232,21 @@ impl Shape {
         matches!(self.axis, Axis::Point(_))
     }
 
-    pub(super) fn set_masses(&mut self, masses: impl Iterator<Item = f64>) {
-        self.masses = masses.collect();
+    /// Sets the masses and the rotary inertias of the control points.
+    pub(super) fn set_masses(&mut self, inertias: impl Iterator<Item = [f64; 2]>) {
+        (self.masses, self.rotary_inertias) = inertias.map(<(f64, f64)>::from).unzip();
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass]. The whole mass of a rigid body counts at its massless points.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
+    }
+
+    /// Inverse of the effective rotary inertia at a combination of control points [1/(mass·length²)]; zero for a body that does not rotate.
+    pub(super) fn angular_mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let sum: f64 = weights.map(|(at, share)| square(share) / self.rotary_inertias[at]).sum();
+        if sum.is_finite() { sum } else { 0.0 }
     }
 
     /// Sets the configuration at the start of the step.
@@ -268,6 +281,12 @@ impl Shape {
         }
         self.end.spans.clear();
         self.end.bounds = self.axis.bounds(&self.end.points);
+    }
+
+    /// Sets the rotations of an iterate.
+    pub(super) fn turn_by(&mut self, rotation: impl Fn(usize) -> f64) {
+        self.rotations.clear();
+        self.rotations.extend((0..self.movements.len()).map(rotation));
     }
 
     /// Prepares both configurations for searches of nearest points.
