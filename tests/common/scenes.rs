@@ -384,7 +384,7 @@ pub fn pressed(mesh: &Mesh) -> Scene {
 }
 
 /// Bent beam, straight beam and bead in soft mutual contact. The contacts stay closed, so the forces are smooth.
-pub fn crowded(mesh: &Mesh) -> Scene {
+pub fn crowded(mesh: &Mesh, friction: f64) -> Scene {
     let mut scene = Scene::new("crowded");
     let axis = Curve::through(&[at(0.0, 0.0), at(1.0, 0.1), at(2.0, 0.3), at(3.0, 0.8)]).unwrap();
     let bent = add_beam(&mut scene, axis, mesh, rod());
@@ -396,7 +396,8 @@ pub fn crowded(mesh: &Mesh) -> Scene {
     let targets = beams.into_iter().chain([ContactTarget::Point(bead)]);
     let members = targets.map(|target| ContactMember { target, radius: 4.0 }).collect();
     let name = scene.free_name("contact");
-    scene.add_contact(PairContact { name, members, stiffness: 0.5, restitution: 1.0 }).unwrap();
+    let (stiffness, restitution) = (0.5, 1.0);
+    scene.add_contact(PairContact { name, members, stiffness, restitution, friction }).unwrap();
     scene
 }
 

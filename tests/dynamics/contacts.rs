@@ -21,6 +21,7 @@ pub fn touching(targets: &[ContactTarget], stiffness: f64, radius: f64) -> PairC
         members: targets.iter().map(member).collect(),
         stiffness,
         restitution: 1.0,
+        friction: 0.0,
     }
 }
 
@@ -119,7 +120,7 @@ fn ring(scene: &mut Scene, centre: Vec2, velocity: Vec2) -> usize {
 }
 
 /// Collisions of two rings off centre, of a rod with the tip of another rod, and of a particle with a rod.
-fn collisions(stiffness: f64, restitution: f64) -> [Scene; 3] {
+fn collisions(stiffness: f64, restitution: f64, friction: f64) -> [Scene; 3] {
     let mut rings = Scene::new("rings");
     let first = ring(&mut rings, at(0.0, 0.0), at(1.0, 0.0));
     let second = ring(&mut rings, at(1.3, 0.3), at(-1.0, 0.0));
@@ -142,7 +143,7 @@ fn collisions(stiffness: f64, restitution: f64) -> [Scene; 3] {
     ];
     for (scene, targets) in pairs {
         let contact = touching(&targets, stiffness, 0.03);
-        scene.add_contact(PairContact { restitution, ..contact }).unwrap();
+        scene.add_contact(PairContact { restitution, friction, ..contact }).unwrap();
     }
     [rings, rods, ball]
 }
@@ -150,9 +151,13 @@ fn collisions(stiffness: f64, restitution: f64) -> [Scene; 3] {
 #[test]
 fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
     for entry in INTEGRATORS {
-        for (stiffness, restitution) in [(1e3, 1.0), (1e5, 0.6), (1e9, 1.0)] {
+        let has_friction = entry.method != Method::FourthOrder;
+        let friction = if has_friction { 0.4 } else { 0.0 };
+        for (stiffness, restitution, friction) in
+            [(1e3, 1.0, 0.0), (1e5, 0.6, friction), (1e9, 1.0, friction)]
+        {
             for dt in [0.002, 0.01, 0.05] {
-                for scene in collisions(stiffness, restitution) {
+                for scene in collisions(stiffness, restitution, friction) {
                     let name = scene.name.clone();
                     let dt = StepSize::Fixed(dt);
                     let simulation = simulate(scene, entry.method, dt, 0.8);
@@ -168,7 +173,8 @@ fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
                     assert!(drift(Invariant::Momentum) < 1e-12, "{case}");
                     if entry.claims.energy == EnergyClaim::Conserved {
                         assert!(drift(Invariant::Energy) < 1e-11, "{case}");
-                        assert!(drift(Invariant::AngularMomentum) < 1e-12, "{case}");
+                        let turned = drift(Invariant::AngularMomentum);
+                        assert!(turned < 1e-12, "{case}: {turned:.1e}");
                     }
                 }
             }
@@ -178,13 +184,13 @@ fn colliding_bodies_keep_energy_and_momenta_at_any_step_and_stiffness() {
 
 #[test]
 fn iterations_do_not_depend_on_the_stiffness() {
-    for stiffness in [1e2, 1e5, 1e8] {
-        for scene in collisions(stiffness, 1.0) {
+    for (stiffness, friction) in [(1e2, 0.0), (1e5, 0.0), (1e8, 0.0), (1e5, 0.4), (1e8, 0.4)] {
+        for scene in collisions(stiffness, 1.0, friction) {
             let name = scene.name.clone();
             let simulation = simulate(scene, Method::EnergyMomentum, StepSize::Fixed(0.01), 0.8);
             let work = simulation.counts();
             let per_step = work.newton_iterations as f64 / work.steps as f64;
-            println!("{name}, {stiffness:e}: {per_step:.2} iterations per step");
+            println!("{name}, {stiffness:e}, {friction}: {per_step:.2} iterations per step");
             assert!(per_step < 4.5, "{name}, {stiffness:e}: {per_step}");
         }
     }

@@ -8,6 +8,7 @@ mod archive;
 mod bodies;
 mod composition;
 mod consistency;
+mod contact_friction;
 mod contact_robustness;
 mod contacts;
 mod cores;

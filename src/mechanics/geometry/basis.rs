@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::knots::check_inside;
 use super::values::LowDerivatives;
-use super::{BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, bspline};
+use super::{
+    BasisValues, GeometryError, KnotVector, LagrangeBasis, MAX_DEGREE, Span, Vec2, bspline,
+};
 
 /// Largest distance between a break and a knot that count as equal, as a fraction of the domain.
 const SAME_BREAK: f64 = 1e-10;
@@ -94,6 +96,14 @@ impl Basis {
         match self {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
             Self::Lagrange(lagrange) => lagrange.evaluate_in(span, xi),
+        }
+    }
+
+    /// Point of a curve at `xi`, and its first and second derivative with respect to ξ. The span is that of [`Self::evaluate_in`].
+    pub(crate) fn curve_in(&self, span: &Span, xi: f64, points: &[Vec2]) -> [Vec2; 3] {
+        match self.degree() {
+            3 => self.evaluate_low::<4>(span, xi).combine(points),
+            _ => self.evaluate_low::<{ MAX_DEGREE + 1 }>(span, xi).combine(points),
         }
     }
 

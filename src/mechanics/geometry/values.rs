@@ -59,12 +59,16 @@ impl BasisValues {
     /// # Panics
     /// Panics if there are fewer points than basis functions.
     pub(crate) fn combine(&self, order: usize, points: &[Vec2]) -> Vec2 {
-        let points = &points[self.first..=self.first + self.degree];
-        // The derivatives sum to zero, so the origin of the points affects rounding only.
-        // The rounding error is smallest if the origin is near the points.
-        let origin = if order == 0 { Vec2::zeros() } else { points[0] };
-        self.derivatives(order).iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
+        combine(order, self.derivatives(order), &points[self.first..])
     }
+}
+
+fn combine(order: usize, derivatives: &[f64], points: &[Vec2]) -> Vec2 {
+    let points = &points[..derivatives.len()];
+    // The derivatives sum to zero, so the origin of the points affects rounding only.
+    // The rounding error is smallest if the origin is near the points.
+    let origin = if order == 0 { Vec2::zeros() } else { points[0] };
+    derivatives.iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
 }
 
 /// Largest order of the derivatives in [`LowDerivatives`].
@@ -100,6 +104,11 @@ impl<const WIDTH: usize> LowDerivatives<WIDTH> {
 
     fn derivatives(&self, order: usize) -> &[f64] {
         &self.rows[order][..=self.degree]
+    }
+
+    /// Point of a curve, and its first and second derivative.
+    pub fn combine(&self, points: &[Vec2]) -> [Vec2; 3] {
+        [0, 1, 2].map(|order| combine(order, self.derivatives(order), &points[self.first..]))
     }
 
     pub fn of_function(&self, at: usize) -> [f64; LOW_ORDERS + 1] {

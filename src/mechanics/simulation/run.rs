@@ -377,8 +377,8 @@ fn check_method(scene: &Scene, method: Method) -> Result<(), SimulationError> {
     method.check()?;
     let name = method.entry().name;
     let sliders = scene.sliders_with_friction().filter(|_| method != Method::EnergyMomentum);
-    let obstacles = scene.obstacles_with_friction().filter(|_| method == Method::FourthOrder);
-    if let Some(object) = sliders.chain(obstacles).next() {
+    let contacts = scene.contacts_with_friction().filter(|_| method == Method::FourthOrder);
+    if let Some(object) = sliders.chain(contacts).next() {
         return Err(SimulationError::FrictionMethod { object, method: name });
     }
     if let Some(slider) = scene.slider_with_side().filter(|_| method != Method::EnergyMomentum) {

@@ -80,10 +80,12 @@ pub const TABLE: BindingTable = BindingTable {
                 through each other, and a step in which a point would jump through an axis is halved. \
                 A body that fits between two contact points is not seen by them: use spans that are \
                 shorter than the bodies. \
+                With friction, contact sticks or slips (Coulomb), and round bodies roll on each other. \
+                A particle does not rotate, so friction between two particles is refused. \
                 Between two beams, stiffness is the force per length and penetration, otherwise the \
                 force per penetration. Bodies that share a joint or a slider do not touch each other. \
                 NAME.force_x and NAME.force_y are the force on the first body of the list; it is zero \
-                if a beam touches itself. NAME.gap of bodies that do not touch is accurate to 0.1 %. Default \
+                if a beam touches itself. NAME.friction is positive to the right of the normal that points to the first body. NAME.gap of bodies that do not touch is accurate to 0.1 %. Default \
                 names: contact1, contact2, …")
             .example("scene.clamp(rod.start);\nscene.clamp(rod.end);\n\
                       let ball = scene.particle([0.7, 1], 0.5, #{ name: \"ball\" });\n\
@@ -96,6 +98,11 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
+const FRICTION: Parameter = number("friction")
+    .non_negative()
+    .doc("coefficient of friction along the surface; not with fourth_order()")
+    .or(Presence::Number(0.0));
+
 const KEYS: &[Parameter] = &[
     number("stiffness")
         .positive()
@@ -105,10 +112,7 @@ const KEYS: &[Parameter] = &[
         .between(0.05, 1.0)
         .doc("fraction of the approach speed after a resolved impact; 1 is elastic")
         .or(Presence::Number(1.0)),
-    number("friction")
-        .non_negative()
-        .doc("coefficient of friction along the surface; not with fourth_order()")
-        .or(Presence::Number(0.0)),
+    FRICTION,
     number("radius")
         .non_negative()
         .unit("length")
@@ -135,6 +139,7 @@ const CONTACT_KEYS: &[Parameter] = &[
         .between(0.05, 1.0)
         .doc("fraction of the approach speed after a resolved impact; 1 is elastic")
         .or(Presence::Number(1.0)),
+    FRICTION,
     text("name").optional(),
 ];
 
@@ -160,6 +165,7 @@ fn contact(call: &mut Call) -> Result<Dynamic, ScriptError> {
         members: targets.into_iter().zip(radii).map(member).collect(),
         stiffness: options.number("stiffness")?,
         restitution: options.number("restitution")?,
+        friction: options.number("friction")?,
     };
     scene.change().add_contact(contact).map_err(place_of_error)?;
     Ok(Dynamic::UNIT)

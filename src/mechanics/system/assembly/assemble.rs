@@ -48,6 +48,7 @@ impl System {
     ) -> Result<Self, SystemError> {
         let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.begin();
+        model.check_contact_directions(scene)?;
         Ok(model)
     }
 
@@ -62,6 +63,7 @@ impl System {
         let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.start_kinks()?;
         model.begin();
+        model.check_contact_directions(scene)?;
         Ok(model)
     }
 

@@ -42,6 +42,14 @@ pub enum SystemError {
     PointAlone { object: String },
     #[error("{object}: {body} is listed twice; list each body once")]
     RepeatedBody { object: String, body: String },
+    #[error(
+        "{object}: at the start, a point of {body} coincides with the axis or the centre of a body that it touches, so that the contact force has no direction; move one of them"
+    )]
+    NoContactDirection { object: String, body: String },
+    #[error(
+        "{object} has friction, but {first} and {second} are particles: they do not rotate, so their friction would not conserve angular momentum; use rigid bodies, or list them in a contact without friction"
+    )]
+    FrictionOfParticles { object: String, first: String, second: String },
     #[error("{body} has no cross section")]
     NoSection { body: String },
     #[error("forces and accelerations at t = {time} are undetermined: {reason}")]

@@ -4,6 +4,7 @@ use super::System;
 use crate::geometry::Vec2;
 use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
+use crate::system::{Scene, SystemError};
 
 /// Largest ratio of the contact force to the other forces on a body for which these forces explain the penetration.
 const EXPLAINED: f64 = 2.0;
@@ -12,6 +13,28 @@ const EXPLAINED: f64 = 2.0;
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
+    /// Checks that the contact forces at the start have a direction.
+    ///
+    /// # Errors
+    /// Fails if a contact point lies on the axis of a body that it touches, or at the centre of a disc.
+    pub(in crate::system) fn check_contact_directions(
+        &self,
+        scene: &Scene,
+    ) -> Result<(), SystemError> {
+        for contact in self.elements.resistances() {
+            let inside = contact.penetrations(&self.bodies);
+            if let Some(one) = inside.iter().find(|one| !one.energy.is_finite()) {
+                let name = contact.name().to_owned();
+                let object = scene.contact_object(&name).unwrap_or(name);
+                return Err(SystemError::NoContactDirection {
+                    object,
+                    body: scene.name_of_body_at(one.body),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.
     /// Penetrations that weight, loads and springs explain are left out.
     pub(crate) fn start_penetrations(&mut self) -> Vec<(String, Penetration)> {

@@ -59,7 +59,8 @@ impl Scene {
                     others.push(Sensor::in_sum(&DISSIPATED, &obstacle.name, source));
                 }
                 Element::Contact(contact) => {
-                    let own = COLUMNS_OF_OBSTACLES.iter();
+                    let friction = (contact.friction > 0.0).then_some(&OBSTACLE_FRICTION);
+                    let own = COLUMNS_OF_OBSTACLES.iter().chain(friction);
                     all.extend(own.map(|own| Sensor::of(&contact.name, own, source)));
                     all.push(Sensor::in_sum(&STORED, &contact.name, source));
                     others.push(Sensor::in_sum(&DISSIPATED, &contact.name, source));

@@ -83,9 +83,13 @@ impl Scene {
         sliders.map(|slider| format!("slider '{}'", slider.name))
     }
 
-    /// Types and names of obstacles with friction.
-    pub fn obstacles_with_friction(&self) -> impl Iterator<Item = String> {
-        self.obstacles().filter(|obstacle| obstacle.friction > 0.0).map(Obstacle::object)
+    /// Types and names of obstacles and contacts between bodies with friction.
+    pub fn contacts_with_friction(&self) -> impl Iterator<Item = String> {
+        self.elements.iter().filter_map(|element| match element {
+            Element::Obstacle(obstacle) if obstacle.friction > 0.0 => Some(obstacle.object()),
+            Element::Contact(contact) if contact.friction > 0.0 => Some(contact.object()),
+            _ => None,
+        })
     }
 
     /// Adds an obstacle.

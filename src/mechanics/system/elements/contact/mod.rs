@@ -1,10 +1,11 @@
 //! Compliant contact: the contact force follows from a potential of the gap.
 //!
-//! The law of the gap, the normal force and the contact points are shared.
+//! The law of the gap, the normal force, friction and the contact points are shared.
 //! Contact with obstacles that are fixed to the ground is in `obstacle`, contact between bodies in `between_bodies`.
 
 mod between_bodies;
 mod disc_path;
+mod friction;
 mod law;
 mod normal_force;
 mod obstacle;
@@ -13,6 +14,7 @@ mod target;
 
 pub use between_bodies::{ContactMember, PairContact};
 use disc_path::DiscPath;
+use friction::{NormalContact, PointFriction, SlipTrial, sticking_damping};
 use law::{ContactLaw, LEAST_RESTITUTION, damping_factor};
 use normal_force::{ContactTime, GapChange, NormalForce, NormalLaw, SOFT};
 pub use obstacle::{Obstacle, ObstacleShape};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::forces::{CandidatePair, PairForces};
+use super::forces::{CandidatePair, FrictionOfPair, PairForces};
 use super::shape::{AllowedParts, ContactSite, Shape, WHOLE_AXIS};
 use crate::beams::BodyIndex;
 use crate::geometry::{Basis, Vec2};
@@ -37,6 +37,8 @@ pub struct PairContact {
     pub stiffness: f64,
     /// Coefficient of restitution of an impact that the steps resolve [-]; 1 for an elastic contact.
     pub restitution: f64,
+    /// Coefficient of friction [-].
+    pub friction: f64,
 }
 
 impl PairContact {
@@ -51,6 +53,21 @@ impl PairContact {
 
     fn is_beam(&self, member: usize) -> bool {
         matches!(self.members[member].target, ContactTarget::Beam(_))
+    }
+
+    /// Returns true if the body of a member rotates. A particle does not.
+    fn rotates(&self, member: usize) -> bool {
+        !matches!(self.body(member), BodyIndex::Particle(_))
+    }
+
+    /// Friction between two members; `None` without friction.
+    /// The arm of the friction force is divided in the ratio of the radii. A particle does not rotate, so the whole arm acts on the other body.
+    fn friction_of_pair(&self, own: usize, other: usize) -> Option<FrictionOfPair> {
+        let radius =
+            |member: usize| if self.rotates(member) { self.members[member].radius } else { 0.0 };
+        let (own, other) = (radius(own), radius(other));
+        let shares = [own, other].map(|radius| radius / (own + other));
+        (self.friction > 0.0).then_some(FrictionOfPair { coefficient: self.friction, shares })
     }
 
     fn body(&self, member: usize) -> BodyIndex {
@@ -77,7 +94,9 @@ impl PairContact {
             let stiffness = share * self.stiffness;
             let radius = self.members[own].radius + self.members[other].radius;
             let elastic = ContactLaw::Disc { stiffness, radius };
-            CandidatePair { shape: own, target: other, law: NormalLaw { elastic, damping } }
+            let (law, friction) =
+                (NormalLaw { elastic, damping }, self.friction_of_pair(own, other));
+            CandidatePair { shape: own, target: other, law, friction }
         };
         pairs.filter(is_paired).map(candidate).collect()
     }
@@ -85,12 +104,15 @@ impl PairContact {
 
 impl ElementDef for PairContact {
     fn check(&self, scene: &dyn SceneChecks) -> Result<(), SystemError> {
-        let Self { stiffness, restitution, .. } = *self;
+        let Self { stiffness, restitution, friction, .. } = *self;
         if !(stiffness.is_finite() && stiffness > 0.0) {
             return Err(self.refuse("stiffness", stiffness, "a positive finite number"));
         }
         if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
             return Err(self.refuse("restitution", restitution, "a number from 0.05 to 1"));
+        }
+        if !(friction.is_finite() && friction >= 0.0) {
+            return Err(self.refuse("friction", friction, "zero or a positive finite number"));
         }
         for ContactMember { target, radius } in &self.members {
             if !(radius.is_finite() && *radius > 0.0) {
@@ -109,6 +131,13 @@ impl ElementDef for PairContact {
                 let body = member.target.describe(scene);
                 return Err(SystemError::RepeatedBody { object: self.object(), body });
             }
+        }
+        let mut particles = (0..self.members.len()).filter(|member| !self.rotates(*member));
+        if let (Some(first), Some(second), true) =
+            (particles.next(), particles.next(), friction > 0.0)
+        {
+            let [first, second] = [first, second].map(|at| self.members[at].target.describe(scene));
+            return Err(SystemError::FrictionOfParticles { object: self.object(), first, second });
         }
         Ok(())
     }

@@ -27,6 +27,23 @@ pub(super) struct CandidatePair {
     pub(super) shape: usize,
     pub(super) target: usize,
     pub(super) law: NormalLaw,
+    pub(super) friction: Option<FrictionOfPair>,
+}
+
+/// Friction of a pair of shapes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FrictionOfPair {
+    /// Coefficient of friction [-].
+    pub(super) coefficient: f64,
+    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. Their sum is one.
+    pub(super) shares: [f64; 2],
+}
+
+impl CandidatePair {
+    /// Pair of a contact point of `shape`.
+    pub(super) fn at(&self, site: usize) -> PairIndex {
+        PairIndex { shape: self.shape, site, target: self.target }
+    }
 }
 
 /// Contact forces between bodies: the bodies, and all pairs that touch at present.
@@ -34,6 +51,7 @@ pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
     candidates: Vec<CandidatePair>,
+    has_friction: bool,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
     /// Stage of the last evaluation, and its weight.
@@ -54,6 +72,7 @@ impl PairForces {
         Self {
             name,
             shapes,
+            has_friction: candidates.iter().any(|one| one.friction.is_some()),
             candidates,
             pairs: Vec::new(),
             rate_history: RateHistory::default(),
@@ -86,26 +105,39 @@ impl PairForces {
         for shape in &mut self.shapes {
             let body = &bodies[shape.body];
             shape.move_by(|at| body.vector_at(at, increments));
+            if self.has_friction {
+                let rotation = |at: usize| body.degrees_of_freedom[at][2];
+                shape.turn_by(|at| increments.get(rotation(at)).copied().unwrap_or(0.0));
+            }
         }
         self.find_pairs();
     }
 
     /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
-        for &CandidatePair { shape, target, law } in &self.candidates {
+        self.prepare_pairs();
+        for candidate in &self.candidates {
+            let CandidatePair { shape, target, .. } = *candidate;
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
-            let apart = own.end.bounds().squared_distance(&other.end.bounds());
-            if apart >= square(own.radius + other.radius) {
+            let reach = square(own.radius + other.radius);
+            if own.swept_bounds().squared_distance(&other.swept_bounds()) >= reach {
                 continue;
             }
-            for site in 0..own.sites.len() {
-                let index = PairIndex { shape, site, target };
-                if let Some(foot) = self.touched_foot(index) {
+            let apart = own.end.bounds().squared_distance(&other.end.bounds());
+            let sites = if apart < reach { own.sites.len() } else { 0 };
+            self.shapes[target].prepare_search();
+            for site in 0..sites {
+                if let Some(foot) = self.touched_foot(candidate.at(site)) {
                     self.shapes[shape].sites[site].touched.push(target);
-                    self.pairs.push(ContactPair::new(index, law, &self.shapes, foot));
+                    self.pairs.push(ContactPair::new(candidate, site, &self.shapes, foot));
                 }
             }
         }
+    }
+
+    /// Prepares the bodies that are touched for searches of nearest points.
+    fn prepare_pairs(&mut self) {
+        self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
 
     /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
@@ -129,8 +161,10 @@ impl PairForces {
         self.pairs.iter().filter(|pair| pair.normal.is_closed())
     }
 
-    /// Removes the pairs that are open at the end of a step.
+    /// Removes the pairs that are open at the end of a step. The energy of their friction is dissipated.
     fn remove_open_pairs(&mut self) {
+        let open = self.pairs.iter().filter(|pair| !pair.normal.is_closed());
+        self.dissipated += open.map(ContactPair::energy).fold(0.0, |sum, energy| sum + energy);
         self.pairs.retain(|pair| pair.normal.is_closed());
         for site in self.shapes.iter_mut().flat_map(|shape| &mut shape.sites) {
             site.touched.clear();
@@ -152,21 +186,34 @@ impl PairForces {
         }
         for at in 0..self.candidates.len() {
             let CandidatePair { shape, target, .. } = self.candidates[at];
+            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
+            let limit = self.gap_limit(own.radius + other.radius);
+            let apart = own.start.bounds().squared_distance(&other.start.bounds());
+            if self.gap <= 0.0 || apart >= square(limit) {
+                continue;
+            }
             for site in 0..self.shapes[shape].sites.len() {
                 self.reduce_gap(PairIndex { shape, site, target });
             }
         }
     }
 
+    /// Distance between two bodies with the sum of radii `reach`, from which they cannot reduce the smallest gap.
+    fn gap_limit(&self, reach: f64) -> f64 {
+        (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
+    }
+
     /// Replaces the smallest gap by the gap of a pair if the latter is smaller.
     fn reduce_gap(&mut self, index: PairIndex) {
-        let (own, target) = (&self.shapes[index.shape], &self.shapes[index.target]);
         let reach = index.reach(&self.shapes);
-        let limit = (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach;
+        let limit = self.gap_limit(reach);
+        let own = &self.shapes[index.shape];
         let position = index.place(&self.shapes).interpolate(&own.start.points);
-        if self.gap <= 0.0 || target.start.is_beyond(position, limit) {
+        if self.gap <= 0.0 || self.shapes[index.target].start.is_beyond(position, limit) {
             return;
         }
+        self.shapes[index.target].prepare_search();
+        let target = &self.shapes[index.target];
         let search =
             NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint: 0 };
         if let Some(foot) = target.nearest(&target.start, &search) {
@@ -185,8 +232,8 @@ impl InternalForce for PairForces {
     fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
         for shape in &mut self.shapes {
             let degrees = bodies[shape.body].degrees_of_freedom.iter();
-            shape
-                .set_masses(degrees.map(|at| inertia.get(at[0]).copied().unwrap_or(f64::INFINITY)));
+            let of = |degree: usize| inertia.get(degree).copied().unwrap_or(f64::INFINITY);
+            shape.set_masses(degrees.map(|at| [of(at[0]), of(at[2])]));
         }
         self.begin_configuration(bodies);
         self.pairs.iter_mut().for_each(|pair| pair.measure_gap(&self.shapes));
@@ -235,6 +282,9 @@ impl InternalForce for PairForces {
             let derivatives = pair.add_linearised(shapes, time, at.bodies, out);
             pair.collect(shapes, at.bodies, rows, unknowns);
             tangent.add_block(&rows.unknowns, rows.entries(&derivatives));
+            if let Some(derivatives) = pair.add_linearised_friction(shapes, time, at.bodies, out) {
+                tangent.add_block(&rows.unknowns, rows.entries(&derivatives));
+            }
         }
     }
 
@@ -258,7 +308,11 @@ impl InternalForce for PairForces {
         for shape in &mut self.shapes {
             let moved = bodies[shape.body].moved();
             shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));
+            if self.has_friction {
+                shape.turn_by(|at| moved[at][2]);
+            }
         }
+        self.prepare_pairs();
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
         let (mut force, mut rate) = (0.0, 0.0);
         let (mut on_first, mut lost) = (Vec2::zeros(), 0.0);
@@ -299,7 +353,10 @@ impl InternalForce for PairForces {
 
     fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
         let closed = self.closed().count();
-        Some(ContactState { force: self.last_force, friction: 0.0, gap: self.gap, closed })
+        let is_on_first = |pair: &&ContactPair| (pair.index.shape == 0) != (pair.index.target == 0);
+        let on_first = self.pairs.iter().filter(is_on_first);
+        let friction = on_first.map(ContactPair::friction_force).fold(0.0, |sum, of| sum + of);
+        Some(ContactState { force: self.last_force, friction, gap: self.gap, closed })
     }
 
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
@@ -317,12 +374,12 @@ impl InternalForce for PairForces {
     }
 
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
-        let swept = |shape: &Shape| shape.start.bounds().joined(shape.end.bounds());
         self.candidates.iter().any(|&CandidatePair { shape, target, .. }| {
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
             let radius = own.radius + other.radius;
             let reach = if other.is_disc() { radius } else { 0.0 };
-            let is_near = swept(own).squared_distance(&swept(other)) <= square(reach);
+            let apart = own.swept_bounds().squared_distance(&other.swept_bounds());
+            let is_near = apart <= square(reach);
             is_near
                 && (0..own.sites.len()).any(|site| {
                     let index = PairIndex { shape, site, target };
@@ -340,14 +397,9 @@ impl InternalForce for PairForces {
     }
 
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]) {
-        let rate = |shape: usize, at: usize| {
-            let [x, y, _] = rates[self.shapes[shape].body][at];
-            Vec2::new(x, y)
-        };
-        for pair in self.closed() {
-            let velocity = pair.relative(&self.shapes, rate);
-            pair.add_force_at_start(&self.shapes, velocity, bodies, out);
-        }
+        let rate = |shape: usize, at: usize| rates[self.shapes[shape].body][at];
+        let closed = self.closed();
+        closed.for_each(|pair| pair.add_force_at_start(&self.shapes, rate, bodies, out));
     }
 
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
@@ -409,8 +461,9 @@ impl InternalForce for PairForces {
         let points = crate::system::errors::plural(self.closed().count(), "point");
         let is_damped = |one: &CandidatePair| one.law.damping > 0.0;
         let damped = if self.candidates.iter().any(is_damped) { ", damped" } else { "" };
+        let friction = if self.has_friction { ", with friction" } else { "" };
         format!(
-            "contact of {bodies}{damped}, at {points} at present; the contact forces are additional unknowns"
+            "contact of {bodies}{damped}{friction}, at {points} at present; the contact forces are additional unknowns"
         )
     }
 }

@@ -48,6 +48,14 @@ pub(super) struct GapMovement {
     pub(super) tangents: [Vec2; 3],
 }
 
+impl GapMovement {
+    /// No displacement.
+    pub(super) fn none(foot: Foot) -> Self {
+        let [moved, tangents] = [[Vec2::zeros(); 3]; 2];
+        Self { foot, moved, slid: Vec2::zeros(), increment: 0.0, tangents }
+    }
+}
+
 /// Change of the gap in an iterate, with the directions of the contact force and all derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
@@ -62,6 +70,10 @@ pub(super) struct GapTrial {
     pub(super) secant_slope: [Slope; 6],
     /// Derivative of the parameter `ξ₁` [1/length].
     pub(super) foot_slope: Slope,
+    /// Moment of a unit friction force about the curve, which is turned from the forces above by a right angle [length].
+    pub(super) arm: f64,
+    /// Derivative of this moment [-].
+    pub(super) arm_slope: Slope,
 }
 
 impl GapTrial {
@@ -72,7 +84,16 @@ impl GapTrial {
         secant: [Vec2::new(0.0, 0.0); 3],
         secant_slope: [[0.0; LOCAL]; 6],
         foot_slope: [0.0; LOCAL],
+        arm: 0.0,
+        arm_slope: [0.0; LOCAL],
     };
+
+    /// Open or closed gap at rest, from the vector from the nearest point to the contact point.
+    pub(super) fn at_rest(apart: Vec2) -> Self {
+        let arm = apart.norm();
+        let normal = if arm > 0.0 { apart / arm } else { Vec2::zeros() };
+        Self { secant: [normal, -normal, Vec2::zeros()], arm, ..Self::NONE }
+    }
 
     /// Computes the change of the gap and the directions of the forces. For `TangentScaled`, the work of the forces equals the tension times the change of the gap.
     /// For `Angle`, the force has the direction of the gap at the end of the step.
@@ -116,6 +137,7 @@ impl GapTrial {
                 (none, b_end * (Dual::constant(1.0) / after))
             }
         };
+        let arm = ((a + a_end).dot(&at_start) + (b + b_end).dot(&at_end)) * 0.5;
         let none = DualVector::constant(Vec2::zeros());
         let forces = [at_start + at_end, none - at_start, none - at_end];
         Self {
@@ -128,6 +150,8 @@ impl GapTrial {
                 if at % 2 == 0 { x.slopes } else { y.slopes }
             }),
             foot_slope,
+            arm: arm.value,
+            arm_slope: arm.slopes,
         }
     }
 }

@@ -2,15 +2,19 @@
 
 use std::array::from_fn;
 
-use super::forces::CandidatePair;
+use super::forces::{CandidatePair, FrictionOfPair};
 use super::gap::{GapMovement, GapStart, GapTrial, LOCAL};
 use super::shape::{AllowedParts, Foot, NearestSearch, Shape, WHOLE_AXIS};
-use crate::beams::{BodyPoint, ForceSummary, SpanStiffness};
-use crate::geometry::{MAX_DEGREE, Vec2};
+use super::slip::{Rotations, WITH_ROTATIONS, slip_trial};
+use crate::beams::{BodyPoint, ForceSummary, Movement, SpanStiffness};
+use crate::elementary::square;
+use crate::geometry::{MAX_DEGREE, Vec2, larger};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
-use crate::system::elements::contact::{ContactTime, GapChange, NormalForce, NormalLaw};
+use crate::system::elements::contact::{
+    ContactTime, GapChange, NormalContact, NormalForce, NormalLaw, PointFriction,
+};
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::mixed_force::ForceTarget;
 
@@ -32,6 +36,21 @@ impl PairIndex {
         shapes[self.shape].radius + shapes[self.target].radius
     }
 
+    /// Rotations of the body of the point and of the other body at a foot, from the rotations of the control points of each shape.
+    fn rotations(
+        self,
+        shapes: &[Shape],
+        foot: &Foot,
+        rotation: impl Fn(usize, usize) -> f64,
+    ) -> [f64; 2] {
+        let of_point = self.place(shapes).weights();
+        let of_foot = foot.weights(0);
+        [
+            of_point.map(|(at, share)| rotation(self.shape, at) * share).sum(),
+            of_foot.map(|(at, share)| rotation(self.target, at) * share).sum(),
+        ]
+    }
+
     /// Parts of the axis that the point can touch.
     pub(super) fn allowed(self, shapes: &[Shape]) -> AllowedParts {
         let is_own_axis = self.shape == self.target;
@@ -44,7 +63,15 @@ impl PairIndex {
 pub(super) struct LocalRows {
     pub(super) unknowns: Vec<usize>,
     /// Derivatives of the local coordinates with respect to each unknown.
-    columns: Vec<[f64; LOCAL]>,
+    columns: Vec<[f64; WITH_ROTATIONS]>,
+}
+
+/// Friction of a contact between two bodies.
+#[derive(Debug, Clone)]
+struct PairFriction {
+    /// Shares of the arm of the friction force that act on the body of the point and on the other body [-].
+    shares: [f64; 2],
+    force: PointFriction<WITH_ROTATIONS>,
 }
 
 /// Contact of a point with another body.
@@ -61,12 +88,21 @@ pub(super) struct ContactPair {
     linearised_foot: Foot,
     /// Applied forces on the point at the start of the step and in the present iterate, as internal forces [force].
     applied: [Vec2; 2],
+    /// Friction; `None` without friction.
+    friction: Option<Box<PairFriction>>,
 }
 
 impl ContactPair {
     /// New pair, with the gap in the configuration at the start of the step.
     /// A gap that is negative there, because the nearest point was not part of the search before, counts as zero. Otherwise the energy would jump.
-    pub(super) fn new(index: PairIndex, law: NormalLaw, shapes: &[Shape], foot: Foot) -> Self {
+    pub(super) fn new(
+        candidate: &CandidatePair,
+        site: usize,
+        shapes: &[Shape],
+        foot: Foot,
+    ) -> Self {
+        let CandidatePair { law, friction, .. } = *candidate;
+        let index = candidate.at(site);
         let weight = shapes[index.shape].sites[index.site].weight;
         let start = GapStart { apart: Vec2::zeros(), foot };
         let mut pair = Self {
@@ -79,6 +115,9 @@ impl ContactPair {
             linearised: GapTrial::NONE,
             linearised_foot: foot,
             applied: [Vec2::zeros(); 2],
+            friction: friction.map(|FrictionOfPair { coefficient, shares }| {
+                Box::new(PairFriction { shares, force: PointFriction::new(coefficient) })
+            }),
         };
         let position = pair.place(shapes).interpolate(&shapes[index.shape].start.points);
         let target = &shapes[index.target];
@@ -88,7 +127,7 @@ impl ContactPair {
         (pair.normal.approach, pair.normal.last_rate) = (rate.abs(), rate);
         pair.measure_gap(shapes);
         pair.normal.gap.value = pair.normal.gap.value.max(0.0);
-        pair.normal.mass = pair.effective_mass(shapes);
+        pair.update_masses(shapes);
         pair
     }
 
@@ -127,14 +166,20 @@ impl ContactPair {
     /// Prepares a step that starts with the present configuration.
     pub(super) fn begin_step(&mut self, shapes: &[Shape]) {
         self.normal.tension.begin_step();
-        self.normal.mass = self.effective_mass(shapes);
+        self.update_masses(shapes);
         self.applied = [Vec2::zeros(); 2];
+        if let Some(friction) = &mut self.friction {
+            friction.force.begin_step();
+        }
     }
 
     /// Prepares an increment of zero duration.
     pub(super) fn begin_movement(&mut self) {
         self.normal.tension.force = self.normal.tension.last;
         self.applied = [Vec2::zeros(); 2];
+        if let Some(friction) = &mut self.friction {
+            friction.force.release();
+        }
     }
 
     fn normal_at_start(&self) -> Vec2 {
@@ -154,16 +199,46 @@ impl ContactPair {
         shapes: &[Shape],
         velocity: impl Fn(usize, usize) -> Vec2,
     ) -> Vec2 {
+        let [point, foot] = self.velocities(shapes, velocity);
+        point - foot
+    }
+
+    /// Velocities of the point and of its foot.
+    fn velocities(&self, shapes: &[Shape], velocity: impl Fn(usize, usize) -> Vec2) -> [Vec2; 2] {
         let PairIndex { shape, target, .. } = self.index;
         let at_point = self.place(shapes).weights().map(|(at, share)| velocity(shape, at) * share);
         let at_foot = self.start.foot.weights(0).map(|(at, share)| velocity(target, at) * share);
-        at_point.sum::<Vec2>() - at_foot.sum::<Vec2>()
+        [at_point.sum(), at_foot.sum()]
     }
 
-    /// Mass of both bodies at the contact: `1/m = 1/m_point + 1/m_foot`.
-    fn effective_mass(&self, shapes: &[Shape]) -> f64 {
-        let point = shapes[self.index.shape].mobility(self.place(shapes).weights());
-        1.0 / (point + shapes[self.index.target].mobility(self.start.foot.weights(0)))
+    /// Updates the effective masses along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    fn update_masses(&mut self, shapes: &[Shape]) {
+        let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
+        let point = own.mobility(self.place(shapes).weights());
+        let mobility = point + other.mobility(self.start.foot.weights(0));
+        self.normal.mass = 1.0 / mobility;
+        let mass = 1.0 / (mobility + self.angular_mobility(shapes));
+        let stiffness = self.normal.stiffness(&self.law);
+        if let Some(friction) = &mut self.friction {
+            friction.force.set_scales(stiffness, mass, self.law.damping);
+        }
+    }
+
+    /// Inverse of the effective mass of the rotations for a force along the axis [1/mass].
+    fn angular_mobility(&self, shapes: &[Shape]) -> f64 {
+        let Some(friction) = &self.friction else { return 0.0 };
+        let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
+        let [point, foot] = friction.shares.map(|share| square(share * self.start.apart.norm()));
+        point * own.angular_mobility(self.place(shapes).weights())
+            + foot * other.angular_mobility(self.start.foot.weights(0))
+    }
+
+    /// Normal contact in the present iterate, with the friction; `None` without friction, or for an increment of zero duration.
+    fn friction_at(&mut self, time: ContactTime) -> Option<(NormalContact, &mut PairFriction)> {
+        let (force, duration) = (-self.normal.tension.force, time.duration);
+        let contact = NormalContact { force, duration, share: time.share() };
+        let friction = self.friction.as_mut().filter(|_| duration.is_finite())?;
+        Some((contact, friction))
     }
 
     /// Computes the change of the gap from the displacements of the iterate.
@@ -196,6 +271,14 @@ impl ContactPair {
         ];
         let movement = GapMovement { foot: *to, moved, slid, increment, tangents };
         self.trial = GapTrial::new(&self.start, &movement, collocation(stage).rotations);
+        if let Some(friction) = &mut self.friction {
+            let turned = match stage {
+                Stage::Start => [0.0; 2],
+                _ => self.index.rotations(shapes, from, |shape, at| shapes[shape].rotations[at]),
+            };
+            let rotations = Rotations { turned, shares: friction.shares };
+            friction.force.evaluate(slip_trial(&self.trial, &movement, rotations));
+        }
     }
 
     /// Adds the present force to `out`. Returns its magnitude and its relative difference from the law.
@@ -218,7 +301,20 @@ impl ContactPair {
         let applied = self.trial.secant.map(|by| by * (time.weight * force));
         self.applied[at] = applied[0];
         self.scatter(shapes, bodies, (&self.foot, applied), out);
-        ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() }
+        let mut summary =
+            ForceSummary { force: force.abs(), strain_mismatch, ..ForceSummary::default() };
+        if let Some((contact, friction)) =
+            self.friction_at(time).filter(|_| time.stage != Stage::Start)
+        {
+            summary.strain_mismatch = larger(strain_mismatch, friction.force.compare(contact));
+            let forces = friction.force.present().map(|by| by * time.weight);
+            self.applied[at] += Vec2::new(forces[0], forces[1]);
+            // The rounding error of the normal force limits the accuracy of the moments.
+            summary.moment =
+                forces[LOCAL].abs() + forces[LOCAL + 1].abs() + self.trial.arm * force.abs();
+            self.scatter_friction(shapes, bodies, (&self.foot, forces), out);
+        }
+        summary
     }
 
     /// Adds the contact force to `out`, after elimination of the law of contact.
@@ -239,6 +335,27 @@ impl ContactPair {
         let (stiffness, force) =
             (time.weight * target.stiffness, time.weight * self.normal.tension.force);
         self.local_tangent(stiffness, force)
+    }
+
+    /// Adds the friction force to `out`, after elimination of its law.
+    /// Returns the derivatives with respect to the local coordinates; `None` without friction.
+    pub(super) fn add_linearised_friction(
+        &mut self,
+        shapes: &[Shape],
+        time: ContactTime,
+        bodies: &[Body],
+        out: &mut [f64],
+    ) -> Option<[[f64; WITH_ROTATIONS]; WITH_ROTATIONS]> {
+        let tension = &self.normal.tension;
+        let (mismatch, stiffness) = (-tension.mismatch, -tension.stiffness);
+        let slope = self.linearised.slope;
+        let (contact, friction) = self.friction_at(time)?;
+        friction.force.linearise(contact);
+        let forces = friction.force.condensed(mismatch).map(|by| by * time.weight);
+        let normal_slope = from_fn(|at| slope.get(at).map_or(0.0, |by| by * stiffness));
+        let derivatives = friction.force.tangent(normal_slope);
+        self.scatter_friction(shapes, bodies, (&self.foot, forces), out);
+        Some(derivatives.map(|row| row.map(|by| by * time.weight)))
     }
 
     fn local_tangent(&self, stiffness: f64, force: f64) -> [[f64; LOCAL]; LOCAL] {
@@ -285,6 +402,16 @@ impl ContactPair {
         for ((at, weight), (_, slope)) in self.foot.weights(0).zip(self.foot.weights(1)) {
             add(other, at, [(2, weight), (3, slope)]);
         }
+        if self.friction.is_some() {
+            let of_point = self.place(shapes).weights().map(|at| (own, 0, at));
+            let of_foot = self.start.foot.weights(0).map(|at| (other, 1, at));
+            for (body, side, (at, weight)) in of_point.chain(of_foot) {
+                let unknown = bodies[body].degrees_of_freedom[at][2];
+                if unknown < count {
+                    rows.column_of(unknown)[LOCAL + side] += weight;
+                }
+            }
+        }
     }
 
     pub(super) fn add_mismatch_force(
@@ -296,6 +423,11 @@ impl ContactPair {
     ) {
         let forces = self.linearised.secant.map(|by| by * (weight * self.normal.tension.mismatch));
         self.scatter(shapes, bodies, (&self.linearised_foot, forces), out);
+        if let Some(friction) = &self.friction {
+            let missing = friction.force.missing(-self.normal.tension.mismatch);
+            let forces = missing.map(|by| by * weight);
+            self.scatter_friction(shapes, bodies, (&self.linearised_foot, forces), out);
+        }
     }
 
     pub(super) fn correct(&mut self, shapes: &[Shape], bodies: &[Body], correction: &[f64]) {
@@ -312,7 +444,24 @@ impl ContactPair {
         ];
         let slope = &self.linearised.slope;
         let change = (0..LOCAL).map(|at| slope[at] * moved[at / 2][at % 2]).sum();
+        let before = self.normal.tension.force;
         self.normal.tension.correct(change);
+        if self.friction.is_none() {
+            return;
+        }
+        let bodies = [self.index.shape, self.index.target].map(|shape| &bodies[shapes[shape].body]);
+        let turned = self.index.rotations(shapes, &self.start.foot, |shape, at| {
+            let body = bodies[usize::from(shape != self.index.shape)];
+            correction.get(body.degrees_of_freedom[at][2]).copied().unwrap_or(0.0)
+        });
+        let change = before - self.normal.tension.force;
+        if let Some(friction) = &mut self.friction {
+            let moved = from_fn(|at| match at.checked_sub(LOCAL) {
+                Some(side) => turned[side],
+                None => moved[at / 2][at % 2],
+            });
+            friction.force.correct(moved, change);
+        }
     }
 
     /// Adds three forces to `out`: on the point, on the foot at the start of the step, and on another foot.
@@ -334,16 +483,46 @@ impl ContactPair {
         foot.weights(0).for_each(|(at, by)| add(target, at, on_end * by));
     }
 
+    /// Adds a generalised friction force to `out`: forces on the point and on both feet, and moments on both bodies.
+    fn scatter_friction(
+        &self,
+        shapes: &[Shape],
+        bodies: &[Body],
+        (foot, forces): (&Foot, [f64; WITH_ROTATIONS]),
+        out: &mut [f64],
+    ) {
+        let vectors = [0, 2, 4].map(|at| Vec2::new(forces[at], forces[at + 1]));
+        self.scatter(shapes, bodies, (foot, vectors), out);
+        let mut add = |shape: usize, at: usize, moment: f64| {
+            out[bodies[shapes[shape].body].degrees_of_freedom[at][2]] += moment;
+        };
+        let PairIndex { shape, target, .. } = self.index;
+        let of_point = self.place(shapes).weights();
+        of_point.for_each(|(at, by)| add(shape, at, by * forces[LOCAL]));
+        let of_foot = self.start.foot.weights(0);
+        of_foot.for_each(|(at, by)| add(target, at, by * forces[LOCAL + 1]));
+    }
+
     /// Ends a step. Returns the dissipated energy [energy].
     pub(super) fn advance(&mut self, shapes: &[Shape], time: ContactTime) -> f64 {
         self.evaluate(shapes, time.stage);
         let GapTrial { change, moved, .. } = self.trial;
-        self.normal.advance(&self.law, time, GapChange { value: change, moved })
+        let lost = self.normal.advance(&self.law, time, GapChange { value: change, moved });
+        match self.friction_at(time) {
+            Some((contact, friction)) => lost + friction.force.advance(contact),
+            None => lost,
+        }
     }
 
     /// Elastic energy at the start of the step [energy].
     pub(super) fn energy(&self) -> f64 {
-        self.normal.energy(&self.law)
+        let energy = self.normal.energy(&self.law);
+        self.friction.as_ref().map_or(energy, |friction| energy + friction.force.energy())
+    }
+
+    /// Friction force on the body of the point in the last step, positive to the right of the normal [force].
+    pub(super) fn friction_force(&self) -> f64 {
+        self.friction.as_ref().map_or(0.0, |friction| friction.force.last())
     }
 
     /// Force on the body of the point in the completed step [force].
@@ -362,19 +541,37 @@ impl ContactPair {
         (self.tension_at_start().1, self.normal_at_start().dot(&velocity))
     }
 
-    /// Adds the force at the start of the step for a relative velocity.
+    /// Adds the force at the start of the step, for rates at the control points of each shape.
     pub(super) fn add_force_at_start(
         &self,
         shapes: &[Shape],
-        velocity: Vec2,
+        rates: impl Fn(usize, usize) -> Movement,
         bodies: &[Body],
         out: &mut [f64],
     ) {
+        let velocity = |shape: usize, at: usize| {
+            let [x, y, _] = rates(shape, at);
+            Vec2::new(x, y)
+        };
+        let velocities = self.velocities(shapes, velocity);
         let (tension, damping) = self.tension_at_start();
         let normal = self.normal_at_start();
-        let force = normal * (tension.force + damping * normal.dot(&velocity)).min(0.0);
-        let forces = [force, -force, Vec2::zeros()];
-        self.scatter(shapes, bodies, (&self.start.foot, forces), out);
+        let rate = normal.dot(&(velocities[0] - velocities[1]));
+        let tension = (tension.force + damping * rate).min(0.0);
+        let force = normal * tension;
+        self.scatter(shapes, bodies, (&self.start.foot, [force, -force, Vec2::zeros()]), out);
+        if let Some(friction) = &self.friction {
+            let foot = self.start.foot;
+            let turned = self.index.rotations(shapes, &foot, |shape, at| rates(shape, at)[2]);
+            let [point, at_foot] = velocities;
+            let movement =
+                GapMovement { moved: [point, at_foot, at_foot], ..GapMovement::none(foot) };
+            let rotations = Rotations { turned, shares: friction.shares };
+            let rates = slip_trial(&GapTrial::at_rest(self.start.apart), &movement, rotations);
+            let damping = friction.force.sticking_damping();
+            let forces = friction.force.at_start(&rates, -tension, damping);
+            self.scatter_friction(shapes, bodies, (&foot, forces), out);
+        }
     }
 
     /// Force on the point at the start of the step, as an internal force [force].
@@ -415,18 +612,23 @@ impl ContactPair {
         let mut index = || Some(next()? as usize);
         let index = PairIndex { shape: index()?, site: index()?, target: index()? };
         let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
-        let law = candidates.iter().find(is_own)?.law;
+        let candidate = candidates.iter().find(is_own)?;
         shapes[index.shape].sites.get(index.site)?;
         let (span, xi) = (next()? as usize, next()?);
         let foot = shapes[index.target].foot_in(span, xi)?;
-        let mut pair = Self::new(index, law, shapes, foot);
+        let mut pair = Self::new(candidate, index.site, shapes, foot);
         pair.use_foot(shapes, foot);
         let mut is_complete = true;
-        pair.normal.restore(&mut || {
+        let mut number = || {
             let number = next();
             is_complete &= number.is_some();
             number.unwrap_or_default()
-        });
+        };
+        pair.normal.restore(&mut number);
+        if let Some(friction) = &mut pair.friction {
+            friction.force.restore(&mut number);
+        }
+        pair.update_masses(shapes);
         is_complete.then_some(pair)
     }
 
@@ -436,35 +638,39 @@ impl ContactPair {
         state.extend([shape, site, target, span].map(|index| index as f64));
         state.push(xi);
         self.normal.save(state);
+        if let Some(friction) = &self.friction {
+            friction.force.save(state);
+        }
     }
 }
 
 impl LocalRows {
-    fn column_of(&mut self, unknown: usize) -> &mut [f64; LOCAL] {
+    fn column_of(&mut self, unknown: usize) -> &mut [f64; WITH_ROTATIONS] {
         let known = self.unknowns.iter().position(|at| *at == unknown);
         let at = known.unwrap_or_else(|| {
             self.unknowns.push(unknown);
-            self.columns.push([0.0; LOCAL]);
+            self.columns.push([0.0; WITH_ROTATIONS]);
             self.columns.len() - 1
         });
         &mut self.columns[at]
     }
 
-    /// Entries of the tangent for the collected unknowns, row by row.
-    pub(super) fn entries(
+    /// Entries of the tangent for the collected unknowns, row by row, for derivatives with respect to the first `N` local coordinates.
+    pub(super) fn entries<const N: usize>(
         &self,
-        tangent: &[[f64; LOCAL]; LOCAL],
+        tangent: &[[f64; N]; N],
     ) -> impl Iterator<Item = f64> + '_ {
-        let product: [[f64; LOCAL]; LOCAL] = *tangent;
+        let product: [[f64; N]; N] = *tangent;
         self.columns.iter().flat_map(move |row| {
-            let by: [f64; LOCAL] =
-                from_fn(|column| (0..LOCAL).map(|at| row[at] * product[at][column]).sum());
+            let by: [f64; N] =
+                from_fn(|column| (0..N).map(|at| row[at] * product[at][column]).sum());
             self.columns.iter().map(move |column| dot(&by, column))
         })
     }
 }
 
-fn dot(a: &[f64; LOCAL], b: &[f64; LOCAL]) -> f64 {
+/// Product of the first components of two vectors.
+fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

@@ -111,15 +111,17 @@ pub(super) struct ContactSite {
     pub(super) touched: Vec<usize>,
 }
 
-/// Configuration of a body: its control points, and boxes around its spans.
+/// Configuration of a body: its control points, and the box around it.
+/// Boxes around its spans and samples are computed on demand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
+    /// Box around the body.
+    bounds: Bounds,
+    /// Boxes around the spans; empty until they are needed.
     spans: Vec<Bounds>,
     /// Samples of all spans, one span after the other.
     samples: Vec<Vec2>,
-    /// Box around all spans.
-    bounds: Bounds,
 }
 
 impl Configuration {
@@ -185,8 +187,12 @@ pub(super) struct Shape {
     pub(super) movements: Vec<Vec2>,
     /// Velocities of the control points at the start of the step [length/time].
     pub(super) velocities: Vec<Vec2>,
+    /// Rotations of the control points in the present iterate [rad]; empty without friction.
+    pub(super) rotations: Vec<f64>,
     /// Mass of each control point; infinite if it is supported [mass].
     masses: Vec<f64>,
+    /// Rotary inertia of each control point; infinite if it is supported [mass·length²].
+    rotary_inertias: Vec<f64>,
 }
 
 impl Shape {
@@ -216,7 +222,9 @@ impl Shape {
             end,
             movements: Vec::new(),
             velocities: Vec::new(),
+            rotations: Vec::new(),
             masses: Vec::new(),
+            rotary_inertias: Vec::new(),
         }
     }
 
@@ -224,8 +232,9 @@ impl Shape {
         matches!(self.axis, Axis::Point(_))
     }
 
-    pub(super) fn set_masses(&mut self, masses: impl Iterator<Item = f64>) {
-        self.masses = masses.collect();
+    /// Sets the masses and the rotary inertias of the control points.
+    pub(super) fn set_masses(&mut self, inertias: impl Iterator<Item = [f64; 2]>) {
+        (self.masses, self.rotary_inertias) = inertias.map(<(f64, f64)>::from).unzip();
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass]. The whole mass of a rigid body counts at its massless points.
@@ -234,12 +243,20 @@ impl Shape {
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
     }
 
+    /// Inverse of the effective rotary inertia at a combination of control points [1/(mass·length²)]; zero for a body that does not rotate.
+    pub(super) fn angular_mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let sum: f64 = weights.map(|(at, share)| square(share) / self.rotary_inertias[at]).sum();
+        if sum.is_finite() { sum } else { 0.0 }
+    }
+
     /// Sets the configuration at the start of the step.
     pub(super) fn begin(&mut self, controls: &[Vec2]) {
-        self.start.points.clear();
-        self.start.points.extend(controls);
-        self.axis.bound(&mut self.start);
-        self.end.clone_from(&self.start);
+        for configuration in [&mut self.start, &mut self.end] {
+            configuration.points.clear();
+            configuration.points.extend(controls);
+            configuration.spans.clear();
+            configuration.bounds = self.axis.bounds(controls);
+        }
         self.movements.clear();
         self.movements.resize(controls.len(), Vec2::zeros());
     }
@@ -262,7 +279,25 @@ impl Shape {
             *movement = displacement(at);
             self.end.points[at] = self.start.points[at] + *movement;
         }
-        self.axis.bound(&mut self.end);
+        self.end.spans.clear();
+        self.end.bounds = self.axis.bounds(&self.end.points);
+    }
+
+    /// Sets the rotations of an iterate.
+    pub(super) fn turn_by(&mut self, rotation: impl Fn(usize) -> f64) {
+        self.rotations.clear();
+        self.rotations.extend((0..self.movements.len()).map(rotation));
+    }
+
+    /// Prepares both configurations for searches of nearest points.
+    pub(super) fn prepare_search(&mut self) {
+        self.axis.divide(&mut self.start);
+        self.axis.divide(&mut self.end);
+    }
+
+    /// Box around the body at the start and at the end of the step.
+    pub(super) fn swept_bounds(&self) -> Bounds {
+        self.start.bounds.joined(self.end.bounds)
     }
 
     /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
@@ -326,6 +361,9 @@ impl Shape {
             }
         };
         let bounds = Bounds::of([from, to].into_iter());
+        if self.swept_bounds().squared_distance(&bounds) > 0.0 {
+            return false;
+        }
         let is_near = |(index, span): &(usize, &Span)| {
             let swept = self.start.spans[*index].joined(self.end.spans[*index]);
             let is_within = |(low, high): &(f64, f64)| *low <= span.start && span.end <= *high;
@@ -389,27 +427,34 @@ pub(super) struct NearestSearch {
 }
 
 impl Axis {
-    /// Computes the boxes and samples of a configuration from its control points.
-    fn bound(&self, at: &mut Configuration) {
-        let Configuration { points, spans: bounds, samples, bounds: all } = at;
-        bounds.clear();
-        samples.clear();
+    /// Box around an axis with the given control points.
+    fn bounds(&self, points: &[Vec2]) -> Bounds {
         match self {
-            Self::Point(foot) => bounds.push(Bounds::of([points[foot.values.first]].into_iter())),
-            Self::Curve(SampledCurve { basis, spans, weights, growth }) => {
-                let order = basis.degree() + 1;
-                bounds.extend(spans.iter().map(|span| {
-                    let own = points[span.first..span.first + order].iter().copied();
-                    Bounds::of(own).grown(*growth)
-                }));
-                for (index, weights) in weights.chunks_exact(order).enumerate() {
-                    let first = spans[index / (SAMPLES + 1)].first;
-                    let own = points[first..first + order].iter().zip(weights);
-                    samples.push(own.fold(Vec2::zeros(), |sum, (at, by)| sum + at * *by));
-                }
+            Self::Point(foot) => Bounds::of([points[foot.values.first]].into_iter()),
+            Self::Curve(SampledCurve { growth, .. }) => {
+                Bounds::of(points.iter().copied()).grown(*growth)
             }
         }
-        *all = bounds.iter().fold(Bounds::EMPTY, |all, span| all.joined(*span));
+    }
+
+    /// Computes the boxes around the spans and the samples of a configuration, unless they are known.
+    fn divide(&self, at: &mut Configuration) {
+        let Configuration { points, spans: bounds, samples, .. } = at;
+        let Self::Curve(SampledCurve { basis, spans, weights, growth }) = self else { return };
+        if !bounds.is_empty() {
+            return;
+        }
+        samples.clear();
+        let order = basis.degree() + 1;
+        bounds.extend(spans.iter().map(|span| {
+            let own = points[span.first..span.first + order].iter().copied();
+            Bounds::of(own).grown(*growth)
+        }));
+        for (index, weights) in weights.chunks_exact(order).enumerate() {
+            let first = spans[index / (SAMPLES + 1)].first;
+            let own = points[first..first + order].iter().zip(weights);
+            samples.push(own.fold(Vec2::zeros(), |sum, (at, by)| sum + at * *by));
+        }
     }
 }
 
@@ -426,8 +471,7 @@ struct SpanSearch<'a> {
 impl SpanSearch<'_> {
     /// Vector from the position to the axis, and the first two derivatives of the axis.
     fn at(&self, xi: f64) -> [Vec2; 3] {
-        let values = self.basis.evaluate_in(self.span, xi);
-        let [place, slope, bend] = [0, 1, 2].map(|order| values.combine(order, &self.at.points));
+        let [place, slope, bend] = self.basis.curve_in(self.span, xi, &self.at.points);
         [place - self.position, slope, bend]
     }
 

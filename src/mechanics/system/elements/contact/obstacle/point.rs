@@ -1,14 +1,17 @@
 //! Contact point: one quadrature point of a beam, a particle or a point of a rigid body, in a step.
 
 use super::definition::ObstacleShape;
-use super::friction::{NormalContact, PointFriction, sticking_damping};
+use super::slip::slip_trial;
 use crate::beams::{BodyPoint, ForceSummary, Movement, RotationIncrement};
 use crate::elementary::square;
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 use crate::integrators::Stage;
 use crate::system::bodies::Body;
 use crate::system::elements::collocation;
-use crate::system::elements::contact::{ContactTime, DiscPath, GapChange, NormalForce, NormalLaw};
+use crate::system::elements::contact::{
+    ContactTime, DiscPath, GapChange, NormalContact, NormalForce, NormalLaw, PointFriction,
+    sticking_damping,
+};
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::ForceTarget;
@@ -170,7 +173,9 @@ pub(super) struct ContactPoint {
     /// Applied forces at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
     /// Friction; `None` without friction.
-    friction: Option<Box<PointFriction>>,
+    friction: Option<Box<PointFriction<3>>>,
+    /// Applied friction moment in the present iterate, as an internal moment [force·length].
+    applied_moment: f64,
 }
 
 impl ContactPoint {
@@ -184,12 +189,13 @@ impl ContactPoint {
             linearised: GapTrial::NONE,
             applied: [Vec2::zeros(); 2],
             friction: None,
+            applied_moment: 0.0,
         }
     }
 
     /// Adds friction to the contact point, with the coefficient of friction of the obstacle.
     pub(super) fn with_friction(self, surface: &Surface) -> Self {
-        let friction = Box::new(PointFriction::new(surface.friction, surface.radius));
+        let friction = Box::new(PointFriction::new(surface.friction));
         Self { friction: Some(friction), ..self }
     }
 
@@ -253,6 +259,7 @@ impl ContactPoint {
     }
 
     fn release_friction(&mut self) {
+        self.applied_moment = 0.0;
         if let Some(friction) = &mut self.friction {
             friction.release();
         }
@@ -297,7 +304,7 @@ impl ContactPoint {
         let displacement = Vec2::new(movement[0], movement[1]);
         self.trial = GapTrial::new(surface.shape, self.start, displacement, rotations);
         if let Some(friction) = &mut self.friction {
-            friction.evaluate(&self.trial, movement);
+            friction.evaluate(slip_trial(&self.trial, surface.radius, movement));
         }
     }
 
@@ -337,7 +344,8 @@ impl ContactPoint {
         self.applied[1] = secant * (time.weight * force);
         if let (Some(contact), Some(friction)) = (self.normal_contact(time), &mut self.friction) {
             strain_mismatch = larger(strain_mismatch, friction.compare(contact));
-            let [x, y, applied] = friction.apply(time.weight);
+            let [x, y, applied] = friction.present().map(|by| by * time.weight);
+            self.applied_moment = applied;
             // The rounding error of the normal force limits the accuracy of the moment.
             moment = applied.abs() + surface.radius * force.abs();
             self.applied[1] += Vec2::new(x, y);
@@ -395,7 +403,7 @@ impl ContactPoint {
         friction.linearise(contact);
         let force = friction.condensed(-self.normal.tension.mismatch).map(|by| by * time.weight);
         let normal_slope = self.linearised.slope * -self.normal.tension.stiffness;
-        let derivative = friction.tangent(normal_slope);
+        let derivative = friction.tangent([normal_slope.x, normal_slope.y, 0.0]);
         self.scatter_friction(body, force, out);
         for (row, share) in self.place.weights() {
             for (column, other) in self.place.weights() {
@@ -465,7 +473,7 @@ impl ContactPoint {
         let [x, y, _] = self.interpolate(body.moved());
         let middle = self.position(body) + Vec2::new(x, y) * 0.5;
         let of_force = cross(middle, self.mean_force() * duration);
-        self.friction.as_ref().map_or(of_force, |by| of_force + by.mean_moment() * duration)
+        of_force - self.applied_moment * duration
     }
 
     /// State of a closed contact at the start of the step; `None` for an open contact.
@@ -484,7 +492,15 @@ impl ContactPoint {
         let damping = self.normal.damping(&surface.law, tension, mass).0;
         let stiffness = self.normal.stiffness(&surface.law);
         let sticking_damping = sticking_damping(stiffness, along, surface.law.damping);
-        Some(ClosedContact { gradient, tension, damping, sticking_damping, radius_of_curvature })
+        let radius = surface.radius;
+        Some(ClosedContact {
+            gradient,
+            tension,
+            damping,
+            sticking_damping,
+            radius,
+            radius_of_curvature,
+        })
     }
 
     /// Adds the force of a closed contact at the start of the step, for rates at the control points of the body.
@@ -499,7 +515,9 @@ impl ContactPoint {
         let tension = contact.tension(Vec2::new(x, y));
         self.scatter(body, contact.gradient * tension, out);
         if let Some(friction) = &self.friction {
-            let force = friction.at_start(contact, -tension, rates);
+            let gap = GapTrial::along(contact.gradient);
+            let rates = slip_trial(&gap, contact.radius, rates);
+            let force = friction.at_start(&rates, -tension, contact.sticking_damping);
             self.scatter_friction(body, force, out);
         }
     }
@@ -560,6 +578,8 @@ pub(super) struct ClosedContact {
     pub(super) damping: f64,
     /// Damping coefficient of friction that sticks [force·time/length].
     pub(super) sticking_damping: f64,
+    /// Radius of the body around the point [length].
+    pub(super) radius: f64,
     /// Distance from the centre of a disc [length]; infinite for a half-plane.
     pub(super) radius_of_curvature: f64,
 }

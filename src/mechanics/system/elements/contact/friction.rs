@@ -4,11 +4,11 @@
 //! The force is the mean over the exact path, so it never exceeds the limit, and a contact that sticks does not creep.
 //! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
-use super::point::{ClosedContact, GapTrial};
-use crate::beams::Movement;
+use std::array::from_fn;
+
+use super::SOFT;
 use crate::elementary::square;
-use crate::geometry::{Vec2, larger, perpendicular};
-use crate::system::elements::contact::SOFT;
+use crate::geometry::larger;
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
@@ -76,51 +76,43 @@ impl FrictionLaw {
     }
 }
 
-/// Slip in an iterate, with the directions of the friction force.
-#[derive(Debug, Clone, Copy, Default)]
-struct SlipTrial {
-    slip: f64,
-    /// Derivative of the slip with respect to displacement and rotation [-, -, length].
-    slope: Movement,
-    /// Generalised force of a unit friction force: force [-] and moment [length].
-    direction: Movement,
-    direction_slope: [Vec2; 3],
-    moved: f64,
+/// Slip in an iterate as a function of `N` local coordinates, and the directions of the friction force.
+#[derive(Debug, Clone, Copy)]
+pub struct SlipTrial<const N: usize> {
+    /// Slip [length].
+    pub slip: f64,
+    /// Derivative of the slip.
+    pub slope: [f64; N],
+    /// Generalised force of a unit friction force. Its work is the slip.
+    pub direction: [f64; N],
+    /// Derivative of each component of the generalised force.
+    pub direction_slope: [[f64; N]; N],
+    /// Largest increment in the sum for the slip [length].
+    pub moved: f64,
 }
 
-impl SlipTrial {
-    /// Slip of the surface of a body with a radius. The secant of the gap is the direction of the normal force.
-    fn new(gap: &GapTrial, radius: f64, [x, y, rotation]: Movement) -> Self {
-        let movement = Vec2::new(x, y);
-        let (normal, by) = (gap.secant, gap.secant_slope);
-        let tangent = perpendicular(normal);
-        let arm = radius * normal.norm_squared();
-        let arm_slope = (by[0] * normal.x + by[1] * normal.y) * (2.0 * radius);
-        let slope = tangent + by[0] * movement.y - by[1] * movement.x - arm_slope * rotation;
-        Self {
-            slip: tangent.dot(&movement) - arm * rotation,
-            slope: [slope.x, slope.y, -arm],
-            direction: [tangent.x, tangent.y, -arm],
-            direction_slope: [-by[1], by[0], -arm_slope],
-            moved: larger(movement.norm(), (arm * rotation).abs()),
-        }
-    }
+impl<const N: usize> SlipTrial<N> {
+    const NONE: Self = Self {
+        slip: 0.0,
+        slope: [0.0; N],
+        direction: [0.0; N],
+        direction_slope: [[0.0; N]; N],
+        moved: 0.0,
+    };
 }
 
 /// Damping coefficient along the surface while a contact sticks [force·time/length]. `factor` is the factor of the normal damping [-].
-pub(super) fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
+pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
     let factor = factor.min(MOST_DAMPING);
     let is_damped = factor > 0.0 && mass.is_finite();
     if is_damped { factor * (stiffness * mass).sqrt() } else { 0.0 }
 }
 
-/// Friction of a contact point in a step.
+/// Friction of a contact point in a step, with the `N` local coordinates of its slip.
 #[derive(Debug, Clone)]
-pub(super) struct PointFriction {
+pub struct PointFriction<const N: usize> {
     /// Coefficient of friction [-].
     coefficient: f64,
-    /// Radius of the body around the point [length].
-    radius: f64,
     /// Stiffness along the surface [force/length].
     stiffness: f64,
     /// Damping coefficient while the contact sticks [force·time/length].
@@ -132,59 +124,54 @@ pub(super) struct PointFriction {
     /// Friction force, as an internal force along the turned normal [force].
     force: MixedForce,
     by_normal: f64,
-    trial: SlipTrial,
-    linearised: SlipTrial,
-    /// Applied moment in the present iterate, as an internal moment [force·length].
-    applied_moment: f64,
+    trial: SlipTrial<N>,
+    linearised: SlipTrial<N>,
 }
 
 /// Normal force that limits a friction force in an iterate, and the time in which both act.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct NormalContact {
+pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
-    pub(super) force: f64,
+    pub force: f64,
     /// Duration of the step [time].
-    pub(super) duration: f64,
+    pub duration: f64,
     /// Share of the step in which the friction force acts [-].
-    pub(super) share: f64,
+    pub share: f64,
 }
 
-impl PointFriction {
-    pub(super) fn new(coefficient: f64, radius: f64) -> Self {
+impl<const N: usize> PointFriction<N> {
+    pub fn new(coefficient: f64) -> Self {
         Self {
             coefficient,
-            radius,
             stiffness: 0.0,
             damping: 0.0,
             mass: 0.0,
             deflection: 0.0,
             force: MixedForce::default(),
             by_normal: 0.0,
-            trial: SlipTrial::default(),
-            linearised: SlipTrial::default(),
-            applied_moment: 0.0,
+            trial: SlipTrial::NONE,
+            linearised: SlipTrial::NONE,
         }
     }
 
     /// Sets the stiffness, the damping and the effective mass along the surface. `damping_factor` is the factor of the normal damping [-].
-    pub(super) fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
+    pub fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
         (self.stiffness, self.mass) = (stiffness, mass);
         self.damping = sticking_damping(stiffness, mass, damping_factor);
     }
 
-    pub(super) fn begin_step(&mut self) {
+    pub fn begin_step(&mut self) {
         self.force.begin_step();
     }
 
     /// Sets the force to zero for an open contact. The deflection is kept until the end of the step.
-    pub(super) fn release(&mut self) {
+    pub fn release(&mut self) {
         (self.force.force, self.force.mismatch, self.by_normal) = (0.0, 0.0, 0.0);
-        (self.trial, self.linearised) = (SlipTrial::default(), SlipTrial::default());
-        self.applied_moment = 0.0;
+        (self.trial, self.linearised) = (SlipTrial::NONE, SlipTrial::NONE);
     }
 
-    pub(super) fn evaluate(&mut self, gap: &GapTrial, movement: Movement) {
-        self.trial = SlipTrial::new(gap, self.radius, movement);
+    pub fn evaluate(&mut self, trial: SlipTrial<N>) {
+        self.trial = trial;
     }
 
     fn law(&self, contact: NormalContact) -> FrictionLaw {
@@ -198,7 +185,7 @@ impl PointFriction {
     }
 
     /// Compares the force with the law. Returns the relative difference; zero if the rounding error of the increments explains it.
-    pub(super) fn compare(&mut self, contact: NormalContact) -> f64 {
+    pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);
         let extent = CORNER_TOLERANCE * larger(self.trial.moved, self.deflection.abs());
@@ -208,7 +195,7 @@ impl PointFriction {
     }
 
     /// Linearises the law at the present iterate, or at its intersection with the impedance of the body if the contact is stiff.
-    pub(super) fn linearise(&mut self, contact: NormalContact) {
+    pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);
         let point = match self.stiffness > SOFT * impedance {
@@ -226,25 +213,18 @@ impl PointFriction {
         self.linearised = self.trial;
     }
 
-    /// Applies `weight` times the force of the present iterate. Returns the generalised internal force: force [force] and moment [force·length].
-    pub(super) fn apply(&mut self, weight: f64) -> Movement {
-        let applied = self.trial.direction.map(|by| by * self.force.force).map(|by| by * weight);
-        self.applied_moment = applied[2];
-        applied
+    /// Generalised internal force in the present iterate.
+    pub fn present(&self) -> [f64; N] {
+        self.trial.direction.map(|by| by * self.force.force)
     }
 
-    /// Moment on the body in the completed step [force·length].
-    pub(super) fn mean_moment(&self) -> f64 {
-        -self.applied_moment
-    }
-
-    pub(super) fn condensed(&self, normal_mismatch: f64) -> Movement {
+    pub fn condensed(&self, normal_mismatch: f64) -> [f64; N] {
         let force = self.force.force + self.mismatch(normal_mismatch);
         self.linearised.direction.map(|by| by * force)
     }
 
-    /// Force and moment that would remove the present difference between the friction force and its law.
-    pub(super) fn missing(&self, normal_mismatch: f64) -> Movement {
+    /// Generalised force that would remove the present difference between the friction force and its law.
+    pub fn missing(&self, normal_mismatch: f64) -> [f64; N] {
         self.linearised.direction.map(|by| by * self.mismatch(normal_mismatch))
     }
 
@@ -252,26 +232,27 @@ impl PointFriction {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    pub(super) fn tangent(&self, normal_slope: Vec2) -> [Movement; 3] {
-        let SlipTrial { slope, direction, direction_slope, .. } = self.linearised;
-        let by_normal = [normal_slope.x, normal_slope.y, 0.0].map(|by| by * self.by_normal);
-        [0, 1, 2].map(|row| {
-            [0, 1, 2].map(|column| {
-                let of_direction = if column < 2 { direction_slope[row][column] } else { 0.0 };
+    /// Derivative of the generalised force, for the derivative of the normal force.
+    pub fn tangent(&self, normal_slope: [f64; N]) -> [[f64; N]; N] {
+        let SlipTrial { slope, direction, direction_slope, .. } = &self.linearised;
+        let by_normal = normal_slope.map(|by| by * self.by_normal);
+        from_fn(|row| {
+            from_fn(|column| {
                 let of_force = self.force.stiffness * slope[column] + by_normal[column];
-                direction[row] * of_force + of_direction * self.force.force
+                direction[row] * of_force + direction_slope[row][column] * self.force.force
             })
         })
     }
 
-    pub(super) fn correct(&mut self, moved: Movement, normal_change: f64) {
-        let slope = self.linearised.slope;
-        self.force.correct((0..3).map(|at| slope[at] * moved[at]).sum());
+    /// Corrects the force for a change of the local coordinates and of the normal force.
+    pub fn correct(&mut self, moved: [f64; N], normal_change: f64) {
+        let slope = &self.linearised.slope;
+        self.force.correct((0..N).map(|at| slope[at] * moved[at]).sum());
         self.force.force += self.by_normal * normal_change;
     }
 
     /// Ends a step. Returns the dissipated energy [energy].
-    pub(super) fn advance(&mut self, contact: NormalContact) -> f64 {
+    pub fn advance(&mut self, contact: NormalContact) -> f64 {
         let is_met = self.compare(contact) == 0.0;
         // The slip is corrected to the value that belongs to the force. Otherwise, the rounding error of increments would store energy.
         let slip = self.trial.slip + if is_met { self.force.missing_change() } else { 0.0 };
@@ -282,35 +263,33 @@ impl PointFriction {
     }
 
     /// Elastic energy of the deflection [energy].
-    pub(super) fn energy(&self) -> f64 {
+    pub fn energy(&self) -> f64 {
         0.5 * self.stiffness * self.deflection * self.deflection
     }
 
     /// Mean force in the last step along the surface, positive to the right of its normal [force].
-    pub(super) fn last(&self) -> f64 {
+    pub fn last(&self) -> f64 {
         self.force.last
     }
 
-    /// Generalised internal force at the start of the step, for rates of the point.
-    /// The slip is linear in the movement, so the slip rate follows from the rates.
-    pub(super) fn at_start(
-        &self,
-        contact: &ClosedContact,
-        normal_force: f64,
-        rates: Movement,
-    ) -> Movement {
-        let gap = GapTrial::along(contact.gradient);
-        let SlipTrial { slip: rate, direction, .. } = SlipTrial::new(&gap, self.radius, rates);
+    /// Generalised internal force at the start of the step.
+    /// The slip is linear in the movement, so the trial of the rates of the local coordinates has the slip rate.
+    pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);
-        let force = self.stiffness * self.deflection + contact.sticking_damping * rate;
-        direction.map(|by| by * force.clamp(-limit, limit))
+        let force = self.stiffness * self.deflection + damping * rates.slip;
+        rates.direction.map(|by| by * force.clamp(-limit, limit))
     }
 
-    pub(super) fn save(&self, state: &mut Vec<f64>) {
+    /// Damping coefficient while the contact sticks [force·time/length].
+    pub fn sticking_damping(&self) -> f64 {
+        self.damping
+    }
+
+    pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.deflection, self.force.last]);
     }
 
-    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+    pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         (self.deflection, self.force.last) = (next(), next());
     }
 }
@@ -382,37 +361,6 @@ mod tests {
                 let tolerance = 1e-5 * law.stiffness;
                 assert!((met.by_slip.stiffness - by_slip).abs() < tolerance, "{law:?} {slip}");
                 assert!((met.by_limit - by_limit).abs() < 1e-5, "{law:?} {slip}");
-            }
-        }
-    }
-
-    #[test]
-    fn slopes_of_the_slip_are_derivatives_and_do_its_work() {
-        let (centre, radius, step) = (Vec2::zeros(), 0.3, 1e-6);
-        let shape = super::super::definition::ObstacleShape::Disc { centre, radius };
-        let start = Vec2::new(0.5, -0.2);
-        let trial = |moved: Movement| {
-            let rotations = crate::beams::RotationIncrement::TangentScaled;
-            let gap = GapTrial::new(shape, start, Vec2::new(moved[0], moved[1]), rotations);
-            SlipTrial::new(&gap, 0.25, moved)
-        };
-        let moved = [0.1, 0.17, -0.4];
-        let met = trial(moved);
-        let work: f64 = (0..3).map(|at| met.direction[at] * moved[at]).sum();
-        assert!((work - met.slip).abs() < 1e-15);
-        for column in 0..3 {
-            let at = |by: f64| {
-                let mut moved = moved;
-                moved[column] += by;
-                trial(moved)
-            };
-            let (after, before) = (at(step), at(-step));
-            let slope = (after.slip - before.slip) / (2.0 * step);
-            assert!((slope - met.slope[column]).abs() < 1e-9, "{column}");
-            for row in 0..3 {
-                let slope = (after.direction[row] - before.direction[row]) / (2.0 * step);
-                let expected = if column < 2 { met.direction_slope[row][column] } else { 0.0 };
-                assert!((slope - expected).abs() < 1e-9, "{row} {column}");
             }
         }
     }

@@ -1,0 +1,69 @@
+//! Slip of a contact point along the axis of another body, and the directions of the friction force.
+//!
+//! ```text
+//! nₖ: force on the point from c(ξₖ) for a unit normal force      J: turn by a right angle      ρ, ρ': shares of the arm
+//! Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω')      A = Σₖ nₖ·dₖ      dₖ: mean vector from c(ξₖ) to the point
+//! ```
+//!
+//! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies. With `ρ + ρ' = 1`, the slip is zero
+//! in a rigid rotation, and the sum of all moments is zero, so that the angular momentum is conserved.
+
+use super::gap::{GapMovement, GapTrial, LOCAL};
+use crate::geometry::{Vec2, larger, perpendicular};
+use crate::system::elements::contact::SlipTrial;
+
+/// Number of local coordinates with friction: those of the gap, and the rotations of both bodies.
+pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
+
+/// Rotations of both bodies in an iterate, and the shares of the arm of the friction force that act on them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rotations {
+    /// Rotations of the body of the point and of the other body [rad].
+    pub(super) turned: [f64; 2],
+    /// Shares of the arm [-]. Their sum is one.
+    pub(super) shares: [f64; 2],
+}
+
+/// Slip for a change of the gap.
+pub(super) fn slip_trial(
+    gap: &GapTrial,
+    movement: &GapMovement,
+    rotations: Rotations,
+) -> SlipTrial<WITH_ROTATIONS> {
+    let GapTrial { secant, secant_slope, foot_slope, arm, arm_slope, .. } = gap;
+    let Rotations { turned, shares } = rotations;
+    let rolled = shares[0] * turned[0] + shares[1] * turned[1];
+    let (mut slip, mut moved) = (-arm * rolled, (arm * rolled).abs());
+    let (mut slope, mut direction) = ([0.0; WITH_ROTATIONS], [0.0; WITH_ROTATIONS]);
+    let mut direction_slope = [[0.0; WITH_ROTATIONS]; WITH_ROTATIONS];
+    for (vector, (secant, by)) in secant.iter().zip(&movement.moved).enumerate() {
+        let tangent = perpendicular(*secant);
+        let (x, y) = (2 * vector, 2 * vector + 1);
+        (direction[x], direction[y]) = (tangent.x, tangent.y);
+        slip += tangent.dot(by);
+        moved = larger(moved, by.norm());
+        for column in 0..LOCAL {
+            (direction_slope[x][column], direction_slope[y][column]) =
+                (-secant_slope[y][column], secant_slope[x][column]);
+            slope[column] += by.y * secant_slope[x][column] - by.x * secant_slope[y][column];
+        }
+    }
+    let [before, after, _] = movement.tangents;
+    let last = Vec2::new(direction[4], direction[5]);
+    let by_foot = last.dot(&(after - before));
+    for column in 0..LOCAL {
+        slope[column] +=
+            direction[column] + by_foot * foot_slope[column] - arm_slope[column] * rolled;
+        // The weights of the control points change with the foot.
+        direction_slope[6][column] = last.x * foot_slope[column];
+        direction_slope[7][column] = last.y * foot_slope[column];
+        for (row, share) in shares.iter().enumerate() {
+            direction_slope[LOCAL + row][column] = -share * arm_slope[column];
+        }
+    }
+    for (row, share) in shares.iter().enumerate() {
+        direction[LOCAL + row] = -share * arm;
+        slope[LOCAL + row] = -share * arm;
+    }
+    SlipTrial { slip, slope, direction, direction_slope, moved }
+}
