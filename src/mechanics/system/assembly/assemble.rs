@@ -28,6 +28,13 @@ pub struct Assembly<'a> {
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
+/// Checks that the contact forces at the start have a direction.
+fn check_contact_directions(model: &System, scene: &Scene) -> Result<(), SystemError> {
+    let Some((name, body)) = model.undirected_contact() else { return Ok(()) };
+    let object = scene.contact_object(name).unwrap_or_else(|| name.to_owned());
+    Err(SystemError::NoContactDirection { object, body: scene.name_of_body_at(body) })
+}
+
 impl System {
     /// Builds the mechanism of a scene in its initial state.
     ///
@@ -48,7 +55,7 @@ impl System {
     ) -> Result<Self, SystemError> {
         let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.begin();
-        model.check_contact_directions(scene)?;
+        check_contact_directions(&model, scene)?;
         Ok(model)
     }
 
@@ -63,7 +70,7 @@ impl System {
         let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.start_kinks()?;
         model.begin();
-        model.check_contact_directions(scene)?;
+        check_contact_directions(&model, scene)?;
         Ok(model)
     }
 

@@ -4,7 +4,6 @@ use super::System;
 use crate::geometry::Vec2;
 use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
-use crate::system::{Scene, SystemError};
 
 /// Largest ratio of the contact force to the other forces on a body for which these forces explain the penetration.
 const EXPLAINED: f64 = 2.0;
@@ -13,26 +12,14 @@ const EXPLAINED: f64 = 2.0;
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
-    /// Checks that the contact forces at the start have a direction.
-    ///
-    /// # Errors
-    /// Fails if a contact point lies on the axis of a body that it touches, or at the centre of a disc.
-    pub(in crate::system) fn check_contact_directions(
-        &self,
-        scene: &Scene,
-    ) -> Result<(), SystemError> {
-        for contact in self.elements.resistances() {
+    /// Name of a contact whose force has no direction at the start, and the index of the body in it.
+    /// The body lies on the axis of a body that it touches, or at the centre of a disc.
+    pub(in crate::system) fn undirected_contact(&self) -> Option<(&str, usize)> {
+        self.elements.resistances().find_map(|contact| {
             let inside = contact.penetrations(&self.bodies);
-            if let Some(one) = inside.iter().find(|one| !one.energy.is_finite()) {
-                let name = contact.name().to_owned();
-                let object = scene.contact_object(&name).unwrap_or(name);
-                return Err(SystemError::NoContactDirection {
-                    object,
-                    body: scene.name_of_body_at(one.body),
-                });
-            }
-        }
-        Ok(())
+            let one = inside.iter().find(|one| !one.energy.is_finite())?;
+            Some((contact.name(), one.body))
+        })
     }
 
     /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.

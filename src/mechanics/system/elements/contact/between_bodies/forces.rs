@@ -364,7 +364,8 @@ impl InternalForce for PairForces {
             let (mut depth, mut energy, mut force) = (0.0, 0.0, Vec2::zeros());
             for pair in self.closed().filter(|pair| pair.index.shape == index) {
                 depth = larger(depth, -pair.normal.gap.value);
-                energy += pair.energy();
+                energy +=
+                    if pair.has_direction(&self.shapes) { pair.energy() } else { f64::INFINITY };
                 force += pair.elastic_force();
             }
             Penetration { body: shape.body, depth, force: force.norm(), energy }
@@ -446,6 +447,7 @@ impl InternalForce for PairForces {
     ) -> Option<()> {
         self.pairs.clear();
         self.set_configuration(bodies);
+        self.shapes.iter_mut().for_each(Shape::prepare_search);
         for _ in 0..next()? as usize {
             self.pairs.push(ContactPair::restored(&self.shapes, &self.candidates, next)?);
         }

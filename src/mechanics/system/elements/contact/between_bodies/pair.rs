@@ -18,6 +18,9 @@ use crate::system::elements::contact::{
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::mixed_force::ForceTarget;
 
+/// Smallest distance between a point and an axis, as a fraction of the sum of radii, at which the contact force has a direction.
+const SMALLEST_DISTANCE: f64 = 1e-12;
+
 /// Indices of a contact point and of the body that it touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PairIndex {
@@ -180,6 +183,11 @@ impl ContactPair {
         if let Some(friction) = &mut self.friction {
             friction.force.release();
         }
+    }
+
+    /// Returns true if the distance at the start of the step is larger than its rounding error, so that the force has a direction.
+    pub(super) fn has_direction(&self, shapes: &[Shape]) -> bool {
+        self.start.apart.norm() > SMALLEST_DISTANCE * self.index.reach(shapes)
     }
 
     fn normal_at_start(&self) -> Vec2 {
