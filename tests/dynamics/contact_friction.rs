@@ -3,15 +3,15 @@
 
 use crate::common::{at, run, scenes, settings, simulate};
 use crate::contacts::touching;
-use crate::obstacles::{assert_balanced, column};
+use crate::obstacles::{assert_balanced, column, wall};
 use withy::beams::{BodyPoint, Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
 use withy::simulation::Simulation;
 use withy::system::{
-    ContactMember, ContactTarget, PairContact, ParticleDefinition, RigidBodyDefinition, Scene,
-    StartMotion,
+    ContactMember, ContactTarget, Obstacle, PairContact, ParticleDefinition, RigidBodyDefinition,
+    Scene, StartMotion,
 };
 
 const GRAVITY: f64 = 9.81;
@@ -145,6 +145,34 @@ fn a_disc_rolls_down_an_inclined_beam() {
     let slid = column(&simulation, "dissipated.contact").last().copied().unwrap();
     assert!(slid < 0.02 * 0.1 * GRAVITY * 0.3, "{slid}");
     assert_balanced(&simulation, 1e-9);
+}
+
+/// A cylinder on two others rests if the coefficient of friction is above `2 - √3`, the tangent of 15°.
+#[test]
+fn a_pile_of_three_cylinders_stands_above_the_critical_coefficient_of_friction() {
+    let (radius, stiffness) = (0.5, 1e6);
+    let rest = |friction: f64, end: f64| {
+        let mut scene = Scene::new("pile");
+        scene.gravity = at(0.0, -GRAVITY);
+        let places = [at(0.0, 0.5), at(1.0, 0.5), at(0.5, 0.5 + 0.75_f64.sqrt())];
+        let pile = places.map(|place| {
+            ContactTarget::Point(disc(&mut scene, place, at(0.0, 0.0), [1.0, radius]))
+        });
+        let floor = wall(at(0.0, 0.0), at(0.0, 1.0), stiffness, 0.3);
+        scene.add_obstacle(Obstacle { friction, radius, targets: pile.to_vec(), ..floor }).unwrap();
+        let contact = touching(&pile, stiffness, radius);
+        scene.add_contact(PairContact { restitution: 0.3, friction, ..contact }).unwrap();
+        let mut simulation = simulate(scene, Method::EnergyMomentum, 0.002, 1.0);
+        let before = last_place(&simulation);
+        run(&mut simulation, end).unwrap();
+        assert_balanced(&simulation, 1e-9);
+        (last_place(&simulation), last_place(&simulation) - before)
+    };
+    let critical = 2.0 - 3.0_f64.sqrt();
+    let (place, creep) = rest(1.05 * critical, 2.0);
+    assert!((place.y - 0.5 - 0.75_f64.sqrt()).abs() < 1e-3 && creep.norm() < 1e-12, "{creep:?}");
+    let (place, _) = rest(0.93 * critical, 2.0);
+    assert!(place.y < 1.0, "{place:?}");
 }
 
 #[test]
