@@ -81,10 +81,10 @@ pub trait BodyDynamics: Send + Sync {
     ) -> ForceSummary;
 
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
-    /// Calls a sink with the tangent matrix of each span, multiplied by `weight`. Each part of the body has a separate sink.
+    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`. Each part of a divided body has its own function.
     ///
-    /// A sink must use only the rows of the control points of its part.
-    /// A span across the cut between two parts is passed to the sinks of both parts: first in the later part, last in the earlier part.
+    /// The function of a part must use only the rows that belong to control points of this part.
+    /// A span with control points in two parts is passed to the functions of both parts: before the other spans of the later part, and after the other spans of the earlier part.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,

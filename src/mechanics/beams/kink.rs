@@ -1,6 +1,6 @@
 //! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
 //!
-//! A point force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh lacks a part of the displacement under the force.
+//! A point force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh does not represent a part of the displacement under the force.
 //! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights.
 //! Derivation: docs/theory.md, section 10.1.
 
@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-11;
 /// Part of the kink under a point force that the mesh does not represent.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// Kink length as a function of the position of the kink [length]: the compliance that the mesh misses, times the shear stiffness.
+    /// Kink length as a function of the position of the kink [length]: the compliance that is missing on the mesh, times the shear stiffness.
     pub length: PiecewisePolynomial,
     /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
     pub inertia: f64,

@@ -55,7 +55,7 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 }
 
 /// Splines of one degree less, computed as sums of derivatives. Each spline is a positive multiple of a B-spline, and its integral is one.
-/// The splines that are nonzero on a span have the same indices as the functions of the span, without the last index.
+/// If the basis functions `a` to `a + p` are nonzero on a span, the splines `a` to `a + p - 1` are nonzero on it.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;

@@ -7,8 +7,8 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// The start value of the linear function is used, not the value of the load.
+    /// Start of the step. A load has the start value of a linear function of time.
+    /// The linear function has the same mean over the step and the same change in the step as the load.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -19,8 +19,8 @@ pub enum Stage {
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value in the enum variant is the dissipation parameter `χ`.
     DampedMidpoint(f64),
-    /// End of the step. A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
-    /// The end value of the linear function is used, not the value of the load.
+    /// End of the step. A load has the end value of a linear function of time.
+    /// The linear function has the same mean over the step and the same change in the step as the load.
     End,
 }
 

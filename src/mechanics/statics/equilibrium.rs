@@ -63,7 +63,7 @@ impl Equilibrium {
     /// Dry run for the check of scripts. The initial configuration replaces the equilibrium.
     ///
     /// # Errors
-    /// Fails in the cases of [`find`](Self::find) that occur before the solution.
+    /// Fails if [`find`](Self::find) would reject the scene or the loads: the scene cannot be built, a load has no value, or no load acts.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let goes_on = &mut |_| true;
         let model = prepare(&scene, &loading, goes_on)?;

@@ -128,7 +128,7 @@ struct ElasticSpan<'a> {
     twist: usize,
 }
 
-/// Largest number of components of a span, which occurs for degree 10.
+/// Largest number of unknowns of a span: three per basis function, for degree 10.
 const WIDEST: usize = 33;
 
 #[inline(always)]

@@ -18,7 +18,7 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
 const FARTHEST: f64 = 1e12;
 
-/// Largest displacement that counts as zero, for an unrestrained mode at a damper, as a fraction of the largest displacement of all modes at this damper.
+/// Largest displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at this damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;

@@ -263,7 +263,7 @@ impl SceneHandle {
         self.controllers.borrow().clone()
     }
 
-    /// Functions of the first `columns` user-defined columns.
+    /// Script functions that compute the first `columns` user-defined columns of the history.
     pub fn functions(&self, columns: usize) -> Vec<Rc<StoredFunction>> {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }

@@ -32,7 +32,8 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // In front of the kink, the mesh lacks a part of the motion. Behind the kink, the mesh has additional motion.
+                            // The exact motion is one at parameters above that of the kink, and zero below.
+                            // The motion of the mesh is `there`. It differs from one by `missing`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -3,7 +3,7 @@
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Largest gap that counts as rounding and defines no direction, as a fraction of the length of the master.
+/// Largest gap that is attributed to rounding, as a fraction of the length of the master. The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law. The gap is closed on average over each step. Energy, linear and angular momentum are conserved. A closed gap may open.

@@ -103,7 +103,7 @@ impl Simulation {
     }
 
     fn step_or_freeze_contacts(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
-        // Kinks and forces of slip that were kept constant in the last step become variable again.
+        // Kinks and friction forces that were kept constant in the last step become variable again.
         // The constant kinks were kept until now, because queries of the last step depend on them.
         self.model.unfreeze_contacts();
         let stepped = self.stepper.step(&mut self.model, interval);
@@ -123,7 +123,7 @@ impl Simulation {
         stepped
     }
 
-    /// Keeps the kinks under contact forces and the forces of slip constant after a failed step. Returns true if this changes the equations of the step.
+    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step. Returns true if this changes the equations of the step.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

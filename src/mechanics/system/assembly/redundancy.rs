@@ -9,7 +9,7 @@ use crate::system::{Scene, System, SystemError};
 /// Ratio of a pivot of the Cholesky factorisation to the diagonal entry, below which the pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Largest velocity change due to an impulse at a slider that counts as zero. It is divided by the velocity change that the same impulse gives to the total mass.
+/// Largest velocity change of a slider due to a unit impulse that counts as zero, as a fraction of the velocity change of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

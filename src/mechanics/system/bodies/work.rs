@@ -33,7 +33,7 @@ impl Bodies {
         self.each(|body| body.dynamics.begin_step());
     }
 
-    /// Adds the internal forces of all bodies to `out`. Returns their summary.
+    /// Adds the internal forces of all bodies to `out`. Returns the largest force, moment, rotation and strain residual.
     pub fn add_forces(
         &mut self,
         at: Collocation,

@@ -19,7 +19,8 @@ pub enum LawArgument {
 pub struct OutsideLaw {
     /// Argument that left the range.
     pub argument: LawArgument,
-    /// Ends of the range [length or rad; for rates length/time or rad/time]. An end is infinite if the force is constant beyond it.
+    /// Smallest and largest argument in the table of the law [length or rad; for rates length/time or rad/time].
+    /// An entry is infinite if the force is constant at this end of the table.
     pub range: [f64; 2],
     /// Value farthest outside the range.
     pub reached: f64,

@@ -18,7 +18,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Smallest ratio of the velocity response with only the included deformations to the velocity response with all deformations.
-/// Bodies with a smaller ratio count as rigid in the direction of the impulse.
+/// With a smaller ratio of these two responses, the bodies count as rigid in the direction of the impulse.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Forces of a unit impulse in one direction, with the resulting velocities.

@@ -146,7 +146,7 @@ impl System {
         Ok(seen)
     }
 
-    /// Solves the balance for the accelerations and the contact forces. The residual contains the other forces.
+    /// Solves the equations of motion for the accelerations and the contact forces. The residual contains the other forces.
     fn solve_present_forces(&mut self, present: &mut PresentForces) -> Result<(), SystemError> {
         present.prescribed.clear();
         present.prescribed.extend(self.supports.prescribed().accelerations());

@@ -136,17 +136,17 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks at all contact points and the forces of slip constant in the next step. Returns true if this changes the equations of the next step.
+    /// Keeps the kinks at all contact points and the friction forces of slipping sliders constant in the next step. Returns true if this changes the equations of the next step.
     pub(crate) fn freeze_contacts(&mut self) -> bool {
         self.sliders.freeze_contacts()
     }
 
-    /// Makes kinks and forces of slip variable again.
+    /// Makes kinks and friction forces variable again.
     pub(crate) fn unfreeze_contacts(&mut self) {
         self.sliders.unfreeze_contacts();
     }
 
-    /// Returns true if a kink under a contact force or a force of slip is kept constant.
+    /// Returns true if a kink under a contact force, or a friction force, is kept constant.
     pub(crate) fn has_frozen_contacts(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }

@@ -13,7 +13,7 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 /// Tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
-/// Distance from the axis below which a slider that lands starts together with another slider, as a fraction of the size of the contact.
+/// Distance from the axis up to which a slider lands simultaneously with another slider, as a fraction of the size of the contact.
 const TOGETHER: f64 = 1e-12;
 
 impl System {
@@ -167,7 +167,7 @@ impl System {
     }
 
     /// Law across the master for a slider that is in contact during an impact.
-    /// A slider with too many events stays in contact, because two sliders could otherwise separate each other in turn without end.
+    /// A slider with too many events stays in contact. Otherwise, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

@@ -26,7 +26,7 @@ impl System {
         self.slider(slider).connection.master
     }
 
-    /// Largest number of spans of its master that a slider has passed in one step [-].
+    /// Largest number of spans of the master that a slider has passed in one step [-].
     pub fn most_spans(&self, slider: usize) -> f64 {
         self.slider(slider).most_spans
     }
@@ -64,7 +64,7 @@ impl System {
         self.slider(slider).friction_force()
     }
 
-    /// Distance of a slave from the axis of its master, for a slider that only pushes [length]. The distance is positive on the side of the flight, and zero in contact.
+    /// Distance of a slave from the axis of its master, for a slider that only pushes [length]. The distance is positive on the side to which the slider can lift off, and zero in contact.
     /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())

@@ -9,21 +9,22 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Kink length below which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed of a variable kink, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
-/// Near the speed of shear waves, the stiffness of the kink is nearly zero.
+/// Largest speed at which a kink varies with the contact force, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
+/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed of a variable kink, as a fraction of the speed at which the stiffness of the kink on the mesh vanishes.
+/// Largest speed at which a kink varies with the contact force, as a fraction of the critical speed.
+/// At the critical speed, the stiffness of the kink is zero. It is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
 /// Near the ends of a master, kinks are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed at which a kink begins with a load at an end, as a fraction of the largest speed of a variable kink.
+/// Largest speed of a kink that begins at an end of the master with the contact force, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
-/// Fraction of the limit [`BESIDE_END`], below which even a loaded kink that moves away from an end is kept constant.
+/// Kink length below which a loaded kink is kept constant even if it moves away from an end, as a fraction of the kink length given by [`BESIDE_END`].
 /// Closer to the end, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 

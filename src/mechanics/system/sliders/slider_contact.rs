@@ -50,7 +50,7 @@ pub struct SliderContact {
     pub unknowns: ContactUnknowns,
     /// Contact force on the master [force].
     mean_force: StepMean<Vec2>,
-    /// Largest number of spans of its master passed in a step [-].
+    /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce [-].
     pub steps_per_impact: f64,

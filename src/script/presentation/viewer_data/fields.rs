@@ -46,7 +46,7 @@ pub struct FieldReader {
 }
 
 impl FieldReader {
-    /// Creates storage for the named fields in the given number of frames. `None` if no field needs states.
+    /// Creates storage for the named fields in the given number of frames. Returns `None` if no named field is computed from states of the simulation.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

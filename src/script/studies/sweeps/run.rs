@@ -193,7 +193,7 @@ impl SweepRequest<'_> {
 
 /// Sends the unknown rows to the workers, a limited number in advance. Receives results until all are known or the run is stopped.
 /// The first completed row defines the names of the results.
-/// Until the first completed row, results are processed in the order of the rows, so that the outcome is deterministic.
+/// Results are processed in the order of the rows until a row has defined the names. The names are therefore deterministic.
 fn drive(
     pool: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

@@ -3,7 +3,7 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Largest ratio of the path of an open point in a step to its chord inside a disc. Shorter chords are ignored.
+/// Ratio of the path length of an open point in a step to the length of its chord in a disc, above which the chord is ignored.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Straight path of a point relative to a disc in a step.

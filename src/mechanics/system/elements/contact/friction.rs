@@ -1,7 +1,7 @@
 //! Coulomb friction of a contact point. The contact deflects elastically along the surface before it slips.
 //!
 //! `docs/theory.md`, section 9.7, derives the mean force of a step.
-//! The force is the mean over the exact path, so it never exceeds the limit, and a contact that sticks does not creep.
+//! The force is the mean over the exact path in the step. It therefore never exceeds the limit, and a sticking contact does not creep.
 //! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
 use std::array::from_fn;
@@ -83,11 +83,11 @@ pub struct SlipTrial<const N: usize> {
     pub slip: f64,
     /// Derivative of the slip.
     pub slope: [f64; N],
-    /// Generalised force of a unit friction force. Its work is the slip.
+    /// Generalised force due to a unit friction force. The work of this generalised force equals the slip.
     pub direction: [f64; N],
     /// Derivative of each component of the generalised force.
     pub direction_slope: [[f64; N]; N],
-    /// Largest increment in the sum for the slip [length].
+    /// Largest of the increments from which the slip is computed [length]. It determines the rounding error of the slip.
     pub moved: f64,
 }
 
@@ -101,14 +101,14 @@ impl<const N: usize> SlipTrial<N> {
     };
 }
 
-/// Damping coefficient along the surface while a contact sticks [force·time/length]. `factor` is the factor of the normal damping [-].
+/// Damping coefficient along the surface while a contact sticks [force·time/length]. `factor` is the damping factor of the normal force [-].
 pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
     let factor = factor.min(MOST_DAMPING);
     let is_damped = factor > 0.0 && mass.is_finite();
     if is_damped { factor * (stiffness * mass).sqrt() } else { 0.0 }
 }
 
-/// Friction of a contact point in a step, with the `N` local coordinates of its slip.
+/// Friction force of a contact point in a step. Its slip is a function of `N` local coordinates.
 #[derive(Debug, Clone)]
 pub struct PointFriction<const N: usize> {
     /// Coefficient of friction [-].
@@ -154,7 +154,7 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Sets the stiffness, the damping and the effective mass along the surface. `damping_factor` is the factor of the normal damping [-].
+    /// Sets the stiffness, the damping and the effective mass along the surface. `damping_factor` is the damping factor of the normal force [-].
     pub fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
         (self.stiffness, self.mass) = (stiffness, mass);
         self.damping = sticking_damping(stiffness, mass, damping_factor);
@@ -273,7 +273,7 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Generalised internal force at the start of the step.
-    /// The slip is linear in the movement, so the trial of the rates of the local coordinates has the slip rate.
+    /// The slip is linear in the local coordinates. The slip in `rates` is therefore the slip rate.
     pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);
         let force = self.stiffness * self.deflection + damping * rates.slip;

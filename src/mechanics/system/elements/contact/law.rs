@@ -46,7 +46,7 @@ impl ContactLaw {
         }
     }
 
-    /// Mean tension over a change of the gap from `gap` by `change`, whose work is the change of the potential.
+    /// Mean tension while the gap changes from `gap` by `change`. The work of the mean tension equals the change of the potential.
     /// The stiffness is the derivative with respect to the change.
     pub fn mean(&self, gap: f64, change: f64) -> ForceTarget {
         let end = gap + change;

@@ -17,7 +17,7 @@ pub const SOFT: f64 = 1e-2;
 pub struct NormalLaw {
     /// Elastic tension as a function of the gap.
     pub elastic: ContactLaw,
-    /// Factor of the damping for the coefficient of restitution [-].
+    /// Damping factor, which follows from the coefficient of restitution [-].
     pub damping: f64,
 }
 
@@ -41,7 +41,7 @@ impl ContactTime {
         Self { stage, weight, rates, duration }
     }
 
-    /// Share of the damping force in the tension. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
+    /// Factor of the damping force in the tension [-]. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }
     }
@@ -52,7 +52,7 @@ impl ContactTime {
 pub struct GapChange {
     /// Change of the gap [length].
     pub value: f64,
-    /// Largest increment in the sum for the change [length].
+    /// Largest of the increments from which the change is computed [length]. It determines the rounding error of the change.
     pub moved: f64,
 }
 
@@ -127,7 +127,7 @@ impl NormalForce {
         ForceTarget { force, stiffness }
     }
 
-    /// Largest admissible tension: the mean force of the step must not be tensile. If forces act at both ends of the step, the limit contains the tension at its start.
+    /// Largest tension for which the mean force of the step is not tensile. If forces act at both ends of the step, the limit depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force

@@ -22,7 +22,7 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// If a step with the law of friction fails, shorter steps are tried first.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Number of transitions in successive steps, above which slip does not end within a step.
+/// Number of transitions in successive steps, from which steps are no longer shortened to the time at which the slip ends.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition of a slider with friction at the end of an attempted step.

@@ -234,7 +234,7 @@ impl SliderContact {
     }
 
     /// Depth of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
-    /// The depth is negative on the side of the flight. Returns `None` if the slave is on the axis within rounding.
+    /// The depth is negative if the slave has not reached the axis. Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;

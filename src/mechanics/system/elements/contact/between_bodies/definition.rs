@@ -175,7 +175,7 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
 }
 
 /// Parts of the axis that each contact point of the same beam can touch.
-/// Axis points that are nearer along the axis than half a circle of twice the radius are left out. Otherwise a bent beam would touch itself at the next contact point.
+/// Axis points at an arc length below half the circumference of a circle with twice the radius are left out. Otherwise, a bent beam would touch itself near the contact point.
 fn allowed_parts(
     basis: &Basis,
     controls: &[Vec2],

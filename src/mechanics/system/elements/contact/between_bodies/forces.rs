@@ -40,7 +40,7 @@ pub(super) struct FrictionOfPair {
 }
 
 impl CandidatePair {
-    /// Pair of a contact point of `shape`.
+    /// Indices of the pair that contains the contact point `site` of `shape`.
     pub(super) fn at(&self, site: usize) -> PairIndex {
         PairIndex { shape: self.shape, site, target: self.target }
     }
@@ -198,7 +198,7 @@ impl PairForces {
         }
     }
 
-    /// Distance between two bodies with the sum of radii `reach`, from which they cannot reduce the smallest gap.
+    /// Distance between two axes above which the gap between the bodies is not smaller than the present smallest gap [length]. `reach` is the sum of the radii.
     fn gap_limit(&self, reach: f64) -> f64 {
         (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
     }

@@ -17,10 +17,12 @@ use super::shape::Foot;
 use crate::beams::RotationIncrement;
 use crate::geometry::{Dual, DualVector, Vec2, larger};
 
-/// Number of local coordinates: displacements of the point, of the feet `c(ξ₀)` and `c(ξ₁)`, and their derivative with respect to ξ at `ξ₁`.
+/// Number of local coordinates: two components for each of four vectors.
+/// The vectors are the displacements of the point and of the feet `c(ξ₀)` and `c(ξ₁)`, and the derivative of the displacement of the curve with respect to ξ at `ξ₁`.
 pub(super) const LOCAL: usize = 8;
 
-/// Smallest sum `A₀ + A₁` for a share `θ`, as a fraction of the squared distance. Below this value, both feet coincide and the share has no influence.
+/// Smallest sum `A₀ + A₁` for which the share `θ` is computed, as a fraction of the squared distance.
+/// For a smaller sum, both feet coincide within rounding, and the share has no influence.
 const SAME_FOOT: f64 = 1e-14;
 
 /// Derivatives with respect to the local coordinates.
@@ -42,7 +44,7 @@ pub(super) struct GapMovement {
     pub(super) moved: [Vec2; 3],
     /// Vector from `c(ξ₀)` to `c(ξ₁)` at the start of the step [length].
     pub(super) slid: Vec2,
-    /// Size of increments with the same rounding error as this vector [length].
+    /// Length that determines the rounding error of this vector [length].
     pub(super) increment: f64,
     /// Derivatives of the curve with respect to ξ at `c(ξ₁)`: the first at the start of the step, the first and the second at its end [length].
     pub(super) tangents: [Vec2; 3],
@@ -60,7 +62,7 @@ impl GapMovement {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     pub(super) change: f64,
-    /// Largest increment in the sum for the change [length].
+    /// Largest of the increments from which the change is computed [length]. It determines the rounding error of the change.
     pub(super) moved: f64,
     /// Derivative of the change.
     pub(super) slope: Slope,
@@ -70,7 +72,7 @@ pub(super) struct GapTrial {
     pub(super) secant_slope: [Slope; 6],
     /// Derivative of the parameter `ξ₁` [1/length].
     pub(super) foot_slope: Slope,
-    /// Moment of a unit friction force about the curve, which is turned from the forces above by a right angle [length].
+    /// Moment about the curve of a unit friction force, which is perpendicular to the forces above [length].
     pub(super) arm: f64,
     /// Derivative of this moment [-].
     pub(super) arm_slope: Slope,
@@ -88,14 +90,15 @@ impl GapTrial {
         arm_slope: [0.0; LOCAL],
     };
 
-    /// Open or closed gap at rest, from the vector from the nearest point to the contact point.
+    /// Gap without a change, for the given vector from the nearest point to the contact point.
     pub(super) fn at_rest(apart: Vec2) -> Self {
         let arm = apart.norm();
         let normal = if arm > 0.0 { apart / arm } else { Vec2::zeros() };
         Self { secant: [normal, -normal, Vec2::zeros()], arm, ..Self::NONE }
     }
 
-    /// Computes the change of the gap and the directions of the forces. For `TangentScaled`, the work of the forces equals the tension times the change of the gap.
+    /// Computes the change of the gap and the directions of the contact forces.
+    /// For `TangentScaled`, the work of these forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
     /// For `Angle`, the force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,

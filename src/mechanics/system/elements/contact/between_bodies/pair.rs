@@ -39,7 +39,7 @@ impl PairIndex {
         shapes[self.shape].radius + shapes[self.target].radius
     }
 
-    /// Rotations of the body of the point and of the other body at a foot, from the rotations of the control points of each shape.
+    /// Rotation of the body at the contact point, and rotation of the other body at the foot. `rotation` returns the rotation of a control point of a shape.
     fn rotations(
         self,
         shapes: &[Shape],
@@ -97,7 +97,7 @@ pub(super) struct ContactPair {
 
 impl ContactPair {
     /// New pair, with the gap in the configuration at the start of the step.
-    /// A gap that is negative there, because the nearest point was not part of the search before, counts as zero. Otherwise the energy would jump.
+    /// If the nearest point was not part of earlier searches, the gap in this configuration can be negative. It is then replaced by zero, so that the energy does not jump.
     pub(super) fn new(
         candidate: &CandidatePair,
         site: usize,
@@ -611,7 +611,7 @@ impl ContactPair {
         stiffness
     }
 
-    /// Pair of a saved state; `None` if the state is not one of these shapes.
+    /// Pair restored from a saved state; `None` if the state does not belong to these shapes.
     pub(super) fn restored(
         shapes: &[Shape],
         candidates: &[CandidatePair],

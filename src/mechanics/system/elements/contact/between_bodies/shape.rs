@@ -13,7 +13,7 @@ const SAMPLES: usize = 4;
 /// Largest number of iterations of the search for the nearest point.
 const MOST_ITERATIONS: usize = 60;
 
-/// Largest cosine of the angle between the axis and the line to the nearest point, for a point that counts as the foot of a perpendicular.
+/// Largest cosine of the angle between the axis and the line to the nearest point, for which this line counts as perpendicular to the axis.
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Relative rounding error of distances.
@@ -418,7 +418,7 @@ pub(super) struct CrossingPath {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestSearch {
     pub(super) position: Vec2,
-    /// Parts of the axis that are searched. The ends of the parts are not found.
+    /// Parts of the axis that are searched. The end of a part is not a valid nearest point.
     pub(super) allowed: AllowedParts,
     /// Largest distance [length].
     pub(super) limit: f64,
@@ -528,7 +528,7 @@ impl SpanSearch<'_> {
 /// Returns true if the origin passes between two points that move along straight lines.
 fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
     let (da, db) = (a_end - a, b_end - b);
-    // Area of the triangle of the origin and both points: c₀ + c₁ t + c₂ t².
+    // Twice the area of the triangle with corners at the origin and at both points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
     let (c0, c1, c2) = (cross(a, b), cross(da, b) + cross(a, db), cross(da, db));
     let root = (c1 * c1 - 4.0 * c2 * c0).sqrt();
     if root.is_nan() {

@@ -2,7 +2,8 @@
 //!
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown, as the section forces of beams are.
-//! Its search intersects the law with the impedance of the mass at the point, so the number of iterations does not depend on the stiffness.
+//! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
+//! The number of iterations therefore does not depend on the stiffness.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
