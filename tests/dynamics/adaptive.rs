@@ -277,7 +277,7 @@ fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
     assert_eq!(flight.history().samples().last().unwrap().measures.time, time);
     let message = error.to_string();
     assert!(
-        message.contains("tolerance 0.00001 requires steps below the smallest allowed one (2e-2)"),
+        message.contains("tolerance 0.00001 requires steps below the smallest allowed one (0.02)"),
         "{message}"
     );
 }
