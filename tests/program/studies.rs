@@ -128,7 +128,7 @@ fn what_ran_out_of_patience_is_tried_again() {
     let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: \"turned.csv\"";
     let (folder, file) = script(options, "");
     let journal = folder.path().join("out").join("rod.journal");
-    let output = withy(&["study", "--max-steps", "300"], &file).output().unwrap();
+    let output = withy(&["study", "--max-steps", "900"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
     // The first case is short, and the others exceed the limit.
     let known = Journal::open(&journal).unwrap().len();
