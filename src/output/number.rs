@@ -3,6 +3,8 @@
 //! Numbers with `1e-4 ≤ |x| < 1e7` are written in decimal notation, other numbers with a power of ten.
 //! The text has the smallest number of digits from which the number can be read back exactly.
 
+use crate::elementary::rounded_to;
+
 /// Shortest text from which `x` can be read back exactly, such as `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
 pub fn format_number(x: f64) -> String {
     if x.is_nan() {
@@ -19,8 +21,7 @@ pub fn format_number(x: f64) -> String {
 /// Text of `x`, rounded to `digits` significant digits (at least one), in the notation of [`format_number`].
 /// For example, `significant(1/3, 3)` is `0.333`, and `significant(2.0, 3)` is `2`.
 pub fn significant(x: f64, digits: usize) -> String {
-    let rounded = format!("{:.*e}", decimals(digits), x).parse();
-    format_number(rounded.unwrap_or(x))
+    format_number(rounded_to(digits, x))
 }
 
 /// Text of `x` with a power of ten and exactly `digits` significant digits (at least one). For example, `scientific(3.14e-15, 2)` is `3.1e-15`.

@@ -4,9 +4,13 @@
 //! The last bit of their results may differ between machines and versions.
 //! The functions of this module use additions, multiplications, divisions and square roots only, which IEEE 754 defines exactly.
 //! All other code uses this module; `clippy.toml` rejects the functions of the standard library.
+//! Decimal rounding for messages is in `digits`.
 
+mod digits;
 mod functions;
 mod powers;
+
+pub use digits::rounded_to;
 
 pub use functions::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, hypot, ln, log, log2, log10, sin,

@@ -5,6 +5,7 @@ use std::fmt;
 use std::rc::Rc;
 
 use super::{Interval, Overshoot};
+use crate::elementary::rounded_to;
 use crate::newton::NewtonError;
 
 /// Error from outside the solver. It is displayed unchanged, and can be downcast to its type.
@@ -53,10 +54,6 @@ pub enum FailureSource {
     Named(String),
 }
 
-fn six_digits(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
-}
-
 fn at(failure_source: Option<&FailureSource>) -> String {
     match failure_source {
         Some(FailureSource::Named(name)) => format!("; location: {name}"),
@@ -68,7 +65,7 @@ fn at(failure_source: Option<&FailureSource>) -> String {
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepError {
-    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), six_digits(interval.start), at(failure_source.as_deref()))]
+    #[error("the step of {:.3e} from t = {} failed: {source}{}", interval.duration(), rounded_to(6, interval.start), at(failure_source.as_deref()))]
     Newton {
         interval: Interval,
         source: Box<NewtonError>,
@@ -77,22 +74,22 @@ pub enum StepError {
     },
     #[error(
         "a section would rotate by {} rad in the step of {:.3e} from t = {}, but the rotation per step must be below π; use a smaller step",
-        if *rotation < 1e7 { format!("{rotation:.2}") } else { format!("{rotation:.2e}") }, interval.duration(), six_digits(interval.start)
+        if *rotation < 1e7 { format!("{rotation:.2}") } else { format!("{rotation:.2e}") }, interval.duration(), rounded_to(6, interval.start)
     )]
     Rotation { interval: Interval, rotation: f64, iterations: usize },
     #[error(
         "in the step of {:.3e} from t = {} the beam under a slider rotates by about π (chord {chord:.1e} of the path); use a smaller step",
-        interval.duration(), six_digits(interval.start)
+        interval.duration(), rounded_to(6, interval.start)
     )]
     Chord { interval: Interval, chord: f64, iterations: usize },
     #[error(
         "a body would pass through another body or obstacle of '{obstacle}' in the step of {:.3e} from t = {}; use a smaller step, or a larger stiffness or radius if the contact is too soft to stop the body",
-        interval.duration(), six_digits(interval.start)
+        interval.duration(), rounded_to(6, interval.start)
     )]
     Crossing { interval: Interval, obstacle: String, iterations: usize },
     #[error(
         "limit {} of a constraint is exceeded within the step of {:.3e} from t = {}",
-        overshoot.event, interval.duration(), six_digits(interval.start)
+        overshoot.event, interval.duration(), rounded_to(6, interval.start)
     )]
     Overshoot { interval: Interval, overshoot: Overshoot, iterations: usize },
     #[error("{load}: {source} (in the step from t = {} to {})", interval.start, interval.end)]

@@ -4,7 +4,7 @@
 //! Within a step, the interval with the largest difference is bisected. For a jump, the remaining difference is constant.
 
 use super::{LimitSide, LoadError, Schedule};
-use crate::elementary::whole_power;
+use crate::elementary::{rounded_to, whole_power};
 
 /// Smallest difference that is significant, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
@@ -37,16 +37,12 @@ pub(super) struct Jump {
 impl Jump {
     pub(super) fn refused(self) -> LoadError {
         let Self { time, before, after, is_jump: is_whole } = self;
-        let [time, before, after] = [time, before, after].map(rounded);
+        let [time, before, after] = [time, before, after].map(|number| rounded_to(6, number));
         match is_whole {
             true => LoadError::Jump { time, before, after },
             false => LoadError::InfiniteRate { time },
         }
     }
-}
-
-pub(super) fn rounded(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// Jump or infinite rate of a schedule just after t = 0.

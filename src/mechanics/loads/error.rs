@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
 
-use super::continuity::rounded;
+use crate::elementary::rounded_to;
 
 /// Error of a script function. It is displayed unchanged, and can be downcast to its type.
 #[derive(Debug, Clone)]
@@ -77,7 +77,7 @@ pub enum LoadError {
     },
     #[error(transparent)]
     Function(FunctionError),
-    #[error("the schedule is {value} at t = {}, but it must be finite", rounded(*time))]
+    #[error("the schedule is {value} at t = {}, but it must be finite", rounded_to(6, *time))]
     NotFinite {
         /// Time [time].
         time: f64,

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::StepControl;
+use crate::elementary::rounded_to;
 use crate::system::{MotionCurvature, OutsideLaw, RESOLVED_IMPACT, ShortBounce, UnsampledChange};
 
 /// Largest rotation of a section in a step without a warning [rad]. It corresponds to ten steps per revolution.
@@ -513,7 +514,7 @@ impl fmt::Display for Warning {
 }
 
 pub(super) fn short(number: f64) -> String {
-    let rounded: f64 = format!("{number:.2e}").parse().unwrap_or(number);
+    let rounded = rounded_to(3, number);
     let size = rounded.abs();
     if size == 0.0 || (1e-4..1e7).contains(&size) {
         format!("{rounded}")

@@ -10,10 +10,10 @@ pub mod quadrature;
 use rhai::{Array, Dynamic};
 
 use crate::geometry::{Basis, GeometryError, MAX_DEGREE, Vec2};
+use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::parameter::{Parameter, Presence, integer, number};
 use crate::script::messages::error::{CallPart, ScriptError};
-use crate::script::messages::numbers::format_number;
 
 pub use curves::CURVE;
 pub use knots::KNOTS;
@@ -60,7 +60,7 @@ fn at_argument<T>(argument: usize, result: Result<T, GeometryError>) -> Result<T
 }
 
 fn brief(x: f64) -> String {
-    format_number(format!("{x:.5e}").parse().unwrap_or(x))
+    significant(x, 6)
 }
 
 /// Point with six digits per coordinate. A coordinate below the rounding error of the other coordinate is shown as 0.

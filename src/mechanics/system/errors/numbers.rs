@@ -1,5 +1,6 @@
 //! Formats of numbers, positions, times and counts in messages.
 
+use crate::elementary::rounded_to;
 use crate::geometry::Vec2;
 
 /// Largest number of objects listed in a message.
@@ -7,7 +8,7 @@ pub const MOST: usize = 6;
 
 /// Formats a number with at most six significant digits. Very small and very large numbers are written with a power of ten.
 pub fn rounded(number: f64) -> String {
-    let rounded: f64 = format!("{number:.5e}").parse().unwrap_or(number);
+    let rounded = rounded_to(6, number);
     let is_plain = rounded == 0.0 || !rounded.is_finite() || (1e-4..1e7).contains(&rounded.abs());
     if is_plain { rounded.to_string() } else { format!("{rounded:e}") }
 }

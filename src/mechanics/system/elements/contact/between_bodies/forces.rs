@@ -51,7 +51,6 @@ pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
     candidates: Vec<CandidatePair>,
-    has_friction: bool,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
     /// Stage of the last evaluation, and its weight.
@@ -72,7 +71,6 @@ impl PairForces {
         Self {
             name,
             shapes,
-            has_friction: candidates.iter().any(|one| one.friction.is_some()),
             candidates,
             pairs: Vec::new(),
             rate_history: RateHistory::default(),
@@ -103,12 +101,7 @@ impl PairForces {
     /// Moves all shapes to an iterate, and finds the pairs that touch in it.
     fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
         for shape in &mut self.shapes {
-            let body = &bodies[shape.body];
-            shape.move_by(|at| body.vector_at(at, increments));
-            if self.has_friction {
-                let rotation = |at: usize| body.degrees_of_freedom[at][2];
-                shape.turn_by(|at| increments.get(rotation(at)).copied().unwrap_or(0.0));
-            }
+            shape.move_by(bodies[shape.body].by_control_point(increments));
         }
         self.find_pairs();
     }
@@ -118,15 +111,19 @@ impl PairForces {
         self.prepare_pairs();
         for candidate in &self.candidates {
             let CandidatePair { shape, target, .. } = *candidate;
-            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
-            let reach = square(own.radius + other.radius);
-            if own.swept_bounds().squared_distance(&other.swept_bounds()) >= reach {
+            let is_near = |shapes: &[Shape], bounds: fn(&Shape) -> Bounds| {
+                let [own, other] = [&shapes[shape], &shapes[target]];
+                let reach = own.radius + other.radius;
+                bounds(own).squared_distance(&bounds(other)) < square(reach)
+            };
+            if !is_near(&self.shapes, Shape::swept_bounds) {
                 continue;
             }
-            let apart = own.end.bounds().squared_distance(&other.end.bounds());
-            let sites = if apart < reach { own.sites.len() } else { 0 };
             self.shapes[target].prepare_search();
-            for site in 0..sites {
+            if !is_near(&self.shapes, |shape| shape.end.bounds()) {
+                continue;
+            }
+            for site in 0..self.shapes[shape].sites.len() {
                 if let Some(foot) = self.touched_foot(candidate.at(site)) {
                     self.shapes[shape].sites[site].touched.push(target);
                     self.pairs.push(ContactPair::new(candidate, site, &self.shapes, foot));
@@ -244,8 +241,7 @@ impl InternalForce for PairForces {
         self.rate_history.begin(interval.duration());
         self.begin_configuration(bodies);
         for shape in &mut self.shapes {
-            let body = &bodies[shape.body];
-            shape.set_velocities(|at| body.vector_at(at, rates));
+            shape.set_velocities(bodies[shape.body].by_control_point(rates));
         }
         self.pairs.iter_mut().for_each(|pair| pair.begin_step(&self.shapes));
     }
@@ -306,11 +302,7 @@ impl InternalForce for PairForces {
     fn advance(&mut self, bodies: &[Body]) {
         let time = ContactTime::new(&self.rate_history, self.stage);
         for shape in &mut self.shapes {
-            let moved = bodies[shape.body].moved();
-            shape.move_by(|at| Vec2::new(moved[at][0], moved[at][1]));
-            if self.has_friction {
-                shape.turn_by(|at| moved[at][2]);
-            }
+            shape.move_by(bodies[shape.body].moved().iter().copied());
         }
         self.prepare_pairs();
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
@@ -463,7 +455,8 @@ impl InternalForce for PairForces {
         let points = crate::system::errors::plural(self.closed().count(), "point");
         let is_damped = |one: &CandidatePair| one.law.damping > 0.0;
         let damped = if self.candidates.iter().any(is_damped) { ", damped" } else { "" };
-        let friction = if self.has_friction { ", with friction" } else { "" };
+        let has_friction = self.candidates.iter().any(|one| one.friction.is_some());
+        let friction = if has_friction { ", with friction" } else { "" };
         format!(
             "contact of {bodies}{damped}{friction}, at {points} at present; the contact forces are additional unknowns"
         )

@@ -2,7 +2,7 @@
 
 use std::iter::once;
 
-use crate::beams::BodyPoint;
+use crate::beams::{BodyPoint, Movement};
 use crate::elementary::square;
 use crate::geometry::{Basis, BasisValues, Span, Vec2, cross};
 use crate::system::elements::contact::DiscPath;
@@ -187,7 +187,7 @@ pub(super) struct Shape {
     pub(super) movements: Vec<Vec2>,
     /// Velocities of the control points at the start of the step [length/time].
     pub(super) velocities: Vec<Vec2>,
-    /// Rotations of the control points in the present iterate [rad]; empty without friction.
+    /// Rotations of the control points in the present iterate [rad].
     pub(super) rotations: Vec<f64>,
     /// Mass of each control point; infinite if it is supported [mass].
     masses: Vec<f64>,
@@ -259,12 +259,13 @@ impl Shape {
         }
         self.movements.clear();
         self.movements.resize(controls.len(), Vec2::zeros());
+        self.rotations.resize(controls.len(), 0.0);
     }
 
     /// Sets the velocities of the control points at the start of the step.
-    pub(super) fn set_velocities(&mut self, of_point: impl Fn(usize) -> Vec2) {
+    pub(super) fn set_velocities(&mut self, rates: impl Iterator<Item = Movement>) {
         self.velocities.clear();
-        self.velocities.extend((0..self.start.points.len()).map(of_point));
+        self.velocities.extend(rates.map(|[x, y, _]| Vec2::new(x, y)));
     }
 
     /// Uses the configuration of the iterate as the start of the next step.
@@ -273,20 +274,15 @@ impl Shape {
         self.movements.fill(Vec2::zeros());
     }
 
-    /// Sets the configuration of an iterate from the displacements of the control points.
-    pub(super) fn move_by(&mut self, displacement: impl Fn(usize) -> Vec2) {
-        for (at, movement) in self.movements.iter_mut().enumerate() {
-            *movement = displacement(at);
-            self.end.points[at] = self.start.points[at] + *movement;
+    /// Sets the configuration of an iterate from the movements of the control points.
+    pub(super) fn move_by(&mut self, movements: impl Iterator<Item = Movement>) {
+        for (at, [x, y, rotation]) in movements.enumerate() {
+            self.movements[at] = Vec2::new(x, y);
+            self.rotations[at] = rotation;
+            self.end.points[at] = self.start.points[at] + self.movements[at];
         }
         self.end.spans.clear();
         self.end.bounds = self.axis.bounds(&self.end.points);
-    }
-
-    /// Sets the rotations of an iterate.
-    pub(super) fn turn_by(&mut self, rotation: impl Fn(usize) -> f64) {
-        self.rotations.clear();
-        self.rotations.extend((0..self.movements.len()).map(rotation));
     }
 
     /// Prepares both configurations for searches of nearest points.
