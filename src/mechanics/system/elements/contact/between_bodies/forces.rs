@@ -59,8 +59,8 @@ pub(super) struct PairForces {
     dissipated: f64,
     /// Smallest gap at present [length].
     gap: f64,
-    /// Open pair with the smallest gap at the end of the last step.
-    closest: Option<PairIndex>,
+    /// Open pair with the smallest gap at the end of the last step, and the span of its foot.
+    closest: Option<(PairIndex, usize)>,
     watch: ContactWatch,
     last_rate: f64,
     rows: LocalRows,
@@ -178,7 +178,7 @@ impl PairForces {
         let size = all.reduce(Bounds::joined).map_or(0.0, |all| all.diagonal());
         self.gap = accumulated.fold(size, f64::min);
         // The closest pair of the last step is evaluated first, because its gap excludes most of the other pairs.
-        if let Some(closest) = self.closest {
+        if let Some((closest, _)) = self.closest {
             self.reduce_gap(closest);
         }
         for at in 0..self.candidates.len() {
@@ -193,6 +193,16 @@ impl PairForces {
                 self.reduce_gap(PairIndex { shape, site, target });
             }
         }
+    }
+
+    /// Closest pair of a saved state; `None` if the state is not one of these bodies.
+    fn restored_closest(
+        &self,
+        next: &mut dyn FnMut() -> Option<f64>,
+    ) -> Option<(PairIndex, usize)> {
+        let (index, _) = PairIndex::restored(&self.shapes, &self.candidates, next)?;
+        let span = next()? as usize;
+        (span < self.shapes[index.target].spans()).then_some((index, span))
     }
 
     /// Distance between two axes above which the gap between the bodies is not smaller than the present smallest gap [length]. `reach` is the sum of the radii.
@@ -211,12 +221,13 @@ impl PairForces {
         }
         self.shapes[index.target].prepare_search();
         let target = &self.shapes[index.target];
-        let search =
-            NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint: 0 };
+        let is_same_target = |(closest, _): &(PairIndex, usize)| closest.target == index.target;
+        let hint = self.closest.filter(is_same_target).map_or(0, |(_, span)| span);
+        let search = NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint };
         if let Some(foot) = target.nearest(&target.start, &search) {
             let apart = position - foot.combine(0, &target.start.points);
             self.gap = (apart.norm() - reach).max(0.0);
-            self.closest = Some(index);
+            self.closest = Some((index, foot.span));
         }
     }
 }
@@ -430,6 +441,11 @@ impl InternalForce for PairForces {
     fn save_contacts(&self, contacts: &mut Vec<f64>) {
         contacts.push(self.pairs.len() as f64);
         self.pairs.iter().for_each(|pair| pair.save(contacts));
+        contacts.push(f64::from(u8::from(self.closest.is_some())));
+        if let Some((index, span)) = self.closest {
+            index.save(contacts);
+            contacts.push(span as f64);
+        }
     }
 
     fn restore_contacts(
@@ -444,6 +460,8 @@ impl InternalForce for PairForces {
             self.pairs.push(ContactPair::restored(&self.shapes, &self.candidates, next)?);
         }
         self.remove_open_pairs();
+        let has_closest = next()? != 0.0;
+        self.closest = if has_closest { Some(self.restored_closest(next)?) } else { None };
         Some(())
     }
 

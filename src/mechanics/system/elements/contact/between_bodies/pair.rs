@@ -54,6 +54,24 @@ impl PairIndex {
         ]
     }
 
+    pub(super) fn save(self, state: &mut Vec<f64>) {
+        state.extend([self.shape, self.site, self.target].map(|index| index as f64));
+    }
+
+    /// Indices of a saved state, with their candidate pair; `None` if the state is not one of these shapes.
+    pub(super) fn restored<'c>(
+        shapes: &[Shape],
+        candidates: &'c [CandidatePair],
+        next: &mut dyn FnMut() -> Option<f64>,
+    ) -> Option<(Self, &'c CandidatePair)> {
+        let mut index = || Some(next()? as usize);
+        let index = Self { shape: index()?, site: index()?, target: index()? };
+        let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
+        let candidate = candidates.iter().find(is_own)?;
+        shapes[index.shape].sites.get(index.site)?;
+        Some((index, candidate))
+    }
+
     /// Parts of the axis that the point can touch.
     pub(super) fn allowed(self, shapes: &[Shape]) -> AllowedParts {
         let is_own_axis = self.shape == self.target;
@@ -617,11 +635,7 @@ impl ContactPair {
         candidates: &[CandidatePair],
         next: &mut dyn FnMut() -> Option<f64>,
     ) -> Option<Self> {
-        let mut index = || Some(next()? as usize);
-        let index = PairIndex { shape: index()?, site: index()?, target: index()? };
-        let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
-        let candidate = candidates.iter().find(is_own)?;
-        shapes[index.shape].sites.get(index.site)?;
+        let (index, candidate) = PairIndex::restored(shapes, candidates, next)?;
         let (span, xi) = (next()? as usize, next()?);
         let foot = shapes[index.target].foot_in(span, xi)?;
         let mut pair = Self::new(candidate, index.site, shapes, foot);
@@ -641,10 +655,9 @@ impl ContactPair {
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
-        let PairIndex { shape, site, target } = self.index;
         let Foot { xi, span, .. } = self.start.foot;
-        state.extend([shape, site, target, span].map(|index| index as f64));
-        state.push(xi);
+        self.index.save(state);
+        state.extend([span as f64, xi]);
         self.normal.save(state);
         if let Some(friction) = &self.friction {
             friction.force.save(state);

@@ -296,6 +296,14 @@ impl Shape {
         self.start.bounds.joined(self.end.bounds)
     }
 
+    /// Number of spans of the axis; 1 for a disc.
+    pub(super) fn spans(&self) -> usize {
+        match &self.axis {
+            Axis::Point(_) => 1,
+            Axis::Curve(SampledCurve { spans, .. }) => spans.len(),
+        }
+    }
+
     /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
     pub(super) fn foot_in(&self, span: usize, xi: f64) -> Option<Foot> {
         match &self.axis {
