@@ -21,7 +21,7 @@ const LEAST_ORDER: f64 = 0.7;
 /// Error above which an observed order has no significance, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
-/// Smallest converged part of a run with chaotic motion. A run with a shorter converged part is too coarse.
+/// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
 /// Growth of the distance of two runs after their last convergence, above which the motion counts as chaotic.
@@ -124,7 +124,7 @@ impl RefinementLevels<'_> {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
-        // If the order has no significance, the distance is the lower bound of the error.
+        // Without convergence, the error is estimated as at least the distance between the two finest levels.
         scaled(factor.max(1.0), order, verdict)
     }
 
@@ -153,8 +153,8 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which the runs converge, if the runs differ strongly at the end.
-    /// Returns `None` if the runs never converge, or if the distances do not grow afterwards.
+    /// Time until which the runs converge, for runs that differ strongly at their end.
+    /// Returns `None` if the runs never converge, or if the distances between the runs do not grow after the last convergence.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;

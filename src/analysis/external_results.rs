@@ -9,7 +9,7 @@ use crate::geometry::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
     pub program: String,
-    /// Name of a series of runs, for example of a program with one integrator.
+    /// Name of a series of runs, for example the runs of one program with one integrator.
     pub series: String,
     pub setting: String,
     /// Run time [s].

@@ -1,16 +1,16 @@
 //! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
-/// Minimum number of blocks or points for an estimate. The uncertainty of the estimate is about the inverse of the square root of this number.
+/// Minimum number of Saltelli blocks or of independent points for an estimate.
+/// The uncertainty of an estimate is about the inverse square root of this number.
 const FEWEST: usize = 30;
 
 /// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect). The average of the result over all other parameters still varies with this parameter.
-    /// The index is the variance of the averaged result, as a fraction of the variance of the result.
+    /// First-order index (main effect): variance of the result averaged over all other parameters, as a fraction of its total variance.
     pub first: f64,
-    /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result.
-    /// The total index is `None` if it cannot be estimated.
+    /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
+    /// `None` if the sample does not allow an estimate of the total index.
     pub total: Option<f64>,
 }
 

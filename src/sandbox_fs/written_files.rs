@@ -70,8 +70,8 @@ impl<W: Write> Write for ChecksumWriter<W> {
 }
 
 /// Checksums and lengths of the files that this program has written to a folder, by name.
-/// For each file, the last two contents are stored.
-/// A new content is recorded before it replaces the old content, so the file may still have the old content.
+/// The last two contents of each file are recorded.
+/// A new content is recorded before it replaces the old one, so a file may still have its old content.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,

@@ -9,13 +9,13 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
-/// Open brackets at the cursor. They determine the expected parameters.
+/// Open brackets at the cursor, which determine the expected parameters.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Called function, with the number of its parameters before the dot.
+/// Function that is called at the cursor, with the number of its parameters before the dot of a method call.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
@@ -134,7 +134,7 @@ fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
     parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
 }
 
-/// Alternative types that a type allows.
+/// Types that a value of type `kind` may have: the alternatives of a union, otherwise the type itself.
 pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
     match kind {
         Kind::Either(kinds) => kinds,

@@ -116,7 +116,7 @@ impl ScriptEngine {
         &self.catalog
     }
 
-    /// State shared by the calls.
+    /// State that all native calls share.
     pub fn context(&self) -> &Context {
         &self.context
     }

@@ -23,7 +23,7 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Rotation: cosine and sine. With several joints, they are multiplied by the ratio of the distances of the joints.
+    /// Cosine and sine of the rotation. For a body with several joints, both are multiplied by the elongation between the joints.
     turn: Option<Vec2>,
     /// Displacement that keeps the joints and sliders of the body attached to magnified bodies.
     shift: Vec2,

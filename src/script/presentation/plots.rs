@@ -11,7 +11,7 @@ use crate::script::messages::suggest::nearest;
 use crate::simulation::{DrawnConfiguration, History, Invariant, Simulation};
 
 const DIGITS: usize = 6;
-/// Smallest height of one of several charts in a terminal [lines].
+/// Smallest height of each chart in a stack of charts in a terminal [lines].
 const LEAST_HEIGHT: usize = 9;
 
 /// Chart of history columns as functions of time, as text for a terminal.

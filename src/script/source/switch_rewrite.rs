@@ -41,7 +41,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the character after the keyword at `column` of a line, counted from 0. A blank is replaced if there is one.
+/// Inserts the character [`CHOICE`] after the keyword at `column` of a line, counted from 0. It replaces a blank if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

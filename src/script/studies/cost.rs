@@ -17,7 +17,7 @@ use crate::system::Scene;
 /// Memory for snapshots in the row with snapshots [bytes].
 const SNAPSHOTS: usize = 256_000_000;
 
-/// Names of the first two rows: the plain scene and its repetition. Their difference shows the reliability of the times.
+/// Names of the first two rows: the plain scene and its repetition. The difference of their times shows how reliable all times are.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
 /// Ratio of the times of the plain scene and its repetition, above which all ratios of the table are unreliable.

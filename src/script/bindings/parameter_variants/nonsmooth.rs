@@ -66,20 +66,20 @@ impl Sides<'_> {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Reports a jump or kink if a function of the arguments changes its sign between the perturbations.
+    /// Reports a jump or kink if the function `what` of the arguments changes its sign between the perturbations.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
-    /// Reports an infinite slope if a function of the arguments varies with the parameter and is zero or close to zero.
+    /// Reports an infinite slope if the function `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
-    /// Reports an infinite slope if a vector varies with the parameter and is zero or close to zero.
+    /// Reports an infinite slope if the vector `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());

@@ -249,7 +249,7 @@ impl SimulationHandle {
         self.restore_after_error(stepped)
     }
 
-    /// After an error or interruption, restores the start of the step.
+    /// After an error or interruption, restores the state at the start of the step.
     fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
@@ -258,7 +258,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // The number of substeps is not known in advance. Therefore the step is always completed.
+            // The number of substeps is not known in advance. Therefore the limit of steps cannot stop the run within a step.
             let mut watch = ProgressMonitor::new(context, f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

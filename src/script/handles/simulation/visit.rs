@@ -13,8 +13,8 @@ pub enum Visited {
     /// All states were restored or computed again.
     All,
     /// The repeated run differs from the original run. The value is the first time with a difference.
-    /// The difference may be due to a script function that changed the simulation during the original run.
-    /// The difference may also be due to a start different from the initial state of the scene.
+    /// A script function may have changed the simulation during the original run, so that the repeated run differs.
+    /// The original run may also have started from another state than the initial state of the scene.
     Diverged(f64),
 }
 
