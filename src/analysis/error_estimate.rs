@@ -1,7 +1,8 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! Let `h₁ < h₂ < h₃` be the sizes of three levels with the error `C h^p`, and `d₁₂` and `d₂₃` the distances of neighbouring levels.
-//! The observed order `p` is the solution of `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`. The error of level `k` is `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)`.
+//! The error of a level with the mesh or step size `h` is `C h^p`, with a constant `C` and the observed order `p`.
+//! The order `p` solves `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`, with the distances `d` of neighbouring levels of the sizes `h₁ < h₂ < h₃`.
+//! The error of a level of size `h` is `d₁₂ h^p/(h₂^p - h₁^p)`, with the distance `d₁₂` of the two finest levels, of the sizes `h₁ < h₂`.
 
 use super::trace::Trace;
 use crate::elementary::power;

@@ -14,7 +14,7 @@ pub struct Deviation {
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
     /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// Otherwise, a result that has the same error as the reference would appear to be exact.
+    /// A run of this program may have the same errors as the compared result, which would then appear to be exact.
     pub is_of_own_run: bool,
 }
 

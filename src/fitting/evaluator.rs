@@ -35,7 +35,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     /// The derivatives of the first call are checked against finite differences.
     ///
     /// # Errors
-    /// Returns an error of the function.
+    /// Returns an error of the evaluated function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {
@@ -76,7 +76,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     /// Computes the derivatives at a point by finite differences. `here` contains the values at the point.
     ///
     /// # Errors
-    /// Returns an error of the function. The inner `Err` is the reason why an evaluation failed.
+    /// Returns an error of the evaluated function. The inner `Err` is the reason why an evaluation failed.
     pub fn differences(
         &mut self,
         ranges: &[SearchRange],

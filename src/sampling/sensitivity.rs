@@ -1,7 +1,7 @@
 //! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
 /// Minimum number of Saltelli blocks or of independent points for an estimate.
-/// The uncertainty of an estimate is about the inverse square root of this number.
+/// The uncertainty of a sensitivity index is about the inverse square root of the number of blocks or points.
 const FEWEST: usize = 30;
 
 /// Sobol' indices of one parameter.
@@ -25,7 +25,7 @@ fn variance(values: &[f64]) -> f64 {
 }
 
 /// Returns the indices of all parameters from results on a full grid.
-/// The last parameter varies fastest, and `lengths` contains the number of values of each parameter.
+/// The last parameter of the grid varies fastest, and `lengths` contains the number of values of each parameter.
 /// All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is constant.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);

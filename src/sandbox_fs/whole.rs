@@ -44,7 +44,7 @@ impl Drop for Prepared {
 
 impl Folder {
     /// Writes a file below this folder atomically and durably. An existing file with this name is replaced.
-    /// An existing link is also replaced and not followed. Missing parent folders are created.
+    /// An existing link with this name is also replaced, not followed. Missing parent folders are created.
     ///
     /// # Errors
     /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.

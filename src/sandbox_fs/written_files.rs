@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the file with the record. The file is hidden, because users do not need it.
+/// Name of the file with the record of written files. The file is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;

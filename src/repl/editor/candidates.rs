@@ -78,7 +78,7 @@ pub fn arguments(parameters: &[Parameter]) -> String {
 }
 
 /// Candidates that begin with `typed`, sorted and without duplicates.
-/// If there are none, candidates that contain the letters of `typed` in the same order, in upper or lower case, are returned.
+/// If no candidate begins with `typed`, candidates that contain its letters in the same order, in upper or lower case, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

@@ -46,7 +46,7 @@ impl<'a, 't> Expected<'a, 't> {
     }
 
     /// Option keys of a library function with their descriptions.
-    /// Empty if the innermost bracket at the cursor is not the option map of a library function.
+    /// No keys are returned if the innermost bracket at the cursor is not the option map of a library function.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {

@@ -140,7 +140,7 @@ impl<'t> Types<'_, 't> {
     }
 
     /// Type of the value in the last statement `let name = value;` before the token `at`.
-    /// The outer `None` means that there is no such statement, the inner `None` that the type is unknown.
+    /// The outer option is `None` if the name is not declared, the inner option if the type of its value is unknown.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {

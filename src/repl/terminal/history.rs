@@ -12,7 +12,7 @@ pub const MOST_ENTRIES: usize = 5000;
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
 /// Path of the history file; `None` if `setting`, the value of the environment variable, is empty.
-/// Without this variable, the file is in the user's state folder.
+/// Without the environment variable, the history file is in the user's state folder.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

@@ -1,7 +1,7 @@
 //! Type-ahead: keys typed during an evaluation are kept for the next prompt.
 //!
 //! A terminal in line mode would process keys such as Ctrl-D or Ctrl-R between two prompts, instead of keeping them.
-//! Therefore the terminal is in raw input mode during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! The terminal is therefore in raw input mode during the whole session, in which Ctrl-C and Ctrl-Z keep their meaning.
 
 /// Guard that keeps the terminal in raw input mode. Dropping the guard restores the original mode.
 pub struct TypedAhead(());
@@ -76,7 +76,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! On this system, keys are events, so no key is lost.
+    //! Systems other than Unix: keys are events, so that no key is lost between prompts.
 
     pub fn set_raw_mode() {}
 

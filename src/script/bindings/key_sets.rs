@@ -46,7 +46,7 @@ impl<T: Copy> KeySets<T> {
     }
 
     /// Returns the key set that is selected by the text value of one of its keys.
-    /// Without such a text, returns the first key set with the largest number of given keys.
+    /// If no key has such a text, returns the first key set with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -73,7 +73,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
 }
 
 /// Exact argument types of a function with only number parameters.
-/// With exact types, the function takes precedence over a function of Rhai with the same name.
+/// With exact argument types, a function takes precedence over a function of Rhai with the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {

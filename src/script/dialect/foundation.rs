@@ -97,12 +97,12 @@ pub const REFUSED: &[Refused] = &[
 
 /// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // The seed can be set only once per process. For later engines, it is already set.
+    // The seed of the hashes can be set only once per process. For later engines, it is already set.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Code evaluated from strings has no line numbers, and no script needs it.
+    // The function `eval` is disabled, because code in strings has no line numbers, and no script needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {

@@ -58,7 +58,7 @@ impl<'a> Magnifier<'a> {
     /// Magnifier of a simulation; `None` if nothing is recorded.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn new(simulation: &'a Simulation, factor: f64) -> Result<Option<Self>, SystemError> {
         let Some(start) = simulation.configuration_near(0.0)? else { return Ok(None) };
         let scene = simulation.scene();

@@ -2,7 +2,7 @@
 //!
 //! In Rhai, all iterations of a loop share one variable. Closures of the first iteration would see the value of the last iteration.
 //! If a closure in the body uses the loop variable, an additional first statement declares the variable again in the scope of the iteration.
-//! The statement is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
+//! The declaration is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
 //! If there are fewer than two blanks around the brace, the remaining line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};

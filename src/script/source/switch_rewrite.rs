@@ -2,7 +2,7 @@
 //!
 //! A private-use character is inserted after the keyword `switch` before parsing.
 //! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
-//! The character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
+//! The inserted character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 

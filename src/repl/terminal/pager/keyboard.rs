@@ -106,7 +106,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! On this system, single keys cannot be read. Texts are printed without pages unless a pager program is set.
+    //! Systems other than Unix: single keys cannot be read. Texts are printed without pages unless a pager program is set.
 
     use std::io;
 
@@ -115,13 +115,13 @@ mod of_system {
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// Returns `None`, because single keys cannot be read on this system.
+        /// Returns `None`, because single keys can be read only on Unix.
         pub fn open() -> Option<Self> {
             None
         }
     }
 
-    /// Returns false, because waiting keys cannot be detected on this system.
+    /// Returns false, because waiting keys can be detected only on Unix.
     pub fn has_pending_keys() -> bool {
         false
     }

@@ -10,7 +10,7 @@ use crate::repl::terminal::typed_ahead::TypedAhead;
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
 /// Environment variable with the default options of the pager less, and the options that withy sets.
-/// They make less quit if the text fits on one screen, show colours, and leave the text on the screen.
+/// The options `FRX` make the pager less quit if the text fits on one screen, show colours, and leave the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
 /// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.

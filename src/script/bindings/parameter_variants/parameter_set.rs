@@ -12,7 +12,7 @@ use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Default perturbation, as a fraction of the parameter.
-/// The relative error of a difference quotient is about the square of this fraction, plus the rounding error divided by the fraction.
+/// The relative error of a difference quotient is about the square of the relative perturbation, plus the rounding error divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
 /// Parameters of a scene. The unperturbed variant contains the given values.

@@ -99,7 +99,7 @@ impl<'s> TokenWindow<'s> {
     }
 
     /// Searches the statement, up to two tokens after the error, for the first word in `sought`.
-    /// Returns the offset of this word from the error, and the word.
+    /// Returns the offset of the found word from the error, and the word.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

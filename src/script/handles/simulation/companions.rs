@@ -130,7 +130,7 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // A companion run changes controller outputs that it shares with this simulation. The access below restores them.
+        // A companion run changes controller outputs that it shares with this simulation. Access to this simulation restores them.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)

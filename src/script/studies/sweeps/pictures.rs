@@ -56,7 +56,7 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
 }
 
 /// Random subset of at most `most` items, in order. All items have equal probability.
-/// The subset is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
+/// The random subset of items is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
 /// A regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
@@ -289,7 +289,7 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
             |(of, ends): (&&[f64], &[f64])| Class { from: ends[0], to: ends[1], count: of.len() };
         return values.iter().zip(ends.windows(2)).map(of).collect();
     }
-    // Twice the number of bins of Sturges' rule (1926).
+    // The number of bins is twice that of Sturges' rule (1926).
     let count = (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
     let width = if high > low { (high - low) / count } else { 1.0 };
     let at = |class: usize| low + class as f64 * width;
