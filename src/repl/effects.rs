@@ -6,7 +6,7 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Largest nesting depth of arrays and maps that is examined.
+/// Largest nesting depth of arrays and maps that is searched for shared values, simulations and scenes.
 const DEEPEST: usize = 8;
 
 /// State that an input can change, and that is not restored when the variables are restored.

@@ -43,7 +43,7 @@ pub struct FunctionForm {
 pub enum NameSuffix {
     Property,
     Arguments,
-    /// Arguments. The last argument may be repeated.
+    /// Arguments, of which the last may be repeated.
     Repeated,
 }
 
@@ -90,7 +90,7 @@ impl BuiltIn {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// First notation of the function without a receiver.
+    /// First notation in which the function is called without a value before the dot.
     pub fn form_of_function(&self) -> Option<FunctionForm> {
         self.written().find(|form| form.receiver.is_none())
     }

@@ -17,7 +17,7 @@ pub const FOLDER: &str = "std/";
 
 /// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// The engine stores the source files as its default tag.
+/// The engine contains the source files as its default tag.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,

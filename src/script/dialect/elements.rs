@@ -181,7 +181,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the function for an element. The first call determines the number of arguments of the function.
+    /// Calls the script function for an element. The first call determines the number of arguments of the function.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

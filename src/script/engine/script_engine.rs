@@ -121,7 +121,7 @@ impl ScriptEngine {
         &self.context
     }
 
-    /// Engine, for printing values and for parsing.
+    /// Engine, which prints values and parses texts.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }

@@ -22,7 +22,7 @@ pub struct HistoryHandle {
 }
 
 impl HistoryHandle {
-    /// Calls a function with the rows of the interval.
+    /// Calls a function with the rows of the history within the interval.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         self.of.read_history((self.from, self.to), read)
     }

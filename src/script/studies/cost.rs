@@ -14,7 +14,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::simulation::{Recording, SimulationSettings};
 use crate::system::Scene;
 
-/// Memory for snapshots in the row with snapshots [bytes].
+/// Memory for snapshots [bytes] in the row that measures the cost of snapshots.
 const SNAPSHOTS: usize = 256_000_000;
 
 /// Names of the first two rows: the plain scene and its repetition. The difference of their times shows how reliable all times are.

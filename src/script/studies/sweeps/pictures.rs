@@ -24,7 +24,7 @@ const MOST_VALUES: usize = 64;
 /// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
-/// Source of pictures of a sweep.
+/// Sweep and title from which pictures are drawn.
 pub struct Picture<'t> {
     pub table: &'t SweepTable,
     pub title: String,
