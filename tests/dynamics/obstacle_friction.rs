@@ -149,7 +149,7 @@ fn a_rope_round_a_peg_holds_up_to_the_ratio_of_euler_and_eytelwein() {
 }
 
 #[test]
-fn methods_that_reverse_time_refuse_friction() {
+fn methods_that_reverse_time_are_rejected_with_friction() {
     let (scene, _) = incline(15.0, 0.3, 1e6);
     let refused = Simulation::start(scene, settings(Method::FourthOrder, 0.01)).err().unwrap();
     assert_eq!(

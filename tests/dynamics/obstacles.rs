@@ -176,7 +176,7 @@ fn the_energy_balance_holds_at_any_stiffness() {
 }
 
 #[test]
-fn every_method_keeps_what_it_claims() {
+fn claimed_invariants_hold_with_obstacles() {
     for entry in INTEGRATORS {
         for obstacle in
             [wall(at(0.0, 0.0), at(0.1, 1.0), 1e5, 0.6), disc(at(0.1, 0.0), 0.4, 1e5, 0.6)]
@@ -279,7 +279,7 @@ fn a_box_keeps_its_particles() {
 
 /// Restored runs, and runs that go back and continue, are equal bit for bit.
 #[test]
-fn contacts_go_back_and_are_saved() {
+fn contacts_are_rewound_and_saved() {
     let start = || {
         let floor = wall(at(0.0, 0.0), at(0.1, 1.0), 1e5, 0.6);
         let scene = falling_rod(Obstacle { friction: 0.3, radius: 0.02, ..floor });

@@ -52,7 +52,7 @@ fn the_example_of_a_page_runs_as_it_stands() {
 }
 
 #[test]
-fn columns_are_those_of_the_terminal() {
+fn page_width_is_that_of_the_terminal() {
     let output = Command::new(env!("CARGO_BIN_EXE_withy"))
         .args(["docs", "section"])
         .env("COLUMNS", "50")
@@ -93,7 +93,7 @@ fn definitions_are_written_for_every_table() {
 }
 
 #[test]
-fn files_of_somebody_else_are_not_replaced_by_definitions() {
+fn foreign_files_are_not_replaced_by_definitions() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().to_str().expect("a path in UTF-8").to_owned();
     for _ in 0..2 {
@@ -118,6 +118,6 @@ fn a_folder_that_cannot_be_made_is_named() {
 }
 
 #[test]
-fn a_name_and_another_form_exclude_each_other() {
+fn name_and_other_output_form_exclude_each_other() {
     assert_eq!(docs(&["sin", "--markdown"]).status.code(), Some(2));
 }

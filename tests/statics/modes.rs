@@ -205,7 +205,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
 
 /// The ratio of shear stiffness to rotary inertia is so large that its rounding error exceeds the bending frequencies.
 #[test]
-fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
+fn lowest_mode_of_a_thin_strip_is_not_taken_for_a_rigid_motion() {
     let (modulus, density, thickness, width, length) = (210e9, 7850.0, 1e-3, 0.02, 4.0);
     let area = thickness * width;
     let second_moment = area * thickness * thickness / 12.0;
@@ -280,7 +280,7 @@ fn a_column_loses_its_stiffness_at_eulers_load() {
 }
 
 #[test]
-fn looking_for_modes_changes_nothing_of_a_simulation() {
+fn computing_modes_does_not_change_a_simulation() {
     let run = |looks: bool| {
         let scene = scenes::cantilever(
             &Mesh::bspline(6, 3, 2).unwrap(),
@@ -304,7 +304,7 @@ fn looking_for_modes_changes_nothing_of_a_simulation() {
 }
 
 #[test]
-fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
+fn mode_shapes_are_orthonormal_in_the_inertia_and_impossible_numbers_are_rejected() {
     let scene =
         scenes::cantilever(&Mesh::bspline(8, 3, 2).unwrap(), scenes::spaghetti_section(1e4, 100.0));
     let mut model = System::assemble(&scene).unwrap();

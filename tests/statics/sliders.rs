@@ -135,7 +135,7 @@ fn a_bead_sinks_into_the_sag_of_its_wire_and_rests_there_in_a_simulation() {
 }
 
 #[test]
-fn a_load_on_a_slender_beam_sinks_as_timoshenko_says_and_far_nearer_where_the_axis_is_kinked() {
+fn sliding_load_on_a_slender_beam_deflects_it_as_timoshenko_theory() {
     // P L³/48 EI + P L/4 GA in the middle, for a load in the linear range.
     let (mass, shear) = (1e-6, 2e3);
     let load = mass * GRAVITY;
@@ -252,7 +252,7 @@ fn a_slider_leans_on_the_stop_below_and_leaves_where_there_is_none() {
 }
 
 #[test]
-fn what_only_its_load_holds_sinks_to_its_rest() {
+fn body_held_only_by_its_load_reaches_equilibrium() {
     // A hinged beam, and a chain of three beams, both initially horizontal. They hang vertically and are elongated by their weight.
     for links in [1, 3] {
         let mut scene = Scene::new("chain");

@@ -394,11 +394,11 @@ fn random_scenes(count: usize) {
 }
 
 #[test]
-fn plain_scenes_settle() {
+fn modes_of_random_plain_scenes_converge() {
     random_scenes(40);
 }
 
 #[test]
-fn all_plain_scenes_settle() {
+fn modes_of_all_random_plain_scenes_converge() {
     random_scenes(216);
 }
