@@ -123,7 +123,7 @@ fn claimed_invariants_hold_with_ropes_that_go_slack() {
 /// A bead falls from 0.5 above the end of a nearly inextensible rope of length 1. The step in which the rope becomes taut reverses the velocity, so the bead
 /// rises to its start height.
 #[test]
-fn a_bead_bounces_on_a_rope_as_on_a_wall() {
+fn bead_bounces_on_a_stiff_rope_as_on_a_wall() {
     for stiffness in [1e9, 1e13, 1e17] {
         let mut scene = Scene::new("bead");
         let position = at(0.0, -0.5);

@@ -60,7 +60,7 @@ pub fn assert_balanced(simulation: &Simulation, tolerance: f64) {
 ///
 /// While it is in contact, the penetration is `g/ω² (cos ωt - 1) - v/ω sin ωt` with `ω² = k/m`, so depth and duration have closed forms.
 #[test]
-fn a_ball_bounces_as_in_closed_form() {
+fn bouncing_ball_agrees_with_the_closed_form() {
     let (k, g, v) = (1e4_f64, 10.0_f64, 20.0_f64.sqrt());
     let omega = k.sqrt();
     let sink = g / k;
@@ -209,7 +209,7 @@ fn far_obstacles_change_no_bit() {
 }
 
 #[test]
-fn a_turned_and_shifted_copy_moves_alike() {
+fn rotated_and_shifted_copy_has_the_same_motion() {
     let (turn, shift) = (0.7_f64, at(-3.0, 11.0));
     let rotate =
         |v: Vec2| at(v.x * turn.cos() - v.y * turn.sin(), v.x * turn.sin() + v.y * turn.cos());
@@ -234,7 +234,7 @@ fn a_turned_and_shifted_copy_moves_alike() {
 
 /// A particle between the walls of a box, at any step size, never leaves the box by more than its energy allows.
 #[test]
-fn a_box_keeps_its_particles() {
+fn particles_stay_in_their_box() {
     let mut random = Random(7);
     for (dt, stiffness) in [(1e-3, 1e4), (0.05, 1e8), (0.5, 1e2)] {
         let mut scene = Scene::new("box");

@@ -196,7 +196,7 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
 }
 
 #[test]
-fn layers_use_only_those_to_their_right() {
+fn layers_use_only_layers_to_their_right() {
     let found = trespasses(&sources());
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

@@ -260,7 +260,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn tolerances_of_the_theory_are_those_of_the_code() {
+fn tolerances_in_the_theory_document_equal_those_of_the_code() {
     let theory = theory().split_whitespace().collect::<Vec<_>>().join(" ");
     let mut wrong = Vec::new();
     for (said, file, code) in NUMBERS {

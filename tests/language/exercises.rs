@@ -308,7 +308,7 @@ const NO_FORMULAS: &[&str] = &[
 ];
 
 #[test]
-fn a_function_that_is_no_formula_does_not_pass() {
+fn function_that_is_not_a_formula_does_not_pass() {
     for exercise in EXERCISES {
         let needs = exercise.judge().needs;
         for need in needs.iter().filter(|need| need.of == "function") {
@@ -336,7 +336,7 @@ fn a_function_that_is_no_formula_does_not_pass() {
 
 /// Names of the attempt that the judge uses as well do no harm.
 #[test]
-fn names_of_attempts_and_judges_do_not_collide() {
+fn names_of_attempts_and_judges_do_not_conflict() {
     let names = "let percent = \"x\"; let how = (); let change = 3; fn drift(history, what) { 1 }";
     let exercise = find("keep_the_energy").unwrap();
     assert_eq!(messages(exercise, &format!("{names}\n{}", exercise.solution)), "");

@@ -112,7 +112,7 @@ fn explanation_of_a_free_beam_omits_other_features() {
 }
 
 #[test]
-fn a_slider_has_a_border_and_a_support_has_reactions() {
+fn explanation_counts_contact_unknowns_and_fixed_motions() {
     let scene = with_bead();
     let (parts, mut model) = (scene.explain().unwrap(), System::assemble(&scene).unwrap());
     assert_eq!(model.constraint_shape().width, 5);

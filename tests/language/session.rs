@@ -146,7 +146,7 @@ fn error_in_a_function_typed_earlier_is_located_there() {
 }
 
 #[test]
-fn a_function_of_a_module_may_have_the_name_of_one_that_was_typed() {
+fn module_function_may_have_the_name_of_a_typed_function() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("parts.rhai"), "\nfn f(x) { x.lost }").unwrap();
     let mut session = in_folder(folder.path().into());

@@ -60,7 +60,7 @@ fn quiet_hides_the_summary_but_not_the_script() {
 }
 
 #[test]
-fn a_wrong_script_exits_with_2_and_shows_the_place() {
+fn wrong_script_exits_with_2_and_shows_the_location() {
     let output = run("let a = 1;\nprint(sqr(a));");
     assert_eq!(code(&output), 2);
     let shown = said(&output);

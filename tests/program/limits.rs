@@ -383,7 +383,7 @@ fn dedup_removes_repetitions_and_returns_errors_of_its_function() {
 }
 
 #[test]
-fn errors_quote_long_values_in_part() {
+fn errors_quote_only_a_part_of_long_values() {
     let text = "let t = \"\"; t.pad(15000000, 'x'); let a = []; a.pad(3000000, 1);";
     for wrong in [
         "throw t;",

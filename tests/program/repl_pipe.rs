@@ -52,7 +52,7 @@ fn values_are_printed_and_nothing_else() {
 }
 
 #[test]
-fn inputs_of_several_lines_are_one() {
+fn lines_of_an_unfinished_input_are_joined() {
     let (code, replies, complaints) =
         piped("fn f(x) {\n  x + 1\n}\nlet a = [1,\n 2];\nf(a[0]) +\n  a[1]\n");
     assert_eq!((code, &*replies, &*complaints), (0, "4\n", ""));
@@ -160,7 +160,7 @@ fn commands_act_on_the_last_simulation() {
 }
 
 #[test]
-fn variables_are_listed_in_a_line_each() {
+fn variables_are_listed_one_per_line() {
     let input = "let parts = #{ one: 1, many: [1, 2, 3], text: \"a b\" };\nimport \"std/mechanisms\" as parts_of;\n:vars\n";
     let (code, replies, complaints) = piped(input);
     assert_eq!((code, &*complaints), (0, ""), "{replies}");

@@ -215,7 +215,7 @@ fn finished_studies_are_not_repeated_before_the_whole_script_has_ended() {
 }
 
 #[test]
-fn a_study_of_a_run_keeps_no_journal() {
+fn study_in_a_plain_run_writes_no_journal() {
     let (folder, file) = script(ENDLESS, "");
     let output = withy(&["run", "--max-time", "1"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));

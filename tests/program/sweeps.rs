@@ -219,7 +219,7 @@ fn merged_parts_of_other_studies_equal_the_output_of_a_single_run() {
 }
 
 #[test]
-fn steps_of_all_runs_count_and_a_check_makes_one() {
+fn steps_of_all_runs_are_limited_and_a_check_writes_nothing() {
     let (folder, file) = script(&flights(400));
     let mut limited = withy(&file, "out");
     let output = limited.args(["--max-steps", "300"]).output().unwrap();

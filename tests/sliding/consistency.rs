@@ -329,7 +329,7 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
 }
 
 #[test]
-fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
+fn constraint_border_of_every_scene_is_the_derivative_of_forces_and_equations() {
     let mut random = Random(77);
     for entry in SLIDING_RULES {
         for (mesh_name, mesh) in meshes(4) {

@@ -193,7 +193,7 @@ fn flying_flexible_beam_keeps_its_balances_at_any_step_size() {
 }
 
 #[test]
-fn a_turned_scene_has_the_same_motion() {
+fn rotated_scene_has_the_same_motion() {
     let places = [0.0, 0.7, 2.0].map(|rotation| {
         let simulation = simulate(flying(0.3, rotation), METHOD, 0.02, 2.0);
         (place(&simulation), simulation.counts().steps)
@@ -216,7 +216,7 @@ fn rewinding_and_continuing_keeps_every_bit() {
 }
 
 #[test]
-fn without_friction_nothing_changes() {
+fn vanishing_friction_does_not_change_the_motion() {
     let ends = [0.0, f64::MIN_POSITIVE].map(|friction| {
         let simulation = simulate(flying(friction, 0.0), METHOD, 0.02, 1.0);
         place(&simulation)
@@ -225,7 +225,7 @@ fn without_friction_nothing_changes() {
 }
 
 #[test]
-fn other_methods_and_rules_are_refused() {
+fn friction_with_other_methods_and_rules_is_rejected() {
     let started = Simulation::start(incline(30.0, 0.3), settings(Method::FourthOrder, 0.1));
     let error = started.map(|_| ()).unwrap_err();
     assert!(matches!(error, SimulationError::FrictionMethod { .. }), "{error}");

@@ -132,7 +132,7 @@ fn carts_press_on_stiff_bridges_as_with_the_conserving_rule() {
 }
 
 #[test]
-fn the_force_of_a_row_is_the_mean_of_its_step() {
+fn recorded_force_is_the_mean_over_its_step() {
     let mass = 5.0;
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         for start in [0.0, 2.3] {

@@ -233,7 +233,7 @@ fn a_free_beam_and_a_bead_keep_their_momenta() {
 }
 
 #[test]
-fn turned_and_mirrored_copies_agree() {
+fn rotated_and_mirrored_copies_agree() {
     let gaps = |turn: f64, side: Side| {
         let scene = cantilever(turn, side, 0.5);
         let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
@@ -251,7 +251,7 @@ fn turned_and_mirrored_copies_agree() {
 
 /// An impact near a bead in contact moves the beam away from the bead.
 #[test]
-fn a_landing_leaves_another_slider_behind() {
+fn impact_of_a_slider_separates_another_slider() {
     let mut scene = Scene::new("seesaw");
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
@@ -292,7 +292,7 @@ fn a_bead_passes_beyond_the_end_of_a_beam() {
 }
 
 #[test]
-fn going_back_and_continuing_gives_the_same_bits() {
+fn rewinding_and_continuing_gives_the_same_bits() {
     let scene = cantilever(0.0, Side::Left, 0.5);
     let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
     simulation.enable_snapshots(1 << 26);

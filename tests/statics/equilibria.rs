@@ -100,7 +100,7 @@ fn every_step_of_the_roll_up_lies_on_its_circle() {
 }
 
 #[test]
-fn the_elastica_is_that_of_elliptic_integrals_for_every_load() {
+fn elastica_agrees_with_elliptic_integrals_for_every_load() {
     let json: serde_json::Value = serde_json::from_str(&text("P4_statics.json")).unwrap();
     for case in json["elastica"]["cases"].as_array().unwrap() {
         let load = number(&case["a2"]) * BENDING / LENGTH.powi(2);

@@ -92,7 +92,7 @@ fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
 }
 
 #[test]
-fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
+fn beam_has_rigid_modes_and_no_other_modes_without_energy() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
             // Two quadrature points per cubic C1 span integrate one strain too few: two hourglass modes (docs/theory.md, section 4).
@@ -108,7 +108,7 @@ fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
 }
 
 #[test]
-fn frequencies_agree_with_the_exact_ones() {
+fn frequencies_agree_with_exact_values() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
             let (_, flexural, axial) = vibrate(&case, &mesh);
@@ -231,7 +231,7 @@ fn lowest_mode_of_a_thin_strip_is_not_taken_for_a_rigid_motion() {
 
 /// The search must not miss a single unstable mode far below many soft modes.
 #[test]
-fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
+fn unstable_mode_among_many_soft_modes_is_found_or_the_search_fails() {
     let of = |spans: usize| {
         let mut scene = Scene::new("cable and column");
         let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
@@ -332,7 +332,7 @@ fn mode_shapes_are_orthonormal_in_the_inertia_and_impossible_numbers_are_rejecte
 
 /// Without rotary inertia, section rotations have no inertia, and the corresponding modes have no finite frequency.
 #[test]
-fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
+fn beam_without_rotary_inertia_has_a_mode_for_each_motion_with_inertia() {
     let section = Section { rotary_inertia: 0.0, ..scenes::spaghetti_section(1e6, 100.0) };
     let scene = supported("free-free", &Mesh::bspline(6, 3, 2).unwrap(), section);
     let model = System::assemble(&scene).unwrap();

@@ -66,7 +66,7 @@ fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
 }
 
 #[test]
-fn balance_is_found_along_a_strongly_bent_cantilever() {
+fn section_forces_balance_the_load_along_a_strongly_bent_cantilever() {
     let force = at(-1.0, 6.0);
     // Orders of M at the last doubling of spans. The force is constant, and exact up to rounding.
     let least_order = [
@@ -131,7 +131,7 @@ fn rotation_keeps_section_forces_and_mirroring_changes_signs_of_shear_and_moment
 }
 
 #[test]
-fn the_law_of_the_material_holds_between_the_points_as_at_them() {
+fn material_law_holds_at_and_between_the_quadrature_points() {
     let rest = loaded(&Mesh::bspline(7, 3, 2).unwrap(), 0.0, at(1.0, 3.0));
     for sample in rest.section_forces_along(0).unwrap() {
         let SectionForces { axial, shear, moment, .. } = sample.forces;

@@ -177,7 +177,7 @@ fn a_bead_in_a_stiff_arc_swings_as_a_pendulum() {
 }
 
 #[test]
-fn a_disturbed_rest_swings_with_the_frequencies_of_its_modes() {
+fn disturbed_equilibrium_oscillates_with_the_frequencies_of_its_modes() {
     // Bead on a sagging wire with a short downward force. The second mode is that of wire and bead.
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         let mut scene = sag(8, 2e3, 1.0, 2.0, rule);
@@ -278,7 +278,7 @@ fn body_held_only_by_its_load_reaches_equilibrium() {
 }
 
 #[test]
-fn a_ring_of_the_ground_lets_a_beam_through_until_it_hangs_where_forces_balance() {
+fn beam_slides_through_a_fixed_ring_to_its_equilibrium() {
     // Heavy beam on a hinge that passes through a fixed ring. The contact force is transverse, so the beam lies on the line from the hinge to the ring.
     let mut scene = Scene::new("through a ring");
     let rod = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), &smooth(12), section(1e6));
