@@ -6,7 +6,7 @@
 //! main → cli, playground → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
 //! ```
 //!
-//! The mechanics is a separate crate, so that changes of the language do not require compiling it again. The layers above include its main layers.
+//! The mechanics is a separate crate, so that changes of the language do not require compiling it again. This crate re-exports its main layers.
 //! The lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
 
 #![forbid(unsafe_code)]

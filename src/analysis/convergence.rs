@@ -28,12 +28,12 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the size with the given index; `None` if the run failed.
+    /// Error at the step or mesh size with the index `rung`; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error at a size can be used to compute an order, that is, if it is nonzero and significant.
+    /// Returns true if the error at the size `rung` can be used to compute an order, that is, if it is nonzero and significant.
     pub fn counts_for_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -46,7 +46,7 @@ impl Refinement {
         self.counts_for_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// Order observed between a size and the previous size, `ln(e₁/e₂) / ln(h₁/h₂)`.
+    /// Observed order `ln(e₁/e₂) / ln(h₁/h₂)` between the step or mesh sizes `h₁` and `h₂`, with the errors `e₁` and `e₂`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);

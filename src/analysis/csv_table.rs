@@ -1,4 +1,4 @@
-//! CSV tables of other programs. Comment lines start with `#`. There are three possible separators, and an optional line of units.
+//! CSV tables of other programs. Comment lines start with `#`. Cells are separated by commas, semicolons or tabs.
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
@@ -46,7 +46,7 @@ pub struct ParsedCsv {
 }
 
 impl ParsedCsv {
-    /// Parses a table. Values are separated by commas. If the line of names contains no comma, they are separated by semicolons or tabs.
+    /// Parses a table. Cells are separated by commas, or by semicolons or tabs if the line of names contains no comma.
     /// A line of dimensions after the names, as in files written by withy, is skipped.
     ///
     /// # Errors
@@ -136,7 +136,7 @@ impl ParsedCsv {
     /// Fails if the column does not exist, or if the cell is not a finite number with a finite square.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        // Unless the separator is a comma, a comma is the decimal separator.
+        // Unless cells are separated by commas, a comma in a number is the decimal separator.
         let has_decimal_comma = self.separator != b',' && !text.contains('.');
         let parsed = match has_decimal_comma {
             true => text.replace(',', ".").parse(),

@@ -1,7 +1,8 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! Let `h₁ < h₂ < h₃` be the sizes of three levels with the error `C h^p`, and `d₁₂` and `d₂₃` the distances of neighbouring levels.
-//! The observed order `p` is the solution of `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`. The error of level `k` is `C h_k^p = d₁₂ h_k^p/(h₂^p - h₁^p)`.
+//! The error of a level with the mesh or step size `h` is `C h^p`, with a constant `C` and the observed order `p`.
+//! The order `p` solves `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`, with the distances `d` of neighbouring levels of the sizes `h₁ < h₂ < h₃`.
+//! The error of a level of size `h` is `d₁₂ h^p/(h₂^p - h₁^p)`, with the distance `d₁₂` of the two finest levels, of the sizes `h₁ < h₂`.
 
 use super::trace::Trace;
 use crate::elementary::power;
@@ -21,7 +22,7 @@ const LEAST_ORDER: f64 = 0.7;
 /// Error above which an observed order has no significance, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
-/// Smallest converged part of a run with chaotic motion. A run with a shorter converged part is too coarse.
+/// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
 /// Growth of the distance of two runs after their last convergence, above which the motion counts as chaotic.
@@ -124,7 +125,7 @@ impl RefinementLevels<'_> {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
-        // If the order has no significance, the distance is the lower bound of the error.
+        // Without convergence, the error is estimated as at least the distance between the two finest levels.
         scaled(factor.max(1.0), order, verdict)
     }
 
@@ -153,8 +154,8 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which the runs converge, if the runs differ strongly at the end.
-    /// Returns `None` if the runs never converge, or if the distances do not grow afterwards.
+    /// Time until which the runs converge, for runs that differ strongly at their end.
+    /// Returns `None` if the runs never converge, or if the distances between the runs do not grow after the last convergence.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;

@@ -9,7 +9,7 @@ use crate::geometry::Vec2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
     pub program: String,
-    /// Name of a series of runs, for example of a program with one integrator.
+    /// Name of a series of runs, for example the runs of one program with one integrator.
     pub series: String,
     pub setting: String,
     /// Run time [s].
@@ -43,9 +43,9 @@ const SETTING: [(&str, &str); 4] =
 
 impl ExternalResult {
     /// Reads runs from a table.
-    /// Required columns are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
+    /// Required columns of the table are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
     /// The columns of positions are named as in the table of reference values.
-    /// Optional columns are integrator, elements, dof and dt.
+    /// Optional columns of the table are integrator, elements, dof and dt.
     ///
     /// # Errors
     /// Fails if a column is missing, a number is invalid, or the positions belong to a time that the study does not use.

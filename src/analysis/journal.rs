@@ -77,7 +77,7 @@ impl Journal {
         Ok(Self { known: known.collect(), path, file: None })
     }
 
-    /// Combines several journals. The result is only read, not written.
+    /// Combines several journals. The combined journal has no file and can only be read.
     ///
     /// # Errors
     /// Fails if one of the files cannot be read.
@@ -104,7 +104,7 @@ impl Journal {
         self.known.len()
     }
 
-    /// Returns true if there are no cases.
+    /// Returns true if the journal contains no results.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }

@@ -72,7 +72,7 @@ impl Observable {
         }
     }
 
-    /// Present value. The value of a scalar is the first component. An undefined value is NaN.
+    /// Present value of the observable. A scalar is the first component of the vector, and an undefined value is NaN.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

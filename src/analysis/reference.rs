@@ -14,12 +14,12 @@ pub struct Deviation {
     /// Estimated error of the reference, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
     /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// A result with the same error as the reference would otherwise appear to be exact.
+    /// A run of this program may have the same errors as the compared result, which would then appear to be exact.
     pub is_of_own_run: bool,
 }
 
 impl Deviation {
-    /// Returns true if the distance exceeds the estimated error of the reference.
+    /// Returns true if the distance of the result from the reference exceeds the estimated error of the reference.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.estimated_error
     }
@@ -180,8 +180,8 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reads a reference from a table of an independent solution. It has a column t and, for a station A, the columns xA, yA and thA.
-    /// Other columns have the names of observables. Estimated errors are in the columns d_xA, d_A or d_pos, d_thA or d_th, d_E, and so on.
+    /// Reads a reference from a table of an independent solution. The table has a column t and, for a station A, the columns xA, yA and thA.
+    /// Other columns of the table have the names of observables. Estimated errors are in columns such as d_xA, d_A, d_pos, d_thA, d_th and d_E.
     ///
     /// # Errors
     /// Fails if a time is missing, all stations are missing, or a cell is not a number.

@@ -19,7 +19,7 @@ pub struct RunResult {
     pub factorisations: usize,
     pub retries: usize,
     /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`].
-    /// Work and impulses of loads are subtracted from the invariants.
+    /// The work and the impulses of loads do not count as drift of an invariant.
     pub drifts: [f64; 4],
     /// Energy drift after the last time at which loads do work; NaN if loads do work until the end.
     pub free_energy_drift: f64,

@@ -113,7 +113,7 @@ pub enum SweepColumn<'s> {
 }
 
 impl SweepColumn<'_> {
-    /// Number in a row; NaN if the cell is not a number.
+    /// Number in a row of this column; NaN if the cell is not a number.
     pub fn number(&self, row: usize) -> f64 {
         match self {
             Self::Parameter(values) => values.number(row).unwrap_or(f64::NAN),

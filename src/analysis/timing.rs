@@ -21,7 +21,7 @@ pub struct Timing {
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux. The system updates this time when the thread pauses, and otherwise only at ticks of the scheduler.
-/// The thread is paused before the time is read, so that the time is up to date.
+/// The thread is paused before its processor time is read, because the system then updates this time.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;

@@ -53,7 +53,7 @@ impl Trace {
                 let means = column(&quantity.name);
                 let mut sum = 0.0;
                 let add = |(mean, dt): (&f64, f64)| {
-                    // The first row has no previous step, so its mean may be undefined.
+                    // The first row of a history has no previous step, so that a mean over the previous step may be undefined.
                     sum += if dt > 0.0 { mean * dt } else { 0.0 };
                     scalar(sum)
                 };

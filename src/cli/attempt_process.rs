@@ -1,8 +1,8 @@
 //! Grades each attempt in a separate process, so that an attempt cannot affect the next attempt or the marks.
 //!
 //! The program starts itself again as a separate process, with limits on time, memory and output.
-//! The process runs in a new folder with an unpredictable name.
-//! The process prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
+//! The process of an attempt runs in a new folder with an unpredictable name.
+//! The process of an attempt prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
 
 use std::io::Read;
 use std::path::Path;

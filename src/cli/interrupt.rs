@@ -39,7 +39,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // A separate thread waits, because the thread of the handler must receive the second Ctrl-C.
+                // A separate thread waits for the reaction of the run, because the thread of the handler must receive the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -53,14 +53,14 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = installed {
-        // Without a handler, Ctrl-C ends the process by default. Therefore a warning is sufficient.
+        // Without a handler, Ctrl-C ends the program by default. Therefore a warning about lost results is sufficient.
         print_error(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }
 
 /// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed.
-/// Ctrl-C stops only the evaluation of the current input, not the session. This function must be called before other threads start.
+/// Ctrl-C stops only the evaluation of the current input. This function must be called before other threads start.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

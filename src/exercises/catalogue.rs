@@ -79,7 +79,7 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("studies", "whose_stiffness"),
 ];
 
-/// Returns the exercise with this name. `name` may be `name`, `track/name` or the path of the exercise file.
+/// Finds an exercise by `name`, which may be the name alone, `track/name`, or the path of the exercise file.
 ///
 /// # Errors
 /// Fails if the exercise does not exist. The error suggests a similar name.

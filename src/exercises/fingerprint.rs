@@ -32,8 +32,8 @@ fn reads_files(attempt: &Source) -> bool {
     attempt.imports().next().is_some() || attempt.names().any(reads)
 }
 
-/// Maximum number of files that a fingerprint covers, and maximum size of a file whose content is covered [bytes].
-/// The fingerprint of a larger file covers its length and the time of its last change.
+/// Maximum number of files that a fingerprint covers.
+/// Of a file with more than [`MOST_READ`] bytes, the fingerprint covers only the length and the time of the last change.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 

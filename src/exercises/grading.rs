@@ -17,7 +17,7 @@ pub enum Mark {
     /// The attempt fails with an error, or its file is not a text file.
     Error,
     Stopped,
-    /// The file is equal to the start file.
+    /// The file of the attempt is equal to the start file of the exercise.
     Unchanged,
     Missing,
 }

@@ -13,7 +13,7 @@ use super::grading::Mark;
 use super::submissions::Submission;
 use crate::sandbox_fs::Folder;
 
-/// Maximum size of the file [bytes].
+/// Maximum size of the file of marks [bytes].
 const LARGEST: u64 = 1 << 30;
 
 const HEAD: &str = "{\"student\":";

@@ -26,7 +26,7 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Reads all attempts of a workbook. Later changes are relative to the content at this time.
+    /// Reads all attempts of a workbook. [`changed`](Self::changed) compares later contents of the files with these contents.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
         Self { workbook, files: EXERCISES.iter().map(look).collect() }

@@ -130,7 +130,7 @@ impl Workbook {
         Ok(kept)
     }
 
-    /// Changes the progress file. The file is read again for each change, because the program in another window may have changed it.
+    /// Changes the progress file. The file is read again before each change, because another process of this program may have changed it.
     fn change(&self, change: impl FnOnce(&mut StudentProgress)) -> Result<(), ExerciseError> {
         let before = self.progress()?;
         let mut progress = before.clone();

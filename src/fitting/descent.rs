@@ -178,7 +178,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // `solve` starts from the best design of SLSQP. The values of this design are known and are not computed again.
+        // `solve` starts from the best design of SLSQP. The objective and constraints of this design are known and not computed again.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -236,7 +236,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // A violated constraint is tightened by twice its violation, because the solution may lie slightly on either side of the limit.
+            // A violated constraint is tightened by twice its violation, because a solution of SLSQP may lie slightly on either side of the limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }

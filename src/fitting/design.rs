@@ -10,7 +10,7 @@ use super::SearchRange;
 const FIRST_STEP: f64 = 0.1;
 /// Largest violation of a satisfied constraint. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Multiple of the size of an unbounded parameter near which the parameter counts as diverged.
+/// Multiple of the size of an unbounded parameter; a parameter near this multiple counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;
@@ -40,7 +40,7 @@ pub struct Designed {
     /// Index of the unbounded parameter that diverged because the objective decreases without limit; `None` if no parameter diverged.
     pub runaway: Option<usize>,
     pub runs: usize,
-    /// Number of calls with derivatives, which are included in `runs`.
+    /// Number of evaluations with derivatives; the field `runs` also counts them.
     pub gradient_runs: usize,
     pub derivative_free_reason: Option<String>,
 }

@@ -42,11 +42,11 @@ impl Stencil {
 
 /// Computes the derivatives of all values with respect to all parameters. The result has one column per parameter.
 ///
-/// The differences are of second order. They need two evaluations per parameter, which are all requested in one call of `evaluate`.
+/// The differences are of second order and need two evaluations per parameter. All evaluations are requested in one call of `evaluate`.
 /// The argument `here` contains the values at the point `x`.
 ///
 /// # Errors
-/// Returns an error of `evaluate`. The inner error contains the reason why a run failed.
+/// Returns the error of `evaluate`. The inner `Err` contains the reason why a run failed.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),

@@ -35,7 +35,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     /// The derivatives of the first call are checked against finite differences.
     ///
     /// # Errors
-    /// Returns an error of the function.
+    /// Returns an error of the evaluated function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {
@@ -56,7 +56,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // If the values without derivatives cannot be computed, the failure does not show that the derivatives are missing or wrong.
+        // If the function also fails without derivatives, its failure does not show that derivatives are missing or wrong.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }
@@ -76,7 +76,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
     /// Computes the derivatives at a point by finite differences. `here` contains the values at the point.
     ///
     /// # Errors
-    /// Returns an error of the function. The inner error is the reason why an evaluation failed.
+    /// Returns an error of the evaluated function. The inner `Err` is the reason why an evaluation failed.
     pub fn differences(
         &mut self,
         ranges: &[SearchRange],

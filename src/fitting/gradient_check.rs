@@ -15,13 +15,12 @@ const ROUNDING: f64 = 1e-7;
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Two points, one on each side of `x`. A point beyond a bound is moved to the bound.
-/// Each parameter is changed by a different fraction of its size.
+/// Two test points, one on each side of `x`. A test point beyond a bound is moved to the bound.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // The fractions differ, so that errors of the derivatives cannot cancel.
+            // Each parameter changes by a different fraction of its size, so that errors of the derivatives cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -30,10 +29,11 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Returns true if derivatives agree with the values at two points and at the point `here` between them.
+/// Returns true if derivatives agree with the values at two test points and at the point `here` between the test points.
 ///
-/// The callback `change` returns the difference between the values at the two points, as predicted by the derivatives.
-/// The actual difference must agree with the predicted one. The mean of the values at the two points must be close to the value at `here`.
+/// The callback `change` returns the difference of the values at the two test points that the derivatives predict.
+/// The predicted difference must agree with the actual difference.
+/// The mean of the values at the two test points must be close to the value at `here`.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],

@@ -6,7 +6,7 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps with updated derivatives before the derivatives are computed again. The number of parameters is added to this constant.
+/// Maximum number of steps between two computations of the derivatives, in addition to the number of parameters.
 const MORE_STEPS: usize = 6;
 /// Change of a parameter below which the search has converged, as a fraction of the size of the parameter.
 const SETTLED: f64 = 1e-7;
@@ -45,7 +45,7 @@ pub struct Fitted {
     pub estimate: Option<Estimate>,
     pub settling: TerminationReason,
     pub runs: usize,
-    /// Number of calls with derivatives, which are included in `runs`.
+    /// Number of evaluations with derivatives; the field `runs` also counts them.
     pub gradient_runs: usize,
     /// Reason why finite differences were used; `None` if the function provided all derivatives.
     pub differences: Option<String>,
@@ -276,7 +276,7 @@ impl LeastSquares {
                 return Ok(if is_near { Round::Converged } else { Round::NeedsDerivatives(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            // At a bound, the predicted reduction may be zero. Such a step is not evaluated.
+            // A step whose predicted reduction of the sum of squares is zero, for example at a bound, is not evaluated.
             let nothing =
                 || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
             let EvaluatedPoint { values: found, derivatives } =

@@ -1,5 +1,5 @@
 //! Parameter estimation from runs by least squares, constrained minimisation and root finding.
-//! The methods evaluate functions that return numbers. They do not depend on how the functions compute these numbers.
+//! The methods of this module call functions that return numbers. They do not depend on how these numbers are computed.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

@@ -130,7 +130,7 @@ impl PlotAxis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // Rounding may have moved the ends of the range. A tolerance keeps the ticks at the ends.
+        // Rounding may have moved the ends of the axis. A tolerance keeps the ticks at these ends.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;

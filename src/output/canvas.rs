@@ -7,7 +7,7 @@ use super::{colour::Colour, fonts};
 /// Point in pixels on a canvas, or in data units in a chart.
 pub type Point = (f64, f64);
 
-/// Magnitude to which coordinates are limited [pixels]. It is far outside every picture and prevents overflow.
+/// Magnitude to which coordinates are limited [pixels]. A point at this distance is far outside every picture, and overflow is prevented.
 const FAR: f64 = 20_000.0;
 
 /// Box with sides along the axes. `top` is less than `bottom`, because y increases downwards.

@@ -22,7 +22,7 @@ const HUES: [Colour; 7] = [
 ];
 
 /// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark.
-/// The palest tenth of the map is omitted, because it is not visible on white paper.
+/// The palest tenth of the viridis map is omitted, because it is not visible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),

@@ -49,7 +49,7 @@ impl ColourBar {
         self
     }
 
-    /// Position of a number in the scale: 0 for the smallest number, 1 for the largest number. If all numbers are equal, it is 1.
+    /// Position of a number in the colour scale: 0 for the smallest number, 1 for the largest number, and 1 if all numbers are equal.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }

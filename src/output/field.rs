@@ -15,7 +15,7 @@ use super::{
 use crate::elementary::hypot;
 
 const WIDTHS: (f64, f64) = (2.0, 10.0);
-/// Length of a piece in a single colour [pixels]. It is larger if there would otherwise be too many pieces.
+/// Length of a beam piece in a single colour [pixels]. The length is larger if the number of pieces would otherwise be too large.
 const PIECE: f64 = 3.0;
 const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;

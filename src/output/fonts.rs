@@ -16,7 +16,7 @@ const LONGEST: usize = 400;
 /// Largest distance between a curve and the polyline that replaces it [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// Embedded font. Loading it cannot fail. If it failed, pictures would have no text.
+/// Embedded font. Loading the embedded bytes cannot fail, and `None` would only remove the text from pictures.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
@@ -28,7 +28,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// Size at which `text` fits into the width `room` [pixels]. The size is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // Because of rounding, a text that fits exactly could become slightly too long.
+    // This factor shrinks a text slightly, because rounding could make a text that fits exactly too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }

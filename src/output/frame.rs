@@ -136,7 +136,7 @@ impl Frame {
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes move infinite values to their ends. A curve must have a gap at such values.
+        // Axes move infinite values to the ends of the axis. A curve must have a gap at an infinite value.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }

@@ -114,7 +114,7 @@ impl LevelAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
-            // A range with a smaller ratio is not suitable for a logarithmic axis.
+            // A logarithmic axis needs ends with a ratio above one. For other ends, the axis is linear.
             AxisScale::Logarithmic if ln(high / low) > 1e-3 => PlotAxis::powers_between(low, high),
             _ => PlotAxis::between(low, high),
         }

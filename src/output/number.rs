@@ -24,8 +24,8 @@ pub fn significant(x: f64, digits: usize) -> String {
     format_number(rounded_to(digits, x))
 }
 
-/// Text of `x` with a power of ten and exactly `digits` significant digits (at least one). For example, `scientific(3.14e-15, 2)` is `3.1e-15`.
-/// Zero is `0`.
+/// Text of `x` with a power of ten and exactly `digits` significant digits (at least one); zero is `0`.
+/// For example, `scientific(3.14e-15, 2)` is `3.1e-15`.
 pub fn scientific(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         format_number(x)

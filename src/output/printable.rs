@@ -6,7 +6,7 @@ use std::borrow::Cow;
 const REPLACEMENT: char = '\u{fffd}';
 
 /// Replaces control characters (such as the start of an escape sequence), bidirectional characters and characters of zero width.
-/// Line breaks and tabs are kept. The number of characters of the text does not change.
+/// Line breaks and tabs of the text are kept. The number of characters of the text does not change.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {

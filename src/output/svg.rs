@@ -33,7 +33,7 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
 }
 
 /// Start of the SVG document as written by the library plotters. It states a wrong picture size, and has no title and description.
-/// The function [`head`] replaces the start that plotters has written.
+/// The function [`head`] replaces the start of the document that the library plotters has written.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));

@@ -169,7 +169,7 @@ fn push<const N: usize>(
     let length = (bytes.len() - 8) as u64;
     bytes[..8].copy_from_slice(&length.to_le_bytes());
     let (name, letters) = (escaped(name), base64(&bytes));
-    // Some programs convert an array with one component to a table with one column.
+    // `NumberOfComponents="1"` is omitted, because some programs convert such an array to a table with one column.
     let many = match components {
         1 => String::new(),
         many => format!(" NumberOfComponents=\"{many}\""),

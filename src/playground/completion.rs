@@ -37,7 +37,7 @@ fn completions(file: &Path, offset: usize) -> Result<Value, Diagnostic> {
     let text = program.text.get(..offset).unwrap_or(&program.text);
     let settings = RunSettings { limits: limits(), ..RunSettings::silent(RunMode::DryRun) };
     let mut shell = Shell::new(Session::new(language(), settings)?, ReplyTarget::Pipe);
-    // The statements before the position define names. The first error ends the evaluation, usually in the unfinished statement.
+    // The statements before the cursor define names. Their evaluation ends at the first error, usually in the unfinished statement.
     batch::run(&mut shell, text.as_bytes());
     let surroundings = shell.surroundings();
     let (start, candidates) = complete(text, text.len(), &surroundings);

@@ -7,7 +7,7 @@ use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
-/// Returns true if a line continues the previous input, even if this input is complete.
+/// Returns true if a line continues a previous input that could be complete: it begins with a dot, `else` or `catch`.
 fn continues(line: &str) -> bool {
     let line = line.trim_start();
     let is_word = |word: &str| {
@@ -58,8 +58,8 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
                 &message.with_hint("is a bracket or a quotation mark never closed?"),
             );
         }
-        // The next line is read to decide whether an input is complete.
-        // A program that uses the pipe interactively must end an input with a semicolon or an empty line.
+        // An input is evaluated only when the next line is known, because that line may continue the input.
+        // An interactive program at the other end of the pipe must end an input with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')

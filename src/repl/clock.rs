@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Clock that measures the time since a fixed moment.
+/// Clock that measures the time since a fixed moment, such as the start of the program.
 pub trait Clock {
     /// Time since the fixed moment of the clock.
     fn now(&self) -> Duration;

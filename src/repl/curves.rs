@@ -50,19 +50,19 @@ impl PlotCurve {
     }
 }
 
-/// Interpretation of a script value as points of curves.
+/// Interpretation of a script value as points of one or more curves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlotShape {
     /// All points of a curve, and the type of its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// Plane vector: its components are points of two separate curves.
+    /// Plane vector. Its two components are points of two separate curves.
     Vector(Vec2),
-    /// Value that cannot be drawn. The text contains the reason.
+    /// Value that cannot be drawn. The text of the variant contains the reason.
     None(String),
 }
 
-/// Interprets a value of type `of`. Arrays of numbers, two arrays of equal length, arrays of points, numbers and vectors can be drawn.
+/// Interprets a value of type `of` as curves. Numbers, vectors, arrays of numbers or points, and two arrays of equal length can be drawn.
 pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
         return PlotShape::Number(number);

@@ -6,10 +6,10 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Largest nesting depth of arrays and maps that is examined.
+/// Largest nesting depth of arrays and maps that is searched for shared values, simulations and scenes.
 const DEEPEST: usize = 8;
 
-/// State that an input can change and that is not restored together with the variables.
+/// State that an input can change, and that is not restored when the variables are restored.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -17,7 +17,7 @@ pub struct SideEffects {
     files: usize,
 }
 
-/// State of a simulation: counters, number of scheduled functions, and memory for snapshots.
+/// Counters of a simulation, the number of its scheduled functions, and the memory of its snapshots.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {
@@ -55,7 +55,7 @@ impl SideEffects {
         }
     }
 
-    /// Description of the changes since this state was recorded. In messages, the word "it" precedes the description.
+    /// Description of the changes since this state was recorded, as the predicate of a sentence with the subject "it".
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

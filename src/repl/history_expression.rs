@@ -11,7 +11,7 @@ use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Largest number of states. More states would exceed the resolution of a terminal.
+/// Largest number of states at which an expression is evaluated. More states would exceed the resolution of a terminal.
 const MOST_STATES: usize = 1000;
 
 const DIGITS: usize = 6;
@@ -39,7 +39,7 @@ pub fn evaluate_history(
     evaluate_snapshots(shell, subject, text, &kept)
 }
 
-/// Evaluates the expression at the stored snapshots, from the last to the first. At each snapshot, the history ends at the time of the snapshot.
+/// Evaluates the expression at the stored snapshots, from the last to the first. The history at a snapshot ends at its time.
 fn evaluate_snapshots(
     shell: &mut Shell,
     subject: &SimulationHandle,

@@ -18,7 +18,7 @@ const HEADER: &str = "//! A session of withy: its successful inputs.";
 enum RecordedInput {
     Statements(Source),
     Expression(Source),
-    /// Statements that return early. In a script, they would end the script.
+    /// Statements that return early. In a saved script, these statements would end the script.
     EarlyReturn(Source),
     Moved(Source),
 }
@@ -38,7 +38,7 @@ pub struct SessionRecord {
 }
 
 impl SessionRecord {
-    /// Records statements without a value.
+    /// Records statements that succeeded and have no value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
@@ -52,7 +52,7 @@ impl SessionRecord {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records the advances and rewinds of simulations by a failed statement, by comparison with their positions `before`.
+    /// Records the simulations that a failed statement advanced or rewound, by comparison with their positions `before` the statement.
     /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
@@ -60,8 +60,7 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // The saved script repeats the movement. It may call the failed script function again, and this call may also fail.
-                // The generated script catches the error of the repeated call.
+                // The saved script repeats the movement, and the repeated call may fail again. Therefore the script catches its error.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
@@ -109,7 +108,7 @@ impl SessionRecord {
         script
     }
 
-    /// Names of functions that were defined more than once. A script can contain only one definition of each.
+    /// Names of functions that were defined more than once. A script can contain only one definition of each name.
     pub fn redefined(&self) -> Vec<String> {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
@@ -150,7 +149,7 @@ impl RecordedInput {
     }
 }
 
-/// Simulations in variables and the last used simulation, without duplicates.
+/// Positions of the simulations in variables and of the last used simulation, without duplicates.
 pub fn simulation_positions(
     scope: &Scope,
     latest: Option<SimulationHandle>,
@@ -197,7 +196,7 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 
 struct FunctionText {
     name: (String, usize),
-    /// Byte range of the definition, from its doc comments or `private` to the closing brace.
+    /// Byte range of a function definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,
 }
 

@@ -12,11 +12,11 @@ use super::session::Rounds;
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Largest total time of all repetitions.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Smallest total time of all repetitions, unless the relative error of the median is below [`KNOWN`].
+/// Smallest total time of all repetitions. It may be longer until the relative error of the median is below [`KNOWN`].
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Sufficient accuracy: relative error of the median.
+/// Relative error of the median run time that is accurate enough.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
@@ -24,7 +24,7 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs after which the error is computed again.
+    /// Number of runs after which the error of the median is computed again.
     next_evaluation: usize,
 }
 
@@ -74,7 +74,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median, computed for a normal distribution with the quartiles of the measured durations.
+    /// Relative standard error of the median. A normal distribution with the quartiles of the measured durations is assumed.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use rhai::{Dynamic, ImmutableString, Scope};
 
-/// Variables of a scope that are not shadowed; `None` if the scope has no shadowed variables.
+/// Variables of a scope that no later variable of the same name hides; `None` if no variable is hidden.
 pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     let mut names = HashSet::new();
     let seen: Vec<_> = scope.iter_raw().filter(|(name, ..)| names.insert(*name)).collect();
@@ -21,7 +21,7 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// Constants that were added to a scope after its first `known` variables, in their order.
+/// Constants that were added to a scope after its first `known` variables, in the order of their definition.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

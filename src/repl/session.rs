@@ -38,10 +38,10 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. The effects of earlier statements in the same input remain.
-    /// Of the failed statement, only changes of scenes, of simulations and of variables shared by closures remain.
+    /// A statement failed. Earlier statements of the same input keep their effect.
+    /// The failed statement keeps only its changes of scenes, of simulations, and of variables shared by closures.
     Failed(Diagnostic),
-    /// Ctrl-C interrupted a statement, with the same effects as a failed statement.
+    /// Ctrl-C interrupted a statement. The effects are those of a failed statement.
     Interrupted,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -55,7 +55,7 @@ struct StatementCheckpoint {
     positions: Vec<SimulationPositions>,
 }
 
-/// Session: variables, functions, constants and imports, with the script engine.
+/// Session: its variables, functions, constants, imports and script engine.
 pub struct Session {
     engine: ScriptEngine,
     folder: PathBuf,
@@ -70,7 +70,7 @@ impl Session {
     /// Creates an empty session.
     ///
     /// # Errors
-    /// Fails only because of internal errors.
+    /// Fails only if the program has an internal error.
     pub fn new(catalog: Catalog, settings: RunSettings) -> Result<Self, Diagnostic> {
         let folder = settings.folder.clone();
         let host = ScriptEngine::open(catalog, settings)?;
@@ -97,7 +97,7 @@ impl Session {
     }
 
     /// Discards a Ctrl-C that was pressed between evaluations.
-    /// After a later Ctrl-C, every evaluation stops until the interrupt is cleared again.
+    /// A Ctrl-C stops every evaluation until this function is called.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -108,7 +108,7 @@ impl Session {
         self.eval_program(program)
     }
 
-    /// Evaluates a file like typed input. The inputs keep the given values until the next file is loaded.
+    /// Evaluates a file like typed input. Inputs of the script keep the values `inputs` until the next file is loaded.
     pub fn load(&mut self, program: Program, inputs: Inputs) -> Reply {
         self.context().set_inputs(inputs);
         let declared = self.declare_inputs(&program);
@@ -156,7 +156,7 @@ impl Session {
         };
         let returns = statements::returns(&ast);
         // An input that may return early is evaluated as a whole.
-        // Other inputs are evaluated in pieces, so that statements before an error keep their effect.
+        // Other inputs are evaluated statement by statement, so that statements before an error keep their effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -194,12 +194,12 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records an input that was evaluated by other code.
+    /// Records an input that succeeded and was evaluated by other code.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Records the advances and rewinds of simulations by actions that are not recorded themselves.
+    /// Records the advances and rewinds of simulations by commands, which are not recorded themselves.
     /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
@@ -233,7 +233,7 @@ impl Session {
         let Self { engine: host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
-        // An input of the session may declare an input of the script again, with another default.
+        // An input of the session may declare an input of the script again with another default, so earlier declarations are forgotten.
         host.context().inputs().forget_declarations();
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
@@ -272,7 +272,7 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, independent of the order of definitions.
+    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, even if a function was defined earlier.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
@@ -322,7 +322,7 @@ impl Session {
         self.transcript.next_line()
     }
 
-    /// Record of successful inputs.
+    /// Record of the successful inputs.
     pub fn record(&self) -> &SessionRecord {
         &self.record
     }
@@ -340,7 +340,7 @@ impl Session {
         }
     }
 
-    /// Base folder for imports and input files.
+    /// Base folder for the paths of imports and input files.
     pub fn folder(&self) -> &Path {
         &self.folder
     }

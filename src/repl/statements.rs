@@ -1,4 +1,4 @@
-//! Boundaries between the statements of an input. The syntax tree of the engine lacks them, so parts of the text are parsed again.
+//! Boundaries between the statements of an input. The syntax tree of the engine does not contain them, so parts of the text are parsed again.
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
@@ -6,12 +6,12 @@ use crate::script::bindings::sources::Sources;
 use crate::script::dialect::reading::read;
 use crate::script::source::text::Source;
 
-/// Number of statements in a text, without functions. `None` if the text has a syntax error.
+/// Number of statements in a text, not counting functions; `None` if the text has a syntax error.
 pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// Last position in a valid text that separates the first `first` statements from the rest. The search also works after an interrupt.
+/// Last position in a valid text that separates its first `first` statements from the rest. The search also works after an interrupt.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }

@@ -10,7 +10,7 @@ use super::shell::Shell;
 use crate::script::library::{ModuleFunction, page_of};
 
 impl Shell {
-    /// Names that the next input can use.
+    /// Names that the next input of the session can use.
     pub fn surroundings(&self) -> CompletionContext {
         let session = self.session();
         let variable = |(name, _, value): (&str, bool, &Dynamic)| Variable {

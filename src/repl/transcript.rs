@@ -1,4 +1,4 @@
-//! Transcript of all inputs of a session. It relates the positions of errors to inputs.
+//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains it.
 //! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::script::source::program::Program;
 /// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
-/// Largest number of lines that the engine can count. A longer session starts again at line one.
+/// Largest number of lines that the engine can count. In a longer session, counting starts again at line 1.
 const MOST_LINES: usize = 60_000;
 
 struct TranscriptInput {
@@ -19,7 +19,7 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. The engine sees them as one long text with separate lines for each input.
+/// All inputs of a session. For the engine, they are one long text in which each input has its own lines.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -66,7 +66,7 @@ impl Transcript {
         }
     }
 
-    /// All inputs as one program, at their line numbers. The lines of failed inputs are blank, except those of the last input.
+    /// All inputs as one program that keeps their line numbers. The lines of failed inputs are blank, except those of the last input.
     pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// Variables that are declared outside functions, with their lines in [`Transcript::to_program`].
+    /// Variables that are declared outside functions, with the lines of their declarations in [`Transcript::to_program`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {

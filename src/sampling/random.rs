@@ -19,7 +19,7 @@ impl Random {
     }
 
     /// Returns a uniform random number in the open interval (0, 1).
-    /// The interval is divided into 2⁵³ equal parts. The random number is the rounded midpoint of a part.
+    /// The interval (0, 1) is divided into 2⁵³ equal parts. The random number is the rounded midpoint of a part.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)

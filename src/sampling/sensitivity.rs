@@ -1,16 +1,16 @@
 //! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
-/// Minimum number of blocks or points for an estimate. The uncertainty of the estimate is about the inverse of the square root of this number.
+/// Minimum number of Saltelli blocks or of independent points for an estimate.
+/// The uncertainty of a sensitivity index is about the inverse square root of the number of blocks or points.
 const FEWEST: usize = 30;
 
 /// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect). The average of the result over all other parameters still varies with this parameter.
-    /// The index is the variance of the averaged result, as a fraction of the variance of the result.
+    /// First-order index (main effect): variance of the result averaged over all other parameters, as a fraction of its total variance.
     pub first: f64,
-    /// Total index: the mean variance that remains if all other parameters are known, as a fraction of the variance of the result.
-    /// The total index is `None` if it cannot be estimated.
+    /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
+    /// `None` if the sample does not allow an estimate of the total index.
     pub total: Option<f64>,
 }
 
@@ -25,7 +25,7 @@ fn variance(values: &[f64]) -> f64 {
 }
 
 /// Returns the indices of all parameters from results on a full grid.
-/// The last parameter varies fastest, and `lengths` contains the number of values of each parameter.
+/// The last parameter of the grid varies fastest, and `lengths` contains the number of values of each parameter.
 /// All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is constant.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);

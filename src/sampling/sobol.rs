@@ -5,7 +5,7 @@ use super::Random;
 const BITS: usize = 32;
 
 /// Primitive polynomial and initial direction numbers of each coordinate, beginning with the second coordinate.
-/// The first number of an entry contains the inner coefficients of the polynomial as bits.
+/// The first number of each entry of the table contains the inner coefficients of the polynomial as bits.
 /// The values are those of the file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
 const DIRECTIONS: [(u32, &[u32]); 39] = [
     (0, &[1]),

@@ -176,7 +176,7 @@ impl Folder {
     }
 
     /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
-    /// This function has no effect on systems that cannot write folders to disk.
+    /// The call has no effect on systems that cannot write folders to disk.
     pub(super) fn sync(&self) -> io::Result<()> {
         self.0.sync()
     }

@@ -44,7 +44,7 @@ impl Drop for Prepared {
 
 impl Folder {
     /// Writes a file below this folder atomically and durably. An existing file with this name is replaced.
-    /// An existing link is also replaced and not followed. Missing parent folders are created.
+    /// An existing link with this name is also replaced, not followed. Missing parent folders are created.
     ///
     /// # Errors
     /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.
@@ -86,7 +86,7 @@ impl Folder {
             partial.push(format!(".{}-{count}.part", process_id()));
             match self.0.create_file(&partial) {
                 Ok(file) => {
-                    // A failure is ignored. On a file system without locks, no temporary file counts as abandoned.
+                    // A lock that fails is ignored. On a file system without locks, no temporary file counts as abandoned.
                     let _ = file.try_lock();
                     return Ok((file, partial));
                 }
@@ -106,7 +106,7 @@ impl Folder {
             };
             let name = Path::new(&entry.name);
             if is_partial(&entry.name) && is_old() && folder.is_unlocked(name).unwrap_or(false) {
-                // A failure is ignored, because another process may have removed the file already.
+                // A file that cannot be removed is ignored, because another process may have removed it already.
                 let _ = folder.remove(name);
             }
         }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the file with the record. The file is hidden, because users do not need it.
+/// Name of the file with the record of written files. The file is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
@@ -70,8 +70,8 @@ impl<W: Write> Write for ChecksumWriter<W> {
 }
 
 /// Checksums and lengths of the files that this program has written to a folder, by name.
-/// For each file, the last two contents are stored.
-/// A new content is recorded before it replaces the old content, so the file may still have the old content.
+/// The last two contents of each file are recorded.
+/// A new content is recorded before it replaces the old one, so a file may still have its old content.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,

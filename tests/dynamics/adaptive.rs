@@ -35,7 +35,7 @@ fn error(simulation: &Simulation, exact: &[Vec2; 2]) -> f64 {
 }
 
 #[test]
-fn errors_go_with_the_tolerance() {
+fn errors_decrease_with_the_tolerance() {
     let scene = || scenes::smooth_spaghetti(&smooth(14), 100.0);
     let exact = ends(&simulate(scene(), Method::FourthOrder, 0.0125, 5.0));
     for entry in INTEGRATORS {
@@ -66,7 +66,7 @@ fn errors_go_with_the_tolerance() {
 }
 
 #[test]
-fn errors_and_work_beside_those_of_fixed_steps() {
+fn errors_and_work_are_compared_with_fixed_steps() {
     for (name, schedule) in [("P1s", Schedule::smooth_pulse(2.5)), ("P1", Schedule::hold_for(2.5))]
     {
         let section = scenes::spaghetti_section(1e4, 100.0);
@@ -104,7 +104,7 @@ fn claims(entry: &IntegratorEntry) -> [(Invariant, bool); 4] {
 }
 
 #[test]
-fn every_method_keeps_what_it_claims_whatever_the_steps() {
+fn claimed_invariants_are_conserved_with_adaptive_steps() {
     for entry in INTEGRATORS {
         let with_sliders = sliding_scenes::all(&smooth(4), SlidingRule::Conserving);
         let flying = [scenes::spaghetti(&smooth(8), 1e4), scenes::spaghetti(&smooth(8), 1e8)];
@@ -137,7 +137,7 @@ fn every_method_keeps_what_it_claims_whatever_the_steps() {
 }
 
 #[test]
-fn what_a_method_does_not_keep_small_errors_do_not_keep_either() {
+fn unclaimed_invariants_are_not_conserved_at_small_tolerances() {
     for entry in INTEGRATORS {
         let flight =
             simulate(scenes::spaghetti(&smooth(8), 1e4), entry.method, adaptive(1e-2), 7.5);
@@ -159,7 +159,7 @@ fn counted(scene: Scene, method: Method, tolerance: f64, end: f64) -> String {
 }
 
 #[test]
-fn the_work_is_as_it_was() {
+fn work_counts_equal_recorded_counts() {
     let mesh = smooth(14);
     let flights = [
         counted(scenes::spaghetti(&mesh, 1e4), Method::EnergyMomentum, 1e-3, 7.5),
@@ -184,7 +184,7 @@ fn the_work_is_as_it_was() {
 }
 
 #[test]
-fn steps_end_where_a_load_jumps_and_are_careful_after_it() {
+fn steps_end_at_load_jumps_and_are_small_after_them() {
     let scene = scenes::spaghetti(&smooth(14), 1e4);
     let control = StepControl { first: Some(1e-3), ..StepControl::to(1e-3) };
     let flight = simulate(scene, Method::EnergyMomentum, control, 5.0);
@@ -200,7 +200,7 @@ fn steps_end_where_a_load_jumps_and_are_careful_after_it() {
 }
 
 #[test]
-fn a_run_in_pieces_does_not_make_steps_small() {
+fn runs_in_pieces_do_not_reduce_the_step_size() {
     let scene = || scenes::smooth_spaghetti(&smooth(14), 100.0);
     let settings = settings(Method::EnergyMomentum, adaptive(1e-3));
     let mut pieces = Simulation::start(scene(), settings).unwrap();
@@ -226,7 +226,7 @@ fn fingerprint(simulation: &Simulation) -> String {
 }
 
 #[test]
-fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
+fn back_rewind_fork_save_and_load_continue_bit_for_bit() {
     for entry in INTEGRATORS {
         let slide = sliding_scenes::abacus(&smooth(4), SlidingRule::Conserving);
         for scene in [scenes::spaghetti(&smooth(4), 1e4), slide] {
@@ -266,7 +266,7 @@ fn back_rewind_fork_save_and_load_go_on_bit_for_bit() {
 }
 
 #[test]
-fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
+fn unreachable_tolerance_is_an_error_and_history_is_kept() {
     let control = StepControl { smallest: Some(0.02), first: Some(0.1), ..StepControl::to(1e-5) };
     let settings = settings(Method::EnergyMomentum, control);
     let mut flight =
@@ -283,7 +283,7 @@ fn a_tolerance_beyond_reach_is_an_error_that_keeps_the_history() {
 }
 
 #[test]
-fn steps_that_cannot_be_solved_are_halved_down_to_the_smallest() {
+fn unsolvable_steps_are_halved_down_to_the_smallest() {
     let mut scene = scenes::spaghetti(&smooth(8), 1e4);
     let station = scenes::end_of(&mut scene, 0);
     let late = Schedule::pulse(0.5, 100.0).unwrap();
@@ -318,7 +318,7 @@ fn run_over_stops_that_round(first: Option<f64>, start: f64) -> Simulation {
 }
 
 #[test]
-fn stops_that_differ_by_rounding_are_one() {
+fn stops_that_differ_by_rounding_are_merged() {
     for first in [None, Some(1e-7)] {
         for start in [0.0, 1e3] {
             let mut flight = run_over_stops_that_round(first, start);
@@ -338,7 +338,7 @@ fn stops_that_differ_by_rounding_are_one() {
 }
 
 #[test]
-fn at_rest_steps_grow_no_further_than_the_largest() {
+fn steps_at_rest_are_limited_by_the_largest_step() {
     let section = scenes::spaghetti_section(1e4, 100.0);
     let scene = scenes::free_beam(&smooth(2), section);
     for largest in [None, Some(10.0), Some(f64::MAX)] {
@@ -384,7 +384,7 @@ fn oscillator() -> Scene {
 }
 
 #[test]
-fn the_cause_of_many_steps_is_told() {
+fn cause_of_many_steps_is_reported() {
     let decaying = Method::EnergyDecaying { chi: 0.1 };
     for (scene, method, cause) in [
         (struck_bar(Vec2::new(-0.1, 0.0)), Method::EnergyMomentum, "small fast vibration"),

@@ -48,7 +48,7 @@ fn assert_survives(
 }
 
 #[test]
-fn every_scene_comes_back_and_goes_on_bit_for_bit() {
+fn restored_scenes_continue_bit_for_bit() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(4) {
             let has_friction = entry.method != Method::FourthOrder;
@@ -98,7 +98,7 @@ fn rich() -> Simulation {
 }
 
 #[test]
-fn a_load_with_a_function_is_named_and_refused() {
+fn load_with_a_function_is_rejected_by_name() {
     let mut scene = scenes::towed(&Mesh::bspline(2, 3, 2).unwrap());
     let station = scenes::end_of(&mut scene, 0);
     let function = Schedule::Function { function: Rc::new(Ok), breaks: vec![] };
@@ -111,7 +111,7 @@ fn a_load_with_a_function_is_named_and_refused() {
 }
 
 #[test]
-fn a_file_that_was_cut_off_is_refused_at_every_length() {
+fn truncated_file_is_rejected_at_every_length() {
     let file = spaghetti().to_bytes("cut").unwrap();
     println!("{} bytes for 5 steps of the spaghetti", file.len());
     for length in (0..200).chain((200..file.len()).step_by(97)) {
@@ -139,7 +139,7 @@ impl Monitor for Patience {
 }
 
 #[test]
-fn flipped_bytes_are_seen_by_the_checksum_and_without_it_never_lead_to_a_panic() {
+fn flipped_bytes_fail_the_checksum_and_never_cause_a_panic() {
     let file = rich().to_bytes("flipped").unwrap();
     let mut random = Random(3);
     let mut choose = |below: usize| ((random.next() + 1.0) * 0.5 * below as f64) as usize;
@@ -172,7 +172,7 @@ fn flipped_bytes_are_seen_by_the_checksum_and_without_it_never_lead_to_a_panic()
 }
 
 #[test]
-fn random_content_with_a_right_checksum_is_refused() {
+fn random_content_with_a_valid_checksum_is_rejected() {
     let mut random = Random(5);
     let file = spaghetti().to_bytes("random").unwrap();
     let header = 8 + 2 + 1 + usize::from(file[10]) + 8;
@@ -190,7 +190,7 @@ fn random_content_with_a_right_checksum_is_refused() {
 }
 
 #[test]
-fn a_run_that_was_loaded_has_its_own_way_back() {
+fn loaded_run_can_be_rewound_to_its_loading() {
     let (_, mut loaded) = Simulation::from_bytes(&spaghetti().to_bytes("back").unwrap()).unwrap();
     loaded.enable_snapshots(1 << 20);
     loaded.step(&mut NoMonitor).unwrap();
@@ -200,7 +200,7 @@ fn a_run_that_was_loaded_has_its_own_way_back() {
 }
 
 #[test]
-fn names_that_nobody_could_read_are_refused_in_files_and_names_that_follow_are_made_anew() {
+fn unreadable_names_in_files_are_rejected_and_derived_names_are_recomputed() {
     const WRONG: &str = "\u{1b}]0;title\u{7}";
     let stored = |scene, name: &str| {
         let simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();

@@ -35,7 +35,7 @@ fn quarter_period(k: f64) -> f64 {
 }
 
 #[test]
-fn a_physical_pendulum_passes_its_lowest_point_when_the_elliptic_integral_says() {
+fn physical_pendulum_has_the_period_of_the_elliptic_integral() {
     let (inertia, arm, start) = (0.2, 0.8, 2.0_f64);
     let frequency = (GRAVITY * arm / (inertia + arm * arm)).sqrt();
     // Third zero crossing, after five quarters of a period.
@@ -95,7 +95,7 @@ fn runge_kutta(mut state: [f64; 4], h: f64, steps: usize) -> [f64; 4] {
 }
 
 #[test]
-fn a_rigid_double_pendulum_is_that_of_a_runge_kutta_method() {
+fn rigid_double_pendulum_agrees_with_a_runge_kutta_method() {
     let end = 1.5;
     let exact = runge_kutta([0.0; 4], 1e-4, 15_000);
     let coarse = runge_kutta([0.0; 4], 2e-4, 7_500);
@@ -119,7 +119,7 @@ fn a_rigid_double_pendulum_is_that_of_a_runge_kutta_method() {
 }
 
 #[test]
-fn a_free_body_turns_evenly_and_late_by_the_cube_of_its_spin() {
+fn free_body_rotates_evenly_with_a_phase_error_of_the_cube_of_its_spin() {
     let (spin, dt, end) = (3.0, 0.02, 10.0);
     let mut scene = Scene::new("gyrating");
     let body = add_body(&mut scene, at(3.0, 2.0), 0.4, (2.0, 0.5), &[at(1.0, 0.0), at(-0.3, 0.7)]);
@@ -141,7 +141,7 @@ fn a_free_body_turns_evenly_and_late_by_the_cube_of_its_spin() {
 }
 
 #[test]
-fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
+fn body_on_an_eccentric_torsion_spring_oscillates_as_a_cosine() {
     let (mass, inertia, arm, stiffness) = (1.5, 0.2, 0.4, 7.0_f64);
     let frequency = (stiffness / (inertia + mass * arm * arm)).sqrt();
     for entry in INTEGRATORS {
@@ -167,7 +167,7 @@ fn a_body_on_a_torsion_spring_beside_its_centre_swings_as_a_cosine() {
 }
 
 #[test]
-fn a_rod_let_go_gives_its_hinge_a_quarter_of_its_weight() {
+fn released_rod_loads_its_hinge_with_a_quarter_of_its_weight() {
     let (mass, length) = (2.0, 1.5);
     let mut scene = Scene::new("let go");
     let inertia = mass * length * length / 12.0;
@@ -216,7 +216,7 @@ fn windows() -> Scene {
 }
 
 #[test]
-fn two_four_bars_in_a_row_are_where_the_benchmark_has_them() {
+fn double_four_bar_linkage_agrees_with_the_benchmark() {
     let known =
         [(1.0, -0.195_020_30), (2.0, 0.057_815_80), (5.0, -0.811_310_46), (10.0, 0.328_458_11)];
     // The motion passes through singular positions in which all rods are collinear.
@@ -256,7 +256,7 @@ fn driven_wheel() -> Scene {
 }
 
 #[test]
-fn a_wheel_that_is_turned_carries_its_rim_and_what_hangs_there() {
+fn driven_wheel_moves_its_rim_and_attached_bodies() {
     for entry in INTEGRATORS {
         let mut scene = driven_wheel();
         scene.gravity = at(0.0, -GRAVITY);
@@ -281,7 +281,7 @@ fn a_wheel_that_is_turned_carries_its_rim_and_what_hangs_there() {
 }
 
 #[test]
-fn an_equilibrium_puts_on_the_turn_of_a_wheel() {
+fn equilibrium_applies_the_prescribed_rotation_of_a_wheel() {
     let loading = Loading { time: 2.0, steps: 4, ..Loading::default() };
     let rest = Equilibrium::find(driven_wheel(), loading, &mut |_| true).unwrap();
     let (sin, cos) = 1.2_f64.sin_cos();
@@ -291,7 +291,7 @@ fn an_equilibrium_puts_on_the_turn_of_a_wheel() {
 }
 
 #[test]
-fn the_band_of_a_chain_does_not_grow_with_its_length_nor_the_work_of_a_body() {
+fn bandwidth_and_work_per_body_do_not_grow_with_the_length_of_a_chain() {
     let work = |bodies: usize| {
         let simulation = simulate(body_scenes::chain(bodies), Method::EnergyMomentum, 0.01, 0.2);
         let counts = simulation.counts();
@@ -308,7 +308,7 @@ fn the_band_of_a_chain_does_not_grow_with_its_length_nor_the_work_of_a_body() {
 
 /// A user-defined outline moves with the body and is stored in the file.
 #[test]
-fn an_outline_turns_with_its_body() {
+fn outline_rotates_with_its_body() {
     let mut scene = body_scenes::pendulum(0.2, 0.6, 0.8);
     let corners = [at(0.3, 0.6), at(-0.3, 0.5), at(-0.1, -0.7), at(0.4, -0.2)];
     scene.rigid_bodies[0].outline = corners.to_vec();

@@ -42,7 +42,7 @@ fn numbers(measures: &Measures) -> [f64; 9] {
 }
 
 #[test]
-fn a_step_back_in_time_undoes_the_step() {
+fn backward_step_reverses_a_forward_step() {
     for method in [Method::EnergyMomentum, Method::FourthOrder] {
         for scene in scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh())) {
             let (mut model, mut integrator) = under_way(&scene, method, 5);
@@ -67,7 +67,7 @@ fn a_step_back_in_time_undoes_the_step() {
 }
 
 #[test]
-fn magnitudes_are_summed_up_as_without_parts() {
+fn measures_of_a_composed_step_count_its_parts_once() {
     // The impulse of a constant force is known. Backward substeps must not be counted twice.
     let mut scene = scenes::free_beam(&mesh(), scenes::spaghetti_section(1e4, 100.0));
     scene.gravity = crate::common::at(0.0, -9.81);
@@ -89,7 +89,7 @@ fn gap_in_a_load(from: f64, to: f64) -> Scene {
 }
 
 #[test]
-fn a_part_that_fails_fails_the_step_and_leaves_the_mechanism_at_its_start() {
+fn failed_part_fails_the_step_and_restores_its_start() {
     // Of the step from 0.25 to 0.3, the first substep evaluates the load at 0.2509, the third one at 0.2701 and the last one at 0.2991.
     for (from, to) in [(0.2502, 0.2535), (0.2695, 0.2707), (0.2985, 0.3)] {
         let (mut model, mut integrator) =
@@ -104,7 +104,7 @@ fn a_part_that_fails_fails_the_step_and_leaves_the_mechanism_at_its_start() {
 }
 
 #[test]
-fn iterations_of_parts_that_went_well_are_counted_where_a_later_one_fails() {
+fn iterations_before_a_failed_part_are_counted() {
     // The load starts after the first substep.
     let mut scene = scenes::free_beam(&mesh(), scenes::spaghetti_section(1e4, 100.0));
     scene.beams[0].motion.spin = 1.0;
@@ -135,7 +135,7 @@ fn cantilever(load: Option<Schedule>) -> Scene {
 }
 
 #[test]
-fn slow_loads_do_not_shake_up_a_cantilever_much_faster_than_a_step() {
+fn slow_loads_do_not_excite_a_cantilever_much_faster_than_a_step() {
     // The phase angle of the lowest mode per step is 2π or 4π plus or minus the phase angle of the load, 0.3. The first frequencies are for the substeps of
     // this method, the last ones for those of Suzuki (1990), for which the energy grows 25-fold.
     let model = System::assemble(&cantilever(None)).unwrap();

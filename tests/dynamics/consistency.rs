@@ -136,7 +136,7 @@ fn the_tangent_of_contact_between_bodies_is_the_derivative_of_its_forces() {
 }
 
 #[test]
-fn condensed_forces_are_those_of_settled_section_forces() {
+fn condensed_forces_equal_those_of_converged_section_forces() {
     for_all(|name, _, model, increments| {
         for stage in STAGES {
             let mut unsettled = vec![0.0; model.degrees_of_freedom()];
@@ -157,7 +157,7 @@ fn condensed_forces_are_those_of_settled_section_forces() {
 }
 
 #[test]
-fn corrected_section_forces_miss_the_strain_by_the_square_of_the_correction() {
+fn strain_error_of_corrected_section_forces_is_quadratic_in_the_correction() {
     for_all(|name, _, model, increments| {
         let direction = Random(5).vector(increments.len(), 1.0);
         for stage in STAGES {
@@ -186,7 +186,7 @@ fn work(model: &mut System, stage: Stage, increments: &[f64]) -> (f64, Vec<f64>)
 }
 
 #[test]
-fn damped_forces_do_more_work_by_half_of_chi_times_the_square_of_the_change_of_strain() {
+fn damped_forces_dissipate_half_of_chi_times_the_squared_strain_change() {
     for_all(|name, _, model, increments| {
         let mut of = |stage| work(model, stage, increments).0;
         let damped = Stage::DampedMidpoint;
@@ -202,7 +202,7 @@ fn damped_forces_do_more_work_by_half_of_chi_times_the_square_of_the_change_of_s
 }
 
 #[test]
-fn a_damped_stretch_of_a_rod_loses_the_energy_of_the_formula() {
+fn damped_stretch_of_a_rod_dissipates_the_energy_of_the_formula() {
     let (axial, length, chi) = (1e4, 10.0, 0.3);
     let mesh = withy::beams::Mesh::lagrange(3, 1).unwrap();
     let scene = scenes::free_beam(&mesh, scenes::spaghetti_section(axial, 100.0));
@@ -230,7 +230,7 @@ fn a_damped_stretch_of_a_rod_loses_the_energy_of_the_formula() {
 }
 
 #[test]
-fn midpoint_forces_do_exactly_the_work_by_which_the_energy_changes() {
+fn work_of_midpoint_forces_equals_the_energy_change() {
     for_all(|name, _, model, increments| {
         let (work, forces) = work(model, Stage::Midpoint, increments);
         let before = model.measure();
@@ -297,7 +297,7 @@ fn is_free(scene: &Scene) -> bool {
 }
 
 #[test]
-fn a_rigid_motion_strains_nothing_and_meets_no_force() {
+fn rigid_motion_causes_no_strain_and_no_force() {
     for (name, mesh) in meshes(4) {
         for mut scene in scenes::all(&mesh).into_iter().filter(is_free) {
             scene.elements.retain(|element| !matches!(element, Element::Load(_)));
@@ -317,7 +317,7 @@ fn a_rigid_motion_strains_nothing_and_meets_no_force() {
 }
 
 #[test]
-fn a_rigid_motion_of_a_deformed_beam_keeps_its_strain_energy() {
+fn rigid_motion_of_a_deformed_beam_conserves_its_strain_energy() {
     for_all(|name, scene, model, _| {
         if !is_free(scene) {
             return;
@@ -359,7 +359,7 @@ fn internal_forces_have_no_resultant_and_no_moment() {
 }
 
 #[test]
-fn the_inertia_matrix_is_the_one_that_multiplies_rates() {
+fn inertia_matrix_agrees_with_products_of_rates() {
     for_all(|name, _, model, increments| {
         let matrix = probe::inertia(model);
         assert_close(&format!("{name}, transposed"), &matrix.transpose(), &matrix, 1e-15);

@@ -176,7 +176,7 @@ fn a_pile_of_three_cylinders_stands_above_the_critical_coefficient_of_friction()
 }
 
 #[test]
-fn friction_of_two_particles_and_of_methods_that_reverse_time_is_refused() {
+fn friction_of_two_particles_and_of_time_reversing_methods_is_rejected() {
     let mut scene = Scene::new("refused");
     let stations = [at(0.0, 0.0), at(2.0, 0.0)].map(|position| block_named(&mut scene, position));
     let targets = stations.map(ContactTarget::Point);

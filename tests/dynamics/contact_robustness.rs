@@ -102,7 +102,7 @@ fn wheels_with_friction_run_at_any_stiffness_and_step() {
 
 /// At a contact point off the centre, the friction force changes the normal velocity. The runs that fail have a ratio of both above 1 (Painlevé).
 #[test]
-fn bodies_with_friction_at_points_beside_their_centres_run_with_few_failures() {
+fn bodies_with_friction_at_eccentric_points_run_with_few_failures() {
     let tally = wheels(at(0.2, -0.1));
     assert!(100 * tally.failures <= tally.runs && tally.drift < 1e-8, "{tally:?}");
 }

@@ -78,7 +78,7 @@ fn a_cradle_of_discs_has_the_velocities_of_linear_springs() {
 
 /// Smooth discs: an oblique elastic impact reverses the relative velocity along the line of centres.
 #[test]
-fn an_oblique_impact_of_discs_is_that_of_smooth_discs() {
+fn oblique_impact_of_discs_without_friction_agrees_with_smooth_discs() {
     let (radius, offset) = (0.5, 0.6);
     let start = [(at(-1.0, offset), at(1.0, 0.0)), (at(0.0, 0.0), at(0.0, 0.0))];
     // The line of centres at first touch; the penetration rotates it slightly.
@@ -198,7 +198,7 @@ fn iterations_do_not_depend_on_the_stiffness() {
 
 /// A ring is compressed until opposite sides touch. Neighbouring points of the bent axis do not count as contact.
 #[test]
-fn a_ring_that_is_pressed_together_touches_itself() {
+fn compressed_ring_touches_itself() {
     let mut scene = Scene::new("pressed ring");
     let beam = ring(&mut scene, at(0.0, 0.0), at(0.0, 0.0));
     let length = scene.beams[beam].axis.length();
@@ -247,7 +247,7 @@ type Copy<'a> = (&'a [usize], &'a dyn Fn(Vec2) -> Vec2);
 
 /// Rotated and mirrored copies have the same motion, as does a copy with the bodies in another order.
 #[test]
-fn turned_mirrored_and_reordered_copies_agree() {
+fn rotated_mirrored_and_reordered_copies_agree() {
     let mut random = Random(77);
     for _ in 0..6 {
         let start = [(); 4].map(|()| random.vector(4, 1.0));
@@ -346,7 +346,7 @@ fn bodies_that_never_touch_move_as_without_contact() {
 }
 
 #[test]
-fn wrong_contacts_are_refused() {
+fn invalid_contacts_are_rejected() {
     let mut scene = Scene::new("refused");
     let beam = moving(&mut scene, scenes::line(at(0.0, 0.0), at(1.0, 0.0)), 4, at(0.0, 0.0));
     let target = ContactTarget::Beam(beam);

@@ -27,7 +27,7 @@ fn threads(scene: &Scene, allowed: usize) -> usize {
 }
 
 #[test]
-fn any_number_of_threads_comes_to_the_same_bits() {
+fn any_number_of_threads_gives_the_same_bits() {
     let section = scenes::spaghetti_section(1e4, 100.0);
     let bspline = |spans, degree, continuity| Mesh::bspline(spans, degree, continuity).unwrap();
     let lagrange = |elements, degree| Mesh::lagrange(elements, degree).unwrap();
@@ -72,7 +72,7 @@ fn hundred(step: Vec2) -> Scene {
 }
 
 #[test]
-fn many_bodies_come_to_the_same_bits_with_two_threads() {
+fn many_bodies_give_the_same_bits_with_two_threads() {
     for step in [Vec2::new(0.0, 2.0), Vec2::new(3.0, 1.0)] {
         let scene = hundred(step);
         assert_eq!(threads(&scene, 2), 2);
@@ -82,14 +82,14 @@ fn many_bodies_come_to_the_same_bits_with_two_threads() {
 }
 
 #[test]
-fn a_method_that_keeps_accelerations_comes_to_the_same_bits_too() {
+fn methods_that_store_accelerations_give_the_same_bits() {
     let scene = scenes::spaghetti(&Mesh::bspline(8001, 3, 2).unwrap(), 1e4);
     let method = Method::GeneralizedAlpha { rho_infinity: 0.8 };
     assert!(state(&scene, method, 1) == state(&scene, method, 2));
 }
 
 #[test]
-fn small_beams_and_closed_ones_are_left_to_one_thread() {
+fn small_and_closed_beams_use_one_thread() {
     let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
     assert_eq!(threads(&scenes::spaghetti(&mesh(14), 1e4), 8), 1);
     assert_eq!(threads(&scenes::spaghetti(&mesh(7999), 1e4), 8), 1);

@@ -81,7 +81,7 @@ fn assert_decrement(label: &str, heights: &[f64], ratio: f64) {
 }
 
 #[test]
-fn a_cantilever_loses_in_each_swing_what_its_relaxation_time_says() {
+fn cantilever_oscillation_decays_by_its_relaxation_time() {
     let omega = frequency(1.875_104_068_711_961);
     let (ratio, period) = (0.02, 2.0 * PI / omega);
     let mut scene = slender(2.0 * ratio / omega);
@@ -99,7 +99,7 @@ fn a_cantilever_loses_in_each_swing_what_its_relaxation_time_says() {
 }
 
 #[test]
-fn a_free_beam_vibrates_out_and_flies_on() {
+fn vibration_of_a_free_beam_decays_and_flight_continues() {
     let omega = frequency(4.730_040_744_862_704);
     let (ratio, period) = (0.03, 2.0 * PI / omega);
     let mut scene = slender(2.0 * ratio / omega);
@@ -134,7 +134,7 @@ fn tip(simulation: &Simulation) -> Vec2 {
 }
 
 #[test]
-fn a_damped_beam_that_tumbles_is_met_with_the_order_of_the_method() {
+fn damped_tumbling_beam_converges_at_the_order_of_the_method() {
     let relaxation = Relaxation { axial: 1e-3, shear: 2e-3, bending: 0.02 };
     let end = 0.8;
     let exact = tip(&simulate(tumbling(relaxation), Method::FourthOrder, 5e-4, end));
@@ -150,7 +150,7 @@ fn a_damped_beam_that_tumbles_is_met_with_the_order_of_the_method() {
 }
 
 #[test]
-fn what_a_material_takes_is_in_the_ledger_at_any_relaxation_time() {
+fn energy_balance_includes_material_dissipation_at_any_relaxation_time() {
     for time in [1e-9, 1e-4, 1e-2, 1.0, 1e3, 1e6] {
         for method in [Method::EnergyMomentum, Method::FourthOrder] {
             let simulation = simulate(tumbling(alike(time)), method, 0.05, 4.0);
@@ -174,7 +174,7 @@ fn what_a_material_takes_is_in_the_ledger_at_any_relaxation_time() {
 }
 
 #[test]
-fn in_the_end_a_material_has_taken_all_but_the_rigid_motion() {
+fn material_damping_dissipates_all_energy_except_rigid_motion() {
     for entry in INTEGRATORS {
         let simulation = simulate(tumbling(alike(0.05)), entry.method, 0.05, 60.0);
         let last = simulation.history().samples().last().unwrap().measures;
@@ -187,7 +187,7 @@ fn in_the_end_a_material_has_taken_all_but_the_rigid_motion() {
 }
 
 #[test]
-fn a_beam_at_rest_knows_nothing_of_damping() {
+fn damping_does_not_affect_a_beam_at_rest() {
     let scene = |damped: bool| {
         let mut scene = slender(if damped { 0.3 } else { 0.0 });
         let start = scene.station(0, 0.0).unwrap();
@@ -207,7 +207,7 @@ fn a_beam_at_rest_knows_nothing_of_damping() {
 }
 
 #[test]
-fn the_present_moment_knows_the_forces_of_rates() {
+fn present_forces_include_viscous_forces() {
     let scene = tumbling(Relaxation { axial: 1e-3, shear: 2e-3, bending: 0.02 });
     let mut simulation = simulate(scene, Method::FourthOrder, 0.01, 0.6);
     let rates = |simulation: &Simulation| {
@@ -229,7 +229,7 @@ fn the_present_moment_knows_the_forces_of_rates() {
 
 /// The section moment follows from strains and strain rates, and is in equilibrium with the reaction of the clamp.
 #[test]
-fn sections_transmit_what_is_viscous_too() {
+fn section_forces_include_viscous_forces() {
     let omega = frequency(1.875_104_068_711_961);
     let mut scene = slender(0.6 / omega);
     let start = scene.station(0, 0.0).unwrap();
@@ -259,7 +259,7 @@ fn sections_transmit_what_is_viscous_too() {
 }
 
 #[test]
-fn a_beam_that_turns_as_a_whole_has_no_viscous_forces() {
+fn rigid_rotation_causes_no_viscous_forces() {
     let mut scene = slender(0.1);
     scene.beams[0].motion = StartMotion { velocity: at(3.0, 1.0), spin: 2.0, centre: None };
     let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 0.0);

@@ -37,7 +37,7 @@ fn place(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn a_bead_in_a_fluid_is_met_with_the_order_of_the_method() {
+fn bead_in_a_fluid_converges_at_the_order_of_the_method() {
     let (end, rate) = (2.0, DRAG / MASS);
     let expected = (1.0 + rate * SPEED * end).ln() / rate;
     for entry in INTEGRATORS {
@@ -60,7 +60,7 @@ fn a_bead_in_a_fluid_is_met_with_the_order_of_the_method() {
 }
 
 #[test]
-fn what_a_law_takes_is_in_the_ledger_and_never_grows_less() {
+fn energy_balance_includes_nondecreasing_dissipation_of_damping_laws() {
     let one_sided = absorber(&[(-1.0, 0.0), (0.0, 0.0), (0.5, 2.0), (1.0, 2.0)]);
     let corner = absorber(&[(-3.0, -3.0), (-1e-3, -3.0), (1e-3, 3.0), (3.0, 3.0)]);
     for (law, speed) in
@@ -85,7 +85,7 @@ fn what_a_law_takes_is_in_the_ledger_and_never_grows_less() {
 
 /// Dry friction as a steep linear law stops a bead when its kinetic energy is dissipated, at any step size.
 #[test]
-fn a_saturated_damper_brakes_with_its_force() {
+fn saturated_damper_brakes_with_its_limit_force() {
     let law = absorber(&[(-1.0, -3.0), (-1e-6, -3.0), (1e-6, 3.0), (1.0, 3.0)]);
     for entry in INTEGRATORS.iter().filter(|entry| entry.claims.energy == EnergyClaim::Conserved) {
         let dt = if entry.claims.order == 4 { 0.01 } else { 0.1 };
@@ -98,7 +98,7 @@ fn a_saturated_damper_brakes_with_its_force() {
 /// Mass on a spring with dry friction as a steep linear law. The amplitude decreases by `2 F/k` per half period until the friction force holds the mass. From
 /// 1 it comes to rest at 0.05, after seven half periods.
 #[test]
-fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
+fn dry_friction_stops_a_mass_after_the_exact_number_of_half_swings() {
     let (force, stiffness) = (0.3, 4.0);
     for steepness in [1e-3, 1e-6, 1e-9] {
         let corners = [(-1.0, -force), (-steepness, -force), (steepness, force), (1.0, force)];
@@ -131,7 +131,7 @@ fn dry_friction_stops_a_mass_after_as_many_half_swings_as_it_should() {
 }
 
 #[test]
-fn a_law_that_feeds_is_refused() {
+fn damping_law_that_adds_energy_is_rejected() {
     let mut scene = damped(DampingLaw::Linear(1.0), 0.0);
     let mut spring = scene.springs().next().unwrap().clone();
     spring.name = "other".to_owned();

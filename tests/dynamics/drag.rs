@@ -48,7 +48,7 @@ fn assert_orders(
 }
 
 #[test]
-fn a_stone_sinks_in_a_thick_medium() {
+fn particle_sinks_in_a_viscous_medium() {
     // m v̇ = m g - c v: y = v∞ (t - T (1 - e^(-t/T))), T = m/c.
     let (c, end) = (0.8, 1.0);
     let (time, limit) = (0.5 / c, 0.5 * GRAVITY / c);
@@ -58,7 +58,7 @@ fn a_stone_sinks_in_a_thick_medium() {
 }
 
 #[test]
-fn a_stone_falls_through_air() {
+fn particle_falls_through_air() {
     // m v̇ = m g - k v²: y = v∞²/g ln cosh(g t/v∞), v∞² = m g/k.
     let (k, end) = (0.3, 1.0);
     let limit = (0.5 * GRAVITY / k).sqrt();
@@ -68,7 +68,7 @@ fn a_stone_falls_through_air() {
 }
 
 #[test]
-fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
+fn particle_reaches_the_wind_velocity_and_energy_is_balanced() {
     let law = SpeedLaw { linear: 0.4, quadratic: 0.2 };
     let wind = at(4.0, 0.0);
     let mut scene = stone(law, wind);
@@ -87,7 +87,7 @@ fn a_stone_goes_with_the_wind_which_gives_what_the_air_takes_and_more() {
 
 /// Drag coefficients from nearly zero to nearly rigid, with and without wind: no step fails, invariants hold, and the position is that of the midpoint rule.
 #[test]
-fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
+fn energy_balance_holds_for_any_drag_without_more_steps() {
     let (mass, dt, steps) = (0.5, 0.01, 100);
     for wind in [Vec2::zeros(), at(3.0, 1.0)] {
         for linear in [1e-6, 1.0, 1e4, 1e6, 1e8, 1e10, 1e12] {
@@ -119,7 +119,7 @@ fn drag_of_any_strength_keeps_the_ledger_in_as_many_steps() {
 
 /// The dissipated energy follows from the drag law itself. The difference of two large energies would have a rounding error of either sign.
 #[test]
-fn what_a_strong_medium_takes_from_a_grain_in_the_wind_never_falls() {
+fn dissipation_of_strong_drag_in_wind_never_decreases() {
     let mut scene = Scene::new("grain");
     let grain = ParticleDefinition { name: "grain".to_owned(), position: at(0.0, 0.0) };
     let station = scene.add_particle(grain, 0.001).unwrap();
@@ -187,7 +187,7 @@ fn tumbling(quadratic: f64) -> Scene {
 }
 
 #[test]
-fn a_beam_that_tumbles_through_air_keeps_the_ledger() {
+fn beam_tumbling_through_air_keeps_the_energy_balance() {
     for entry in INTEGRATORS {
         let simulation = simulate(tumbling(0.5), entry.method, 0.05, 10.0);
         let history = simulation.history();
@@ -215,7 +215,7 @@ fn a_beam_that_tumbles_through_air_keeps_the_ledger() {
 }
 
 #[test]
-fn a_beam_that_tumbles_through_air_is_met_with_the_order_of_the_method() {
+fn beam_tumbling_through_air_converges_at_the_order_of_the_method() {
     let end = 0.5;
     let tip = |s: &Simulation| crate::common::ends(s)[1];
     let exact = tip(&simulate(tumbling(0.0), Method::FourthOrder, 2.5e-4, end));

@@ -162,7 +162,7 @@ fn spun_up(t: f64) -> f64 {
 
 /// Benchmark B4: the steady stretch of the finite-strain bar, and the largest lag of the tip of converged runs.
 #[test]
-fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
+fn spin_up_has_the_published_stretch_and_the_converged_lag() {
     let section = Section {
         axial_stiffness: 2.8e7,
         shear_stiffness: 1e7,
@@ -202,7 +202,7 @@ fn spin_up_has_its_published_stretch_and_the_lag_of_converged_runs() {
 }
 
 #[test]
-fn movements_prescribed_or_supported_twice_are_refused() {
+fn motions_prescribed_or_supported_twice_are_rejected() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let given =
         || PrescribedMotion::Position(Schedule::Sine { amplitude: 1.0, rate: 1.0, phase: 0.0 });
@@ -230,7 +230,7 @@ fn movements_prescribed_or_supported_twice_are_refused() {
 }
 
 #[test]
-fn work_is_kept_by_name_and_adds_up() {
+fn work_is_recorded_by_name_and_sums_to_the_total() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let motion = PrescribedMotion::Position(function(|t| 0.3 * t * t));
     let mut scene = turned(&mesh, section(1e4), 1.0, motion, 0.0);
@@ -248,7 +248,7 @@ fn work_is_kept_by_name_and_adds_up() {
 
 /// The moment of a motor is the mean `c ω + I α + k φ` of the step, and its work is the moment times the rotation, at any step size.
 #[test]
-fn the_torque_of_a_motor_is_exact_however_far_it_turns_in_a_step() {
+fn motor_torque_is_exact_for_any_rotation_per_step() {
     let (inertia, damping, stiffness) = (0.2, 0.5, 0.3);
     let angle = |t: f64| 2.0 * t + 5.0 * t * t;
     for dt in [0.1, 0.01] {

@@ -120,7 +120,7 @@ fn assert_walk_is_straight(
 }
 
 #[test]
-fn walks_through_every_scene_are_straight() {
+fn rewinding_restores_the_states_of_every_scene() {
     for (number, (name, mesh)) in meshes(4).into_iter().enumerate() {
         for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
             let entry = INTEGRATORS[number % INTEGRATORS.len()];
@@ -137,7 +137,7 @@ fn walks_through_every_scene_are_straight() {
 }
 
 #[test]
-fn walks_with_sliders_that_bounce_rest_leave_or_end_the_run_are_straight() {
+fn rewinding_restores_states_with_slider_events() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let rule = SlidingRule::Conserving;
     let mut arrivals = 0;
@@ -169,7 +169,7 @@ fn fast_spinner() -> Scene {
 }
 
 #[test]
-fn walks_over_halved_steps_are_straight() {
+fn rewinding_restores_states_over_halved_steps() {
     for method in INTEGRATORS.iter().map(|entry| entry.method) {
         let (scene, settings) = (fast_spinner(), settings(method, 0.4));
         let mut probe = start(&scene, settings);
@@ -182,7 +182,7 @@ fn walks_over_halved_steps_are_straight() {
 }
 
 #[test]
-fn walks_under_a_function_of_time_are_straight() {
+fn rewinding_restores_states_under_a_function_of_time() {
     let mut scene = scenes::towed(&Mesh::bspline(3, 3, 2).unwrap());
     let schedule =
         Schedule::Function { function: Rc::new(|t| Ok((3.0 * t).cos())), breaks: vec![0.17] };
@@ -202,7 +202,7 @@ impl Monitor for StopAt {
 }
 
 #[test]
-fn a_run_that_is_interrupted_wherever_it_is_goes_on_as_if_it_were_not() {
+fn run_interrupted_at_any_step_continues_unchanged() {
     let (scene, settings) = (fast_spinner(), settings(Method::EnergyMomentum, 0.4));
     let mut whole = start(&scene, settings);
     run(&mut whole, 2.0).unwrap();
@@ -216,7 +216,7 @@ fn a_run_that_is_interrupted_wherever_it_is_goes_on_as_if_it_were_not() {
 }
 
 #[test]
-fn a_run_that_has_ended_can_be_gone_back_from() {
+fn ended_run_can_be_rewound() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let mut scene = sliding_scenes::abacus(&mesh, SlidingRule::Conserving);
     scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Stop);
@@ -232,7 +232,7 @@ fn a_run_that_has_ended_can_be_gone_back_from() {
 }
 
 #[test]
-fn a_cut_of_the_grid_stays_when_time_goes_back() {
+fn step_grid_cut_remains_after_a_rewind() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     simulation.enable_snapshots(PLENTY);
@@ -244,7 +244,7 @@ fn a_cut_of_the_grid_stays_when_time_goes_back() {
 }
 
 #[test]
-fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
+fn memory_limit_drops_the_oldest_snapshots_except_the_start() {
     let scene = scenes::spaghetti(&Mesh::bspline(14, 3, 2).unwrap(), 1e4);
     let settings = settings(Method::EnergyMomentum, 0.1);
     let mut simulation = Simulation::start(scene.clone(), settings).unwrap();
@@ -288,7 +288,7 @@ fn a_limit_bounds_the_memory_and_forgets_the_oldest_but_the_start() {
 }
 
 #[test]
-fn ways_back_that_are_none_are_refused_with_a_reason() {
+fn impossible_rewinds_are_rejected_with_a_reason() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     run(&mut simulation, 1.0).unwrap();
@@ -310,7 +310,7 @@ fn ways_back_that_are_none_are_refused_with_a_reason() {
 }
 
 #[test]
-fn a_fork_and_its_original_do_not_touch_each_other() {
+fn fork_and_original_are_independent() {
     let scene = scenes::spaghetti(&Mesh::bspline(4, 3, 2).unwrap(), 1e4);
     let mut simulation = Simulation::start(scene, settings(Method::EnergyMomentum, 0.1)).unwrap();
     simulation.enable_snapshots(PLENTY);

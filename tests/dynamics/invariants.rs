@@ -26,7 +26,7 @@ fn assert_kept(label: &str, history: &History, invariant: Invariant, tolerance: 
 }
 
 #[test]
-fn every_claim_holds_on_every_mesh_and_scene() {
+fn claimed_invariants_hold_on_every_mesh_and_scene() {
     for entry in INTEGRATORS {
         let claims = [
             (Invariant::Energy, entry.claims.energy == EnergyClaim::Conserved),
@@ -62,7 +62,7 @@ fn every_claim_holds_on_every_mesh_and_scene() {
 }
 
 #[test]
-fn what_is_not_claimed_is_seen_to_fail() {
+fn unclaimed_invariants_are_not_conserved() {
     for entry in INTEGRATORS {
         let simulation = simulate(scenes::spaghetti(&smooth(14), 1e4), entry.method, 0.1, 7.5);
         let drift = |invariant| simulation.history().drift(invariant);
@@ -86,7 +86,7 @@ fn what_is_not_claimed_is_seen_to_fail() {
 }
 
 #[test]
-fn energy_and_momenta_stand_still_from_the_start_at_any_step() {
+fn energy_and_momenta_are_constant_from_the_start_at_any_step_size() {
     for dt in [0.05, 0.1, 0.2] {
         for (name, mesh) in meshes(14) {
             let flight = simulate(scenes::spaghetti(&mesh, 1e4), Method::EnergyMomentum, dt, 7.5);
@@ -102,7 +102,7 @@ fn energy_and_momenta_stand_still_from_the_start_at_any_step() {
 }
 
 #[test]
-fn energy_and_momenta_stand_still_for_a_thousand_units_of_time() {
+fn energy_and_momenta_are_constant_for_a_thousand_units_of_time() {
     let flight = simulate(scenes::spaghetti(&smooth(14), 1e4), Method::EnergyMomentum, 0.1, 1000.0);
     let drifts = Invariant::ALL
         .map(|(_, invariant)| assert_kept("1000 units", flight.history(), invariant, 1e-12));
@@ -114,7 +114,7 @@ fn energy_and_momenta_stand_still_for_a_thousand_units_of_time() {
 }
 
 #[test]
-fn energy_stands_still_a_hundred_million_lengths_away() {
+fn energy_is_constant_a_hundred_million_lengths_from_the_origin() {
     let load = Schedule::hold_for(2.5).unwrap();
     let section = scenes::spaghetti_section(1e4, 100.0);
     let scene = scenes::thrown(&smooth(14), section, load, at(1e8, 1e8));
@@ -147,7 +147,7 @@ fn assert_fails_cleanly(scene: withy::system::Scene, dt: f64, good: usize) -> Si
 }
 
 #[test]
-fn an_absurd_load_is_an_error_that_keeps_the_history() {
+fn extreme_load_is_an_error_and_history_is_kept() {
     for magnitude in [1e155, 1e300] {
         let mut scene = scenes::spaghetti(&smooth(8), 1e4);
         let station = scenes::end_of(&mut scene, 0);
@@ -163,13 +163,13 @@ fn an_absurd_load_is_an_error_that_keeps_the_history() {
 }
 
 #[test]
-fn an_absurd_step_is_an_error_that_keeps_the_history() {
+fn extreme_step_size_is_an_error_and_history_is_kept() {
     let error = assert_fails_cleanly(scenes::spaghetti(&smooth(8), 1e4), 1e200, 0);
     assert!(matches!(error, SimulationError::Step { .. }), "{error}");
 }
 
 #[test]
-fn half_a_turn_in_a_step_is_tried_again_in_smaller_steps() {
+fn half_a_turn_per_step_is_retried_in_smaller_steps() {
     for method in [Method::EnergyMomentum, Method::FourthOrder] {
         let mut scene = scenes::free_beam(&smooth(8), scenes::spaghetti_section(1e6, 100.0));
         scene.beams[0].motion.spin = 9.0;
@@ -189,7 +189,7 @@ fn half_a_turn_in_a_step_is_tried_again_in_smaller_steps() {
 }
 
 #[test]
-fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
+fn restored_state_continues_bit_for_bit() {
     for entry in INTEGRATORS {
         for scene in scenes::all(&smooth(6)).into_iter().chain(body_scenes::all(&smooth(6))) {
             let mut model = System::assemble(&scene).unwrap();
@@ -214,7 +214,7 @@ fn a_restored_state_goes_on_bit_for_bit_as_it_did() {
 
 /// The scenes for the tests of invariants, archives, rewinding, consistency and memory contain every element type.
 #[test]
-fn common_scenes_have_every_element_of_a_machine() {
+fn common_scenes_contain_every_kind_of_element() {
     let mesh = smooth(4);
     let all: Vec<Scene> = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)).collect();
     let springs = || all.iter().flat_map(Scene::springs);

@@ -75,7 +75,7 @@ fn worst(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn laws_with_corners_of_any_stiffness_keep_the_ledger_in_as_many_steps() {
+fn piecewise_linear_laws_of_any_stiffness_keep_the_energy_balance_without_more_steps() {
     for times in [1e-6, 1.0, 1e3, 1e6, 1e9, 1e12] {
         let stiffness = times * OF_BEAM;
         let all = [
@@ -101,7 +101,7 @@ fn laws_with_corners_of_any_stiffness_keep_the_ledger_in_as_many_steps() {
 }
 
 #[test]
-fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
+fn claimed_invariants_hold_with_ropes_that_go_slack() {
     for entry in INTEGRATORS {
         for times in [1.0, 1e6, 1e12] {
             let scene = braced(rope, times * OF_BEAM, -0.01);
@@ -123,7 +123,7 @@ fn every_method_keeps_what_it_claims_with_ropes_that_go_slack() {
 /// A bead falls from 0.5 above the end of a nearly inextensible rope of length 1. The step in which the rope becomes taut reverses the velocity, so the bead
 /// rises to its start height.
 #[test]
-fn a_bead_bounces_on_a_rope_as_on_a_wall() {
+fn bead_bounces_on_a_stiff_rope_as_on_a_wall() {
     for stiffness in [1e9, 1e13, 1e17] {
         let mut scene = Scene::new("bead");
         let position = at(0.0, -0.5);

@@ -36,7 +36,7 @@ fn message(simulation: &Simulation) -> Vec<String> {
 }
 
 #[test]
-fn a_law_outside_of_its_range_is_told_once_with_the_farthest_value() {
+fn law_outside_its_range_is_reported_once_with_the_farthest_value() {
     let cubic = || Some(sampled(0.5, |e| 10.0 * e * e * e));
     for method in [Method::EnergyMomentum, Method::FourthOrder, Method::Trapezoidal] {
         let mut simulation = simulate(held(cubic(), 0.0.into(), 6.0), method, 0.01, 2.0);
@@ -60,7 +60,7 @@ fn a_law_outside_of_its_range_is_told_once_with_the_farthest_value() {
 }
 
 #[test]
-fn tables_are_told_apart_from_laws_that_go_on_as_they_are_meant() {
+fn tables_with_straight_or_level_ends_are_not_reported() {
     let measured = table(&[(-1.0, -8.0), (-0.5, -3.0), (0.0, 0.0), (0.5, 3.0), (1.0, 8.0)]);
     let run = |law, speed| {
         message(&simulate(held(Some(law), 0.0.into(), speed), Method::EnergyMomentum, 0.01, 1.0))

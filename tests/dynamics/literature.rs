@@ -43,7 +43,7 @@ fn paper_cubics() -> Mesh {
 }
 
 #[test]
-fn seven_c1_spans_fly_as_pinned() {
+fn seven_c1_spans_reproduce_the_recorded_flight() {
     let flight = fly(&paper_cubics(), Method::EnergyMomentum);
     let (energy, angular_momentum) = when_released(&flight);
     assert_digits(energy, 378.80136246, 1e-8);
@@ -52,14 +52,14 @@ fn seven_c1_spans_fly_as_pinned() {
 }
 
 #[test]
-fn ten_linear_elements_fly_as_pinned() {
+fn ten_linear_elements_reproduce_the_recorded_flight() {
     let flight = fly(&lagrange(10, 1), Method::EnergyMomentum);
     assert_digits(when_released(&flight).0, 380.07926047, 1e-8);
     assert_ends(&flight, [at(17.13720609, 8.21827676), at(16.55098127, -0.17369076)]);
 }
 
 #[test]
-fn the_trapezoidal_rule_flies_as_pinned() {
+fn trapezoidal_rule_reproduces_the_recorded_flight() {
     let flight = fly(&paper_cubics(), Method::Trapezoidal);
     assert_digits(when_released(&flight).0, 374.282850, 1e-6);
     assert_ends(&flight, [at(17.06268344, 8.32680696), at(16.38276885, -0.27137152)]);
@@ -83,7 +83,7 @@ fn energy(mesh: &Mesh, stiffness: f64, dt: f64) -> Option<f64> {
 type Row = (&'static str, Mesh, &'static [(f64, f64)]);
 
 #[test]
-fn the_table_of_locking_is_that_of_the_theory() {
+fn locking_table_agrees_with_the_theory_document() {
     // docs/theory.md, section 4, gives these results with fewer digits.
     let table: [Row; 7] = [
         (
@@ -112,7 +112,7 @@ fn the_table_of_locking_is_that_of_the_theory() {
 }
 
 #[test]
-fn stiffness_changes_nothing_except_with_more_points_than_derivatives() {
+fn meshes_lock_only_with_at_least_as_many_force_points_as_functions() {
     let mut named = meshes(14);
     named.push(("cubic C1, 3 points", points(bspline(7, 3, 1), 3)));
     named.push(("quadratic C1, 2 points", points(bspline(14, 2, 1), 2)));

@@ -199,7 +199,7 @@ fn means_of_a_very_short_step_are_the_forces_at_its_ends() {
 
 /// Velocities of points of rigid bodies are of second order at the ends of steps. Changes of the step size would disturb them, so steps are constant.
 #[test]
-fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
+fn mean_forces_between_rigid_bodies_agree_with_end_forces_at_second_order() {
     for scene in [body_scenes::pendulum(0.2, 0.6, 0.8), body_scenes::double_pendulum()] {
         let joint = scene.joints.len() - 1;
         let errors = [0.01, 0.005, 0.0025].map(|dt| {
@@ -223,7 +223,7 @@ fn means_between_rigid_bodies_are_of_second_order_to_the_forces_at_the_ends() {
 }
 
 #[test]
-fn summing_up_changes_no_bit_of_the_motion() {
+fn accumulating_mean_forces_changes_no_bit_of_the_motion() {
     let sliding = sliding_scenes::all(&mesh(), SlidingRule::Kinked);
     let all = scenes::all(&mesh()).into_iter().chain(body_scenes::all(&mesh())).chain(sliding);
     for scene in all {
@@ -241,7 +241,7 @@ fn summing_up_changes_no_bit_of_the_motion() {
 }
 
 #[test]
-fn a_method_without_such_a_mean_refuses() {
+fn methods_without_mean_forces_are_rejected() {
     let (scene, _) = two_beams(JointKind::Hinge, JointKind::Hinge);
     let method = Method::GeneralizedAlpha { rho_infinity: 0.8 };
     let refused = Simulation::start(listening(scene), settings(method, 0.02)).err().unwrap();

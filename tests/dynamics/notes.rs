@@ -80,7 +80,7 @@ fn phase(simulation: &Simulation) -> Option<(f64, f64)> {
 }
 
 #[test]
-fn a_spinning_beam_is_told_the_angle_that_its_steps_lose() {
+fn phase_error_of_a_spinning_beam_is_reported() {
     // A free stiff beam rotates by 2 atan(Ω h/2) per step, except for its small rotary inertia.
     let spinning = |dt: f64, end: f64| {
         let mut scene = Scene::new("spinning");
@@ -99,7 +99,7 @@ fn a_spinning_beam_is_told_the_angle_that_its_steps_lose() {
 }
 
 #[test]
-fn a_vibration_that_dampers_stop_and_adaptive_steps_have_no_phase_error() {
+fn damped_vibration_and_adaptive_steps_have_no_phase_error_note() {
     let damped = |damping: f64, dt: StepSize, end: f64| {
         let mut scene = Scene::new("oscillator");
         let ball = ParticleDefinition { name: "ball".into(), position: at(1.5, 0.0) };
@@ -115,7 +115,7 @@ fn a_vibration_that_dampers_stop_and_adaptive_steps_have_no_phase_error() {
 }
 
 #[test]
-fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_not() {
+fn vibration_periods_per_step_are_reported_only_for_coarse_steps() {
     for method in METHODS {
         let (scene, period) = ruler();
         let coarse = simulate(scene, method, 5.0, 500.0);
@@ -131,7 +131,7 @@ fn a_ruler_in_steps_of_many_periods_is_told_how_many_and_one_in_fine_steps_is_no
 }
 
 #[test]
-fn vibration_that_hides_under_flight_is_told() {
+fn vibration_superposed_on_flight_is_reported() {
     // The bending energy is a twentieth of the translational energy, at 40 times the highest frequency that the steps resolve.
     let spinning = |bending: f64| {
         let mut scene = Scene::new("flight");
@@ -152,7 +152,7 @@ fn vibration_that_hides_under_flight_is_told() {
 }
 
 #[test]
-fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
+fn stiff_pendulum_and_scene_at_rest_cause_no_note() {
     let pendulum = |start: f64| {
         let mut scene = Scene::new("pendulum");
         beam(&mut scene, at(0.3 * start.sin(), -0.3 * start.cos()), 4, steel());
@@ -175,7 +175,7 @@ fn a_stiff_pendulum_in_long_steps_and_a_scene_at_rest_are_silent() {
 }
 
 #[test]
-fn sections_that_turn_far_in_a_step_are_told() {
+fn large_section_rotations_per_step_are_reported() {
     let spinning = |dt: f64| {
         let mut scene = Scene::new("spinning");
         beam(&mut scene, at(0.3, 0.0), 4, steel());
@@ -223,7 +223,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
 }
 
 #[test]
-fn bounces_are_silent_where_they_are_right_and_told_where_they_are_not() {
+fn only_inaccurate_bounces_are_reported() {
     // Saint-Venant's bar, struck by a body of its own mass: the exact rebound is 0.6990 for every EA.
     for (stiffness, dt) in
         [(1e4, 0.01), (1e4, 5e-4), (1e4, 1e-3), (1e6, 0.01), (1e6, 1e-4), (1e8, 0.01), (1e10, 0.01)]
@@ -251,7 +251,7 @@ fn slave(simulation: &Simulation) -> withy::beams::BodyPoint {
 }
 
 #[test]
-fn a_slider_that_passes_more_than_a_span_in_a_step_is_told() {
+fn slider_passing_more_than_a_span_per_step_is_reported() {
     let passing = |speed: f64| simulate(ring(1e4, 1.0, -speed), Method::EnergyMomentum, 0.01, 0.02);
     let notes = passing(25.0).warnings();
     let way = notes.iter().find_map(|note| match note {
@@ -285,7 +285,7 @@ fn solved_to(tolerance: f64) -> Simulation {
 }
 
 #[test]
-fn an_energy_that_is_not_kept_as_promised_is_told() {
+fn energy_error_beyond_the_claim_is_reported() {
     let message =
         |notes: Vec<Warning>| notes.iter().any(|note| matches!(note, Warning::Drift { .. }));
     assert!(message(solved_to(1e-3).warnings()));
@@ -293,7 +293,7 @@ fn an_energy_that_is_not_kept_as_promised_is_told() {
 }
 
 #[test]
-fn notes_are_those_of_the_steps_behind_the_present() {
+fn notes_refer_to_steps_before_the_present_time() {
     let mut simulation =
         Simulation::start(ruler().0, settings(Method::EnergyMomentum, 0.002)).unwrap();
     simulation.enable_snapshots(10_000_000);
@@ -348,7 +348,7 @@ scene.gravity([0, -9.81]);
 ";
 
 #[test]
-fn a_note_is_told_once_and_is_in_the_report_and_explained() {
+fn note_is_printed_once_reported_and_explained() {
     let script = format!(
         "{RULER}let sim = scene.start(#{{ dt: 5 }});\nsim.run_to(100);\nsim.run_to(200);\nsim.step(3);\nsim.run_to(300);\n\
          check(sim.notes.len() == 1);\ncheck(sim.explain().contains(\"first natural period\"));\n\
@@ -373,7 +373,7 @@ fn a_note_is_told_once_and_is_in_the_report_and_explained() {
 }
 
 #[test]
-fn notes_can_be_kept_and_fine_steps_have_none() {
+fn notes_can_be_kept_without_printing_and_fine_steps_have_none() {
     let kept = format!(
         "{RULER}let sim = scene.start(#{{ dt: 5, notes: \"keep\" }});\nsim.run_to(100);\ncheck(sim.notes.len() == 1);\n\
          let other = sim.fork();\nother.run_to(200);"
@@ -388,7 +388,7 @@ fn notes_can_be_kept_and_fine_steps_have_none() {
 }
 
 #[test]
-fn a_bead_below_a_barrier_is_told_that_its_well_is_not_resolved() {
+fn unresolved_potential_well_of_a_bead_is_reported() {
     // Double well: the bead starts at rest, 6 % below the barrier.
     let script = |dt: &str, crosses: bool| {
         format!(
@@ -417,7 +417,7 @@ check((min(sim.history.column(\"ring.position\")) < 0.5) == {crosses});"
 }
 
 #[test]
-fn rounding_of_a_scene_at_rest_is_no_vibration() {
+fn rounding_of_a_scene_at_rest_is_not_reported_as_vibration() {
     let mut scene = Scene::new("rest");
     let section = Section {
         axial_stiffness: 1e4,

@@ -30,7 +30,7 @@ fn incline(degrees: f64, friction: f64, stiffness: f64) -> (Scene, Vec2) {
 /// The block decelerates with `g (sin α + μ cos α)`, and returns if `tan α > μ`.
 /// The step that contains the reversal has an error of the velocity of at most `2 μ g cos α dt`.
 #[test]
-fn a_block_on_an_incline_moves_as_in_closed_form() {
+fn block_on_an_incline_agrees_with_the_closed_form() {
     let friction = 0.3;
     for degrees in [30.0_f64, 15.0] {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -97,7 +97,7 @@ fn a_sliding_disc_starts_to_roll() {
 
 /// An oblique impact that slips throughout changes the speed along the wall by `μ (1 + e) v_n`.
 #[test]
-fn an_oblique_impact_has_the_impulse_of_coulomb() {
+fn oblique_impact_has_the_impulse_of_coulomb_friction() {
     for (friction, restitution) in [(0.1, 0.8), (0.3, 0.5)] {
         let floor = wall(at(0.0, 0.0), at(0.0, 1.0), 1e4, restitution);
         let scene = ball(at(0.0, 0.1), at(4.0, -2.0), Obstacle { friction, ..floor });
@@ -149,7 +149,7 @@ fn a_rope_round_a_peg_holds_up_to_the_ratio_of_euler_and_eytelwein() {
 }
 
 #[test]
-fn methods_that_reverse_time_refuse_friction() {
+fn methods_that_reverse_time_are_rejected_with_friction() {
     let (scene, _) = incline(15.0, 0.3, 1e6);
     let refused = Simulation::start(scene, settings(Method::FourthOrder, 0.01)).err().unwrap();
     assert_eq!(

@@ -60,7 +60,7 @@ pub fn assert_balanced(simulation: &Simulation, tolerance: f64) {
 ///
 /// While it is in contact, the penetration is `g/ω² (cos ωt - 1) - v/ω sin ωt` with `ω² = k/m`, so depth and duration have closed forms.
 #[test]
-fn a_ball_bounces_as_in_closed_form() {
+fn bouncing_ball_agrees_with_the_closed_form() {
     let (k, g, v) = (1e4_f64, 10.0_f64, 20.0_f64.sqrt());
     let omega = k.sqrt();
     let sink = g / k;
@@ -176,7 +176,7 @@ fn the_energy_balance_holds_at_any_stiffness() {
 }
 
 #[test]
-fn every_method_keeps_what_it_claims() {
+fn claimed_invariants_hold_with_obstacles() {
     for entry in INTEGRATORS {
         for obstacle in
             [wall(at(0.0, 0.0), at(0.1, 1.0), 1e5, 0.6), disc(at(0.1, 0.0), 0.4, 1e5, 0.6)]
@@ -209,7 +209,7 @@ fn far_obstacles_change_no_bit() {
 }
 
 #[test]
-fn a_turned_and_shifted_copy_moves_alike() {
+fn rotated_and_shifted_copy_has_the_same_motion() {
     let (turn, shift) = (0.7_f64, at(-3.0, 11.0));
     let rotate =
         |v: Vec2| at(v.x * turn.cos() - v.y * turn.sin(), v.x * turn.sin() + v.y * turn.cos());
@@ -234,7 +234,7 @@ fn a_turned_and_shifted_copy_moves_alike() {
 
 /// A particle between the walls of a box, at any step size, never leaves the box by more than its energy allows.
 #[test]
-fn a_box_keeps_its_particles() {
+fn particles_stay_in_their_box() {
     let mut random = Random(7);
     for (dt, stiffness) in [(1e-3, 1e4), (0.05, 1e8), (0.5, 1e2)] {
         let mut scene = Scene::new("box");
@@ -279,7 +279,7 @@ fn a_box_keeps_its_particles() {
 
 /// Restored runs, and runs that go back and continue, are equal bit for bit.
 #[test]
-fn contacts_go_back_and_are_saved() {
+fn contacts_are_rewound_and_saved() {
     let start = || {
         let floor = wall(at(0.0, 0.0), at(0.1, 1.0), 1e5, 0.6);
         let scene = falling_rod(Obstacle { friction: 0.3, radius: 0.02, ..floor });

@@ -21,7 +21,7 @@ fn mesh() -> Mesh {
 }
 
 #[test]
-fn what_methods_keep_they_keep_over_releases() {
+fn claimed_invariants_hold_over_releases() {
     for entry in INTEGRATORS {
         for (name, mesh) in meshes(3) {
             for scene in all(&mesh) {
@@ -52,7 +52,7 @@ fn what_methods_keep_they_keep_over_releases() {
 }
 
 #[test]
-fn nothing_jumps_where_something_lets_go() {
+fn states_are_continuous_at_releases() {
     let scene = chain(&mesh());
     let releases: Vec<(f64, Releasable)> =
         scene.release_times().zip(scene.releases.iter().map(|release| release.object)).collect();
@@ -104,7 +104,7 @@ fn sling() -> Scene {
 }
 
 #[test]
-fn a_sling_throws_along_the_tangent_and_errs_with_second_order() {
+fn sling_throws_along_the_tangent_with_second_order_error() {
     let (turn, spin) = (1.0 - 0.9_f64.cos(), 1.5 * 0.9_f64.sin());
     let along = at(-turn.sin(), turn.cos());
     let end = at(turn.cos(), turn.sin()) * 2.0 + along * (2.0 * spin * 0.4);
@@ -134,7 +134,7 @@ fn a_sling_throws_along_the_tangent_and_errs_with_second_order() {
 }
 
 #[test]
-fn a_rod_that_is_let_go_falls_as_one_that_was_free_from_the_start() {
+fn released_rod_falls_like_a_free_rod() {
     // Clamps at both ends hold the beam at rest. After the release it equals a free beam in the same state.
     for entry in INTEGRATORS {
         let mut held = Scene::new("shelf");
@@ -164,7 +164,7 @@ fn a_rod_that_is_let_go_falls_as_one_that_was_free_from_the_start() {
 }
 
 #[test]
-fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
+fn energy_of_a_released_spring_enters_the_energy_balance() {
     for entry in INTEGRATORS {
         let mut scene = Scene::new("snap");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: at(1.5, 0.0) };
@@ -195,7 +195,7 @@ fn a_spring_that_snaps_leaves_its_energy_to_the_ledger() {
 }
 
 #[test]
-fn steps_of_any_size_end_where_something_lets_go() {
+fn steps_of_any_size_end_at_releases() {
     for entry in INTEGRATORS {
         for scene in all(&mesh()) {
             let times: Vec<f64> = scene.release_times().collect();
@@ -213,7 +213,7 @@ fn steps_of_any_size_end_where_something_lets_go() {
 }
 
 #[test]
-fn a_copy_and_a_way_back_know_what_had_let_go() {
+fn forks_and_rewinds_keep_the_state_of_releases() {
     for entry in INTEGRATORS {
         for scene in all(&mesh()) {
             let mut simulation = Simulation::start(scene, settings(entry.method, 0.02)).unwrap();
@@ -244,7 +244,7 @@ fn a_copy_and_a_way_back_know_what_had_let_go() {
 }
 
 #[test]
-fn somebody_outside_says_when() {
+fn releases_can_be_triggered_from_outside() {
     let mut scene = Scene::new("asked");
     let beam = add_beam(&mut scene, line(at(0.0, 0.0), at(2.0, 0.0)), &mesh(), rod());
     let start = start_of(&mut scene, beam);
@@ -266,7 +266,7 @@ fn somebody_outside_says_when() {
 }
 
 #[test]
-fn what_cannot_let_go_is_refused() {
+fn impossible_releases_are_rejected() {
     let mut scene = chain(&mesh());
     let refused = |scene: &mut Scene, hold, time| {
         scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap_err()

@@ -20,7 +20,7 @@ fn smooth(spans: usize) -> Mesh {
 }
 
 #[test]
-fn the_tangent_is_the_derivative_of_forces_and_places() {
+fn tangent_is_the_derivative_of_forces_and_positions() {
     let mut random = Random(20);
     for (name, mesh) in meshes(4) {
         // Piecewise linear laws have no derivative at their corners.
@@ -43,7 +43,7 @@ fn the_tangent_is_the_derivative_of_forces_and_places() {
 }
 
 #[test]
-fn what_methods_do_not_claim_is_seen_to_fail() {
+fn unclaimed_invariants_of_rigid_links_are_not_conserved() {
     for entry in INTEGRATORS {
         let drift = |scene: Scene, invariant| {
             simulate(scene, entry.method, 0.05, 3.0).history().drift(invariant)
@@ -66,7 +66,7 @@ fn what_methods_do_not_claim_is_seen_to_fail() {
 }
 
 #[test]
-fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
+fn carriage_with_sliding_and_bouncing_wheels_conserves_all_invariants() {
     for rule in [SlidingRule::Conserving, SlidingRule::Exact] {
         let scene = body_scenes::carriage(&smooth(6), rule);
         let mut simulation =
@@ -85,7 +85,7 @@ fn a_carriage_keeps_all_while_its_wheels_slide_and_bounce() {
 
 /// The present reactions of joints balance the weight and the inertia of a body.
 #[test]
-fn joints_give_to_a_body_what_its_accelerations_need() {
+fn joint_forces_agree_with_the_accelerations_of_a_body() {
     let mut scene = body_scenes::dumbbell(&smooth(6));
     scene.elements.retain(|element| matches!(element, withy::system::Element::PointMass(_)));
     let fixed = 1;
@@ -114,7 +114,7 @@ fn joints_give_to_a_body_what_its_accelerations_need() {
 }
 
 #[test]
-fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
+fn clamp_at_a_point_transmits_the_moment_of_the_body() {
     let mut scene = Scene::new("bracket");
     let body = add_body(&mut scene, at(1.0, 0.5), 0.3, (2.0, 0.1), &[at(-0.4, 0.1), at(0.3, 0.0)]);
     let beam = scenes::add_beam(
@@ -143,7 +143,7 @@ fn a_clamp_at_a_point_gives_the_moment_of_the_body() {
 }
 
 #[test]
-fn what_holds_a_body_twice_is_refused_by_its_name() {
+fn redundant_supports_of_a_body_are_rejected_by_name() {
     let held = |points: &[Station]| {
         let mut scene = Scene::new("held");
         add_body(&mut scene, at(0.0, 0.0), 0.4, (1.0, 0.1), &[at(-0.5, 0.0), at(0.5, 0.2)]);
@@ -176,7 +176,7 @@ fn what_holds_a_body_twice_is_refused_by_its_name() {
 }
 
 #[test]
-fn numbers_and_names_that_make_no_body_are_refused() {
+fn invalid_numbers_and_names_of_a_body_are_rejected() {
     let definition = |name: &str, points: &[(&str, Vec2)]| withy::system::RigidBodyDefinition {
         name: name.to_owned(),
         position: Vec2::zeros(),
@@ -228,7 +228,7 @@ fn start_velocities_must_fit_the_joints() {
 }
 
 #[test]
-fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothing() {
+fn inverted_pendulum_diverges_and_reading_it_changes_nothing() {
     // (I + m l²) λ² = m g l - k, with k chosen such that λ = 1.
     let (inertia, arm) = (0.5, 1.5);
     let mut scene = body_scenes::pendulum(inertia, arm, std::f64::consts::PI);
@@ -261,7 +261,7 @@ fn a_pendulum_upside_down_grows_from_the_start_and_looking_at_that_changes_nothi
 }
 
 #[test]
-fn a_slider_on_a_point_may_leave_its_beam() {
+fn slider_on_a_body_point_may_leave_its_beam() {
     let mut scene = body_scenes::carriage(&smooth(6), SlidingRule::Conserving);
     scene.sliders.iter_mut().for_each(|slider| slider.ends = EndAction::Release);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.02, 6.0);
@@ -274,7 +274,7 @@ fn a_slider_on_a_point_may_leave_its_beam() {
 
 /// A moving body is hinged to the end of a beam at rest. The start velocity of this node alone must equal that of the point of the body.
 #[test]
-fn a_body_in_motion_takes_the_end_of_a_beam_at_rest_along() {
+fn moving_body_sets_the_joined_end_of_a_beam_in_motion() {
     let struck = |node: Vec2| {
         let mut scene = Scene::new("vault");
         let axis = line(at(0.0, 0.0), at(4.0, 2.0));

@@ -61,7 +61,7 @@ fn places(model: &System) -> Vec<Vec2> {
 }
 
 #[test]
-fn a_scene_that_is_turned_moves_as_with_a_roller_along_an_axis() {
+fn rotated_scene_with_an_inclined_roller_has_the_rotated_motion() {
     for entry in INTEGRATORS {
         let upright = simulate(bridge(0.0), entry.method, 0.05, 3.0);
         let expected = places(upright.model());
@@ -94,7 +94,7 @@ fn a_scene_that_is_turned_moves_as_with_a_roller_along_an_axis() {
 }
 
 #[test]
-fn a_scene_that_is_turned_has_the_same_rest_and_the_same_modes() {
+fn rotated_scene_has_the_same_equilibrium_and_modes() {
     let rest = |angle: f64| {
         let mut rest = Equilibrium::find(bridge(angle), Loading::default(), &mut |_| true).unwrap();
         let place = rest.scene().place(&tip(rest.scene()), rest.model().meshes()).unwrap();
@@ -120,7 +120,7 @@ fn a_scene_that_is_turned_has_the_same_rest_and_the_same_modes() {
 
 /// For small bending, a beam on a hinge and a roller along its axis is simply supported with a free axial displacement: `ω = (π/L)² √(EI/ρA)`.
 #[test]
-fn a_beam_on_an_inclined_roller_along_itself_has_the_modes_of_a_simply_supported_one() {
+fn beam_on_a_roller_along_its_axis_has_simply_supported_modes() {
     let mut scene = Scene::new("bridge");
     let (length, mut section) = (40.0, rod());
     section.rotary_inertia = 1e-6;
@@ -153,7 +153,7 @@ fn cart(angle: f64) -> Scene {
 }
 
 #[test]
-fn a_cart_runs_down_a_slope_and_presses_on_it_by_its_weight_across() {
+fn cart_on_a_slope_has_the_exact_acceleration_and_reaction() {
     for entry in INTEGRATORS {
         for angle in ANGLES {
             let mut simulation = simulate(cart(angle), entry.method, 0.05, 2.0);
@@ -174,7 +174,7 @@ fn a_cart_runs_down_a_slope_and_presses_on_it_by_its_weight_across() {
 }
 
 #[test]
-fn a_roller_that_lets_go_leaves_a_body_to_fly() {
+fn released_roller_leaves_a_body_in_free_flight() {
     let mut scene = cart(0.6);
     scene
         .add_release(Release { object: Releasable::Joint(0), trigger: Trigger::Time(1.0) })
@@ -187,7 +187,7 @@ fn a_roller_that_lets_go_leaves_a_body_to_fly() {
 }
 
 #[test]
-fn blows_are_given_to_the_ground_by_an_inclined_roller() {
+fn inclined_roller_transmits_impulses_to_the_ground() {
     let mut scene = carriage(&smooth(6), SlidingRule::Conserving);
     let end = scene.joints.remove(1).station;
     roller(&mut scene, end, 0.5);
@@ -205,7 +205,7 @@ fn blows_are_given_to_the_ground_by_an_inclined_roller() {
 }
 
 #[test]
-fn what_is_held_twice_is_refused() {
+fn redundant_supports_are_rejected() {
     let supported = |kinds: &[JointKind]| -> Result<(), SystemError> {
         let mut scene = Scene::new("bridge");
         let beam = add_beam(&mut scene, line(Vec2::zeros(), at(2.0, 0.0)), &smooth(4), rod());
@@ -247,7 +247,7 @@ fn what_is_held_twice_is_refused() {
 }
 
 #[test]
-fn velocities_and_motions_across_a_roller_are_refused() {
+fn velocities_and_motions_normal_to_a_roller_are_rejected() {
     let mut scene = cart(0.5);
     let station = Station::on_particle(0);
     scene.velocities.push(StationVelocity { station, velocity: at(1.0, 0.0), spin: None });

@@ -240,7 +240,7 @@ fn table() -> PathBuf {
 }
 
 #[test]
-fn the_states_of_scenes_are_those_that_were_pinned() {
+fn states_of_scenes_equal_the_recorded_states() {
     let found = all();
     assert!(found.len() >= 20);
     let text: String = found.iter().map(|(name, hash)| format!("{hash:016x} {name}\n")).collect();
@@ -270,7 +270,7 @@ fn the_states_of_scenes_are_those_that_were_pinned() {
 /// Runs the same test in a child process whose C library uses no vector instructions.
 #[test]
 fn a_c_library_without_vector_instructions_changes_no_bit() {
-    let name = "same_bits::the_states_of_scenes_are_those_that_were_pinned";
+    let name = "same_bits::states_of_scenes_equal_the_recorded_states";
     let output = Command::new(std::env::current_exe().unwrap())
         .args(["--exact", name])
         .env(PLAIN.0, PLAIN.1)
@@ -327,7 +327,7 @@ fn left(script: &Path, plain: bool) -> BTreeMap<String, Vec<u8>> {
 }
 
 #[test]
-fn equal_runs_leave_equal_bytes() {
+fn equal_runs_give_equal_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let script = folder.path().join("script.rhai");
     fs::write(&script, SCRIPT).unwrap();

@@ -62,7 +62,7 @@ sim.save("half.withy");
 "#;
 
 #[test]
-fn a_simulation_survives_a_restart() {
+fn saved_simulation_continues_in_a_new_process() {
     let home = tempfile::tempdir().unwrap();
     let (outcome, messages) = run_in(home.path(), RunMode::Run, FIRST);
     assert_good(&outcome);
@@ -80,7 +80,7 @@ fn a_simulation_survives_a_restart() {
 }
 
 #[test]
-fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothing() {
+fn check_loads_saved_simulations_and_writes_nothing() {
     let home = tempfile::tempdir().unwrap();
     let out = home.path().join("out");
     let both = format!(
@@ -101,7 +101,7 @@ fn a_check_loads_what_an_earlier_run_or_the_script_itself_saves_and_writes_nothi
 }
 
 #[test]
-fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
+fn incomplete_and_foreign_files_are_rejected_with_a_reason() {
     let home = tempfile::tempdir().unwrap();
     assert_good(&run_in(home.path(), RunMode::Run, FIRST).0);
     let path = home.path().join("half.withy");
@@ -132,7 +132,7 @@ fn files_that_are_not_whole_or_not_ours_are_refused_with_a_reason() {
 }
 
 #[test]
-fn a_script_that_never_goes_back_keeps_no_states_and_one_that_does_keeps_them() {
+fn snapshots_are_stored_only_for_scripts_that_rewind() {
     let home = tempfile::tempdir().unwrap();
     let fall = "let scene = new_scene(\"fall\");\nscene.particle([0, 0], 1);\nlet sim = scene.start(#{ dt: 0.1 });\nsim.step(3);\n";
     assert_good(&run_in(home.path(), RunMode::Run, &format!("{fall}sim.back(2);")).0);

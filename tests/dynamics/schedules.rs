@@ -89,7 +89,7 @@ fn built_in_loads_have_their_exact_impulse_at_any_step_size() {
 }
 
 #[test]
-fn built_in_speeds_lead_to_exact_places() {
+fn built_in_speeds_give_exact_positions() {
     let wave = Schedule::sine(1.0, 200.0 * PI, -0.5 * PI).unwrap();
     let speed = Schedule::combined(Operation::Sum, Schedule::constant(1.0).unwrap(), wave).unwrap();
     for entry in INTEGRATORS {
@@ -105,7 +105,7 @@ fn built_in_speeds_lead_to_exact_places() {
 }
 
 #[test]
-fn functions_that_steps_do_not_sample_are_told_once() {
+fn functions_unresolved_by_steps_are_reported_once() {
     let peak = |at: f64| move |t: f64| (-((t - at) / 0.01).powi(2)).exp();
     let jump = |t: f64| f64::from(u8::from(t < 0.537));
     let wave = |t: f64| 1.0 - (200.0 * PI * t).cos();
@@ -144,7 +144,7 @@ fn functions_that_steps_do_not_sample_are_told_once() {
 }
 
 #[test]
-fn what_an_undone_step_has_missed_is_forgotten() {
+fn warnings_of_undone_steps_are_removed() {
     let jump = |t: f64| f64::from(u8::from(t < 0.537));
     let mut simulation = simulate(pushed(function(jump)), Method::EnergyMomentum, DT, 0.5);
     simulation.enable_snapshots(1 << 20);

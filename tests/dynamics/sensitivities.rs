@@ -199,7 +199,7 @@ fn derivatives_of_all_scenes_are_those_of_exact_runs() {
 }
 
 #[test]
-fn a_derivative_costs_no_factorisation_and_a_few_solves_a_step() {
+fn derivative_needs_no_factorisation_and_few_solves_per_step() {
     let mesh = Mesh::bspline(14, 3, 2).unwrap();
     let scene = scenes::spaghetti(&mesh, 1e4);
     let of = variation("EI", 1e-5, |by| scaled(&scene, 0, by));
@@ -214,7 +214,7 @@ fn a_derivative_costs_no_factorisation_and_a_few_solves_a_step() {
 }
 
 #[test]
-fn what_cannot_be_right_is_refused_with_a_reason() {
+fn impossible_derivatives_are_rejected_with_a_reason() {
     let plain = oscillator(9.0, 1.0, 0.1);
     let of = || vec![variation("k", 1e-4, |by| oscillator(9.0 + by, 1.0, 0.1))];
     let refused = |scene: Scene, method: Method, dt: StepSize, of: Vec<Variation>| {
@@ -251,7 +251,7 @@ fn what_cannot_be_right_is_refused_with_a_reason() {
 }
 
 #[test]
-fn histories_beside_a_run_have_its_rows() {
+fn histories_of_perturbed_runs_have_the_rows_of_the_run() {
     let of = vec![variation("k", 1e-4, |by| oscillator(9.0 + by, 1.0, 0.1))];
     let scene = oscillator(9.0, 1.0, 0.1);
     let mut simulation =
@@ -267,7 +267,7 @@ fn histories_beside_a_run_have_its_rows() {
 
 /// The kinetic energy jumps to `(I + m r²)/2` at the impulse of a drive. Its derivative with respect to `r` is `m r`.
 #[test]
-fn what_a_drive_strikes_is_struck_beside_the_run_too() {
+fn impulses_of_drives_act_in_perturbed_runs() {
     let scene = |by: f64| {
         let motion = PrescribedMotion::Rate(Schedule::pulse(0.5, 9.0).unwrap());
         swung_at(1.0 + by, motion)

@@ -59,7 +59,7 @@ fn reading_changes_no_bit_of_the_motion() {
 }
 
 #[test]
-fn energies_of_all_bodies_are_that_of_the_scene() {
+fn energies_of_bodies_sum_to_that_of_the_scene() {
     for scene in scenes::all(&smooth(5)).into_iter().chain(body_scenes::all(&smooth(5))) {
         let name = scene.name.clone();
         let bodies = scene.beams.len() + scene.particles.len() + scene.rigid_bodies.len();
@@ -134,7 +134,7 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
 
 /// Section forces at the ends of beams, from strains, equal the reactions of joints, from inertia and loads.
 #[test]
-fn joints_give_what_sections_transmit() {
+fn joint_forces_equal_section_forces() {
     let errors = [8, 16, 32].map(|spans| {
         let mut worst = [0.0_f64; 2];
         let mut linkage = scenes::four_bar_linkage(&smooth(spans));
@@ -163,7 +163,7 @@ fn joints_give_what_sections_transmit() {
 }
 
 #[test]
-fn a_clamp_gives_the_moment_that_the_section_transmits() {
+fn clamp_moment_equals_section_moment() {
     let mesh = smooth(16);
     let mut scene = scenes::cantilever(&mesh, scenes::spaghetti_section(1e4, 100.0));
     scene.gravity = at(0.0, -0.1);
@@ -181,7 +181,7 @@ fn a_clamp_gives_the_moment_that_the_section_transmits() {
 
 /// Rod that swings about its end under gravity, compared with the closed forms of the axial and transverse reactions.
 #[test]
-fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
+fn hinge_force_of_a_pendulum_equals_that_of_a_rigid_rod() {
     let (length, g) = (1.0, 9.81);
     let section = Section {
         axial_stiffness: 1e7,
@@ -222,7 +222,7 @@ fn a_pendulum_pulls_at_its_hinge_as_a_rigid_rod_does() {
 
 /// Second differences of the arc length of a bead equal its acceleration by the contact force alone.
 #[test]
-fn a_bead_accelerates_as_its_contact_force_says() {
+fn bead_acceleration_agrees_with_its_contact_force() {
     let errors = [0.01, 0.005, 0.0025].map(|dt| {
         let scene = sliding_scenes::bead_on_an_arc(&smooth(8), SlidingRule::Conserving);
         let bead = scene.sliders[0].slave;
@@ -263,7 +263,7 @@ fn recorded(scene: &mut Scene, quantity: &str) -> Vec<String> {
 }
 
 #[test]
-fn powers_add_up_to_the_works_of_drives_and_loads() {
+fn powers_integrate_to_the_works_of_drives_and_loads() {
     for entry in INTEGRATORS {
         let mut scene = scenes::driven(&smooth(5));
         let names = recorded(&mut scene, ".power");
@@ -376,7 +376,7 @@ fn every_station_of_a_beam_has_the_same_quantities() {
 }
 
 #[test]
-fn sensors_are_stored_by_their_names_and_go_back_with_the_run() {
+fn sensors_are_stored_by_name_and_rewound_with_the_run() {
     let mut bead = sliding_scenes::bead_on_an_arc(&smooth(4), SlidingRule::Conserving);
     recorded(&mut bead, ".arc_length");
     let mut driven = scenes::driven(&smooth(4));
@@ -410,7 +410,7 @@ fn goes_back_and_on(scene: Scene) {
 }
 
 #[test]
-fn a_quantity_that_there_is_not_is_refused_with_what_there_is() {
+fn unknown_quantity_is_rejected_with_a_list_of_quantities() {
     let mut scene = scenes::curved_pendulum(&smooth(4));
     let length = scene.beams[0].axis.length();
     for (name, message) in [

@@ -50,7 +50,7 @@ fn place(simulation: &Simulation) -> f64 {
 
 /// `ẍ + c ẋ + k x = 0` and `ẍ + c ẋ = -3`, both with x(0) = 1 and a start velocity. The motions pass the anchor three times and once.
 #[test]
-fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method() {
+fn damper_through_its_anchor_converges_at_the_order_of_the_method() {
     let end = 4.0;
     let central = SpringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 };
     let half = 0.5 * DAMPING;
@@ -82,7 +82,7 @@ fn a_damper_that_passes_through_its_anchor_is_met_with_the_order_of_the_method()
 
 /// Independent of the minimum distance and of the damping coefficient.
 #[test]
-fn a_damper_that_nearly_passes_through_its_anchor_keeps_the_ledger() {
+fn damper_passing_near_its_anchor_keeps_the_energy_balance() {
     let mut random = Random(17);
     for (damping, velocity) in [(0.5, 3.0), (20.0, 40.0), (1e6, 1.0), (1e12, 1.0)] {
         for law in [None, Some(SpringLaw::Linear { stiffness: STIFFNESS, natural: 0.0 })] {
@@ -127,7 +127,7 @@ fn driven_by_little(stiffness: f64, amplitude: f64) -> Scene {
 
 /// The work of a drive on a spring is complete in the energy balance, for amplitudes from 1e-2 to 1e-10 of the length of the spring.
 #[test]
-fn a_spring_whose_end_is_moved_by_little_of_its_length_keeps_the_ledger() {
+fn spring_with_small_displacement_keeps_the_energy_balance() {
     for stiffness in [1e-6, 1.0, 1e12] {
         for amplitude in [1e-2, 1e-6, 1e-10] {
             let scene = driven_by_little(stiffness, amplitude);

@@ -49,7 +49,7 @@ fn damped(a: f64, (m, c, k): (f64, f64, f64), t: f64) -> f64 {
 }
 
 #[test]
-fn a_damped_oscillator_is_met_with_the_order_of_the_method() {
+fn damped_oscillator_converges_at_the_order_of_the_method() {
     let (k, c, end) = (18.0, 0.9, 5.0);
     for entry in INTEGRATORS {
         let errors: Vec<f64> = [0.05, 0.025, 0.0125]
@@ -101,7 +101,7 @@ fn turned((u, v): (f64, f64), stiffness: f64) -> [f64; 2] {
 }
 
 #[test]
-fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
+fn rotating_damper_converges_at_the_order_of_the_method() {
     let starts = [((0.0, 1.0), None), ((0.7, 1.0), None), ((0.7, 1.0), Some(20.0))];
     for entry in INTEGRATORS {
         for (start, stiffness) in starts {
@@ -125,7 +125,7 @@ fn a_damper_that_turns_is_met_with_the_order_of_the_method() {
 }
 
 #[test]
-fn springs_that_can_do_nothing_are_refused() {
+fn springs_without_effect_are_rejected() {
     let mut scene = Scene::new("idle");
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let axis = scenes::line(at(0.0, 0.0), at(2.0, 0.0));
@@ -157,7 +157,7 @@ fn springs_that_can_do_nothing_are_refused() {
 }
 
 #[test]
-fn what_dampers_take_is_in_the_ledger_and_grows() {
+fn energy_balance_includes_increasing_dissipation_of_dampers() {
     for entry in INTEGRATORS {
         let simulation = simulate(oscillator(18.0, 0.9, 0.3), entry.method, 0.11, 20.0);
         let history = simulation.history();
@@ -195,7 +195,7 @@ fn braced(stiffness: f64, damping: f64) -> Scene {
 }
 
 #[test]
-fn springs_and_dampers_of_any_stiffness_keep_the_ledger_in_as_many_iterations() {
+fn springs_and_dampers_of_any_stiffness_keep_the_energy_balance_without_more_iterations() {
     // EA = 1e4, so the stiffness of the springs is 1e-6 to 1e12 of it.
     for stiffness in [1e-2, 1e4, 1e10, 1e16] {
         for damping in [0.0, 1.0, 1e6] {
@@ -225,7 +225,7 @@ fn on_a_stiff_spring() -> Scene {
 }
 
 #[test]
-fn a_stiff_spring_is_a_rigid_rod() {
+fn stiff_spring_acts_as_a_rigid_rod() {
     // A pendulum released from the height of its hinge has the period 4 K(1/√2) √(L/g).
     let period = 4.0 * 1.854_074_677_301_372 / 9.81_f64.sqrt();
     let simulation = simulate(on_a_stiff_spring(), Method::EnergyMomentum, 1e-3, period);
@@ -235,7 +235,7 @@ fn a_stiff_spring_is_a_rigid_rod() {
 }
 
 #[test]
-fn a_tendon_pulls_alike_along_its_way() {
+fn tendon_force_is_constant_along_its_path() {
     // Atwood machine with massless pulleys: masses of 3 and 1 on one rope over two points of the ground.
     let mut scene = Scene::new("Atwood");
     let mut hang = |name: &str, x: f64, mass: f64| {
@@ -288,7 +288,7 @@ fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
 }
 
 #[test]
-fn a_bar_on_a_torsion_spring_swings_with_its_frequency_far_beyond_a_turn() {
+fn bar_on_a_torsion_spring_keeps_its_frequency_beyond_a_full_turn() {
     // The unstrained angle is one and a half turns away, and the motion is still that of a linear oscillator. The inertia of the bar is m L²/3 + rho_I.
     let (k, goal) = (4.0, 1.5 * TAU);
     let inertia = 1.0 / 3.0 + 1e-6;
@@ -304,7 +304,7 @@ fn a_bar_on_a_torsion_spring_swings_with_its_frequency_far_beyond_a_turn() {
 }
 
 #[test]
-fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
+fn only_energy_decaying_steps_dissipate_energy_of_stiff_springs() {
     for entry in INTEGRATORS {
         let simulation = simulate(oscillator(1e6, 0.0, 0.01), entry.method, 0.01, 1.0);
         let energies: Vec<f64> = crate::common::energies(simulation.history());
@@ -318,7 +318,7 @@ fn energy_decaying_steps_take_energy_from_stiff_springs_and_no_other_does() {
 }
 
 #[test]
-fn a_hardening_spring_given_by_a_function_swings_as_the_integral_says() {
+fn hardening_spring_given_by_a_function_has_the_period_of_the_integral() {
     // m ẍ = -(k x + b x³) from rest at a: T = 4 ∫ dx/√(2/m (U(a) - U(x))), by x = a sin φ.
     let (k, b, a, mass) = (18.0, 40.0, 0.6, 2.0);
     let law = SpringLaw::sampled((-0.8, 0.8), |e: f64| Ok::<f64, ()>(k * e + b * e * e * e));

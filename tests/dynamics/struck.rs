@@ -72,7 +72,7 @@ fn y(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn bounces_on_a_bumper_of_any_stiffness_come_in_time() {
+fn bounces_on_a_bumper_of_any_stiffness_have_the_right_time() {
     for stiffness in [1e3, 1e6, 1e8, 1e10, 1e12, 1e16] {
         let (mut worst, mut steps, mut most) = (0.0_f64, 0, 0);
         for number in 0..20 {
@@ -92,7 +92,7 @@ fn bounces_on_a_bumper_of_any_stiffness_come_in_time() {
 }
 
 #[test]
-fn every_method_meets_a_stiff_bumper_in_time() {
+fn bounce_on_a_stiff_bumper_has_the_right_time_with_every_method() {
     for entry in INTEGRATORS {
         for stiffness in [1e6, 1e12] {
             let run = simulate(drop(stiffness, 0.36), entry.method, adaptive(1e-3), 1.0);
@@ -111,7 +111,7 @@ fn every_method_meets_a_stiff_bumper_in_time() {
 }
 
 #[test]
-fn a_rope_that_is_jerked_taut_throws_back() {
+fn taut_rope_reverses_the_velocity() {
     for stiffness in [1e8, 1e10, 1e11, 1e12] {
         let mut scene = drop(1.0, 0.5);
         scene.elements.pop();
@@ -137,7 +137,7 @@ fn oscillator(place: Vec2) -> Scene {
 }
 
 #[test]
-fn a_scene_takes_the_same_steps_wherever_it_is() {
+fn steps_do_not_depend_on_the_position_of_the_scene() {
     let exact = 1.0 + 0.2 * 30_f64.cos();
     let found = |scene: Scene, place: f64| {
         let run = simulate(scene, Method::EnergyMomentum, adaptive(1e-4), 6.0);
@@ -158,7 +158,7 @@ fn a_scene_takes_the_same_steps_wherever_it_is() {
 }
 
 #[test]
-fn a_lone_particle_has_no_place_that_counts() {
+fn steps_of_a_single_particle_do_not_depend_on_its_position() {
     let steps = |place: f64| {
         let mut scene = Scene::new("throw");
         let mass = particle(&mut scene, at(place, place), 1.0);
@@ -174,7 +174,7 @@ fn a_lone_particle_has_no_place_that_counts() {
 }
 
 #[test]
-fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
+fn lengths_and_displacements_due_to_rounding_do_not_reduce_steps() {
     // Mass on a spring whose initial length is a rounding error.
     let mut scene = Scene::new("rounded");
     let mass = particle(&mut scene, at(0.1 + 0.2, 0.0), 1.0);
@@ -195,7 +195,7 @@ fn sizes_that_are_rounding_and_ways_that_are_none_ask_for_no_small_steps() {
 }
 
 #[test]
-fn what_a_damper_gives_back_is_told_of_the_method_that_leads_back_in_time() {
+fn energy_returned_by_dampers_is_reported_for_the_time_reversing_method() {
     let slowed = |method, dt: f64| {
         let mut scene = Scene::new("slowed");
         let mass = particle(&mut scene, at(0.0, 0.0), 1.0);
@@ -246,7 +246,7 @@ fn resting(height: f64, directions: [f64; 2]) -> Scene {
 }
 
 #[test]
-fn bodies_at_rest_have_no_drift_and_nothing_is_told() {
+fn bodies_at_rest_have_no_drift_and_no_notes() {
     for height in [0.0, -1.0, 5.0] {
         for directions in [[-1.0, 1.0], [1.0, -1.0]] {
             let run = simulate(resting(height, directions), Method::EnergyMomentum, 0.01, 1.0);
@@ -270,7 +270,7 @@ fn message(
 }
 
 #[test]
-fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
+fn short_bounce_is_reported_with_its_steps_and_a_remedy() {
     let fixed = message(drop(1e12, 0.36), Method::EnergyMomentum, 1e-3, 0.5);
     assert!(
         fixed[0].contains("steps (dt = 0.001)") && fixed[0].contains("use dt below 0.0002"),
@@ -282,7 +282,7 @@ fn a_short_bounce_is_told_with_its_own_steps_and_what_makes_them_shorter() {
 }
 
 #[test]
-fn a_method_that_damps_is_proposed_where_it_is_not_in_use_and_would() {
+fn dissipative_method_is_suggested_where_it_would_help() {
     let stiff = |law| {
         let mut scene = oscillator(Vec2::zeros());
         scene.elements.pop();

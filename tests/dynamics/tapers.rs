@@ -79,7 +79,7 @@ fn momenta_at_the_start_are_integrals_of_the_taper() {
 }
 
 #[test]
-fn a_taper_in_flight_keeps_everything() {
+fn flying_tapered_beam_conserves_all_invariants() {
     let variation = SectionVariation::Numbers(vec![
         (0.0, section(3.0)),
         (0.3, section(1.0)),
@@ -96,7 +96,7 @@ fn a_taper_in_flight_keeps_everything() {
 }
 
 #[test]
-fn a_taper_falls_freely_without_a_strain() {
+fn falling_tapered_beam_has_no_strain() {
     let variation = SectionVariation::Numbers(vec![(0.0, section(3.0)), (1.0, section(0.2))]);
     let mut scene = thrown(&Mesh::bspline(6, 3, 2).unwrap(), variation);
     scene.beams[0].motion = StartMotion { velocity: at(1.0, 0.0), ..StartMotion::default() };

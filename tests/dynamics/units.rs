@@ -255,7 +255,7 @@ fn gliding(is_held: bool, damping: f64, beads: &[(f64, f64)]) -> Scene {
 }
 
 #[test]
-fn beads_glide_in_any_unit() {
+fn beads_slide_alike_in_any_unit() {
     let powers = |exponents: &[i32], units: fn(f64) -> Units| {
         exponents.iter().map(|exponent| units(10.0_f64.powi(*exponent))).collect::<Vec<_>>()
     };

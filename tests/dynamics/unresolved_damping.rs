@@ -69,7 +69,7 @@ fn off(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn a_rod_that_relaxes_within_a_step_transmits_what_a_rigid_one_does() {
+fn rod_that_relaxes_within_a_step_transmits_the_forces_of_a_rigid_rod() {
     for method in INTEGRATORS.iter().map(|entry| entry.method) {
         for beside in [false, true] {
             let mut simulation = simulate(rod(beside), method, 0.01, 0.1);
@@ -98,7 +98,7 @@ fn struck(beside: bool) -> Scene {
 }
 
 #[test]
-fn a_beam_is_told_whose_own_motion_is_not_followed_whatever_moves_beside_it() {
+fn beam_with_unresolved_motion_is_reported_by_name() {
     let message = |beside: bool, dt: f64| {
         simulate(struck(beside), Method::EnergyMomentum, dt, 0.3).warnings()
     };

@@ -40,7 +40,7 @@ fn state(simulation: &Simulation) -> String {
 }
 
 #[test]
-fn a_feature_changes_what_it_must_and_nothing_else() {
+fn features_change_only_the_related_results() {
     let plain = simulate(spinning(), Method::default(), DT, END);
     for feature in FEATURES {
         let mut scene = spinning();
@@ -64,7 +64,7 @@ fn a_feature_changes_what_it_must_and_nothing_else() {
 }
 
 #[test]
-fn what_is_declared_but_is_nothing_leaves_every_bit_as_it_is() {
+fn declarations_without_effect_change_no_bit() {
     for entry in INTEGRATORS {
         let plain = simulate(spinning(), entry.method, DT, END);
         let mut scene = spinning();

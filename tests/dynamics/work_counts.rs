@@ -139,14 +139,14 @@ fn line(
 }
 
 #[test]
-fn the_work_of_the_benchmarks_is_what_it_was() {
+fn work_counts_of_benchmarks_equal_recorded_counts() {
     let whole = |(name, scene, method, dt)| line((name, scene, method, dt, 7.5), |_| String::new());
     let found: String = benchmarks().into_iter().map(whole).collect();
     assert_eq!(found, EXPECTED, "\n{found}");
 }
 
 #[test]
-fn the_work_of_sliders_is_what_it_was() {
+fn work_counts_of_sliders_equal_recorded_counts() {
     let tries = |work: &WorkCounts| format!(" tries {}", work.arrival_tries);
     let found: String = sliding_benchmarks().into_iter().map(|row| line(row, tries)).collect();
     assert_eq!(found, EXPECTED_OF_SLIDERS, "\n{found}");

@@ -125,7 +125,7 @@ fn is_same(written: &str, said: &str) -> bool {
 }
 
 #[test]
-fn the_sessions_of_the_documents_say_what_is_written() {
+fn sessions_of_the_documents_have_the_written_replies() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;
     for document in ["docs/guide.md", "README.md"] {

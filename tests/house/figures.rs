@@ -93,7 +93,7 @@ fn each_table_of_the_studies_has_its_command_above_it() {
 }
 
 #[test]
-fn what_the_documents_run_is_there() {
+fn files_that_the_documents_run_exist() {
     let mut wrong = Vec::new();
     let mut count = 0;
     for document in DOCUMENTS {

@@ -196,7 +196,7 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
 }
 
 #[test]
-fn layers_use_only_those_to_their_right() {
+fn layers_use_only_layers_to_their_right() {
     let found = trespasses(&sources());
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
@@ -265,7 +265,7 @@ fn exports(text: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn rooms_of_the_model_use_one_another_one_way() {
+fn submodules_of_the_model_have_no_cyclic_dependencies() {
     let files = sources();
     let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("system/mod.rs")).unwrap();
     let exports = exports(handed_on);
@@ -290,7 +290,7 @@ fn rooms_of_the_model_use_one_another_one_way() {
 }
 
 #[test]
-fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
+fn model_and_simulation_have_at_most_ten_private_fields() {
     for (file, name) in [("system/mechanism.rs", "System"), ("simulation/run.rs", "Simulation")] {
         let path = crates()[0].join(file);
         let text = fs::read_to_string(path).unwrap();
@@ -304,7 +304,7 @@ fn a_model_and_a_simulation_are_at_most_ten_private_parts() {
 }
 
 #[test]
-fn a_trespass_is_found() {
+fn forbidden_dependency_is_detected() {
     let beams = crates()[0].join("beams/mesh.rs");
     let text = "use crate::geometry::Vec2;\n// crate::system is fine here\nuse crate::integrators::Stage;\n";
     let found = trespasses(&[(beams, text.to_owned())]);
@@ -315,7 +315,7 @@ fn a_trespass_is_found() {
 }
 
 #[test]
-fn files_of_folders_hold_a_sentence_and_names() {
+fn mod_files_contain_no_code() {
     const CODE: [&str; 6] = ["fn ", "struct ", "enum ", "trait ", "impl ", "macro_rules"];
     let is_code = |line: &&str| {
         let item = line.trim_start_matches("pub ").trim_start_matches("const ");
@@ -331,7 +331,7 @@ fn files_of_folders_hold_a_sentence_and_names() {
 }
 
 #[test]
-fn names_in_lists_of_lists_are_found() {
+fn names_in_nested_use_lists_are_found() {
     let text = "use crate::{\n    system::{System, errors::finite},\n    beams::Mesh,\n};\nlet a = mycrate::x;\n";
     assert_eq!(named_after(text, "crate::"), [(1, "system".to_owned()), (1, "beams".to_owned())]);
 }
@@ -354,7 +354,7 @@ fn intrusions(files: &[(PathBuf, String)]) -> Vec<String> {
 }
 
 #[test]
-fn joints_and_loads_know_nothing_of_a_beam_but_its_stations() {
+fn joints_and_loads_use_only_the_stations_of_a_beam() {
     let found = intrusions(&sources());
     assert!(found.is_empty(), "{}", found.join("\n"));
     let joint = crates()[0].join("joints/joint.rs");

@@ -68,7 +68,7 @@ fn speaks(text: &str) -> bool {
 }
 
 #[test]
-fn no_message_below_the_script_is_written_in_the_language() {
+fn messages_below_the_script_layer_contain_no_script_syntax() {
     let mut count = 0;
     let mut found = Vec::new();
     for (path, code) in sources() {
@@ -89,7 +89,7 @@ fn no_message_below_the_script_is_written_in_the_language() {
 }
 
 #[test]
-fn what_is_written_in_the_language_is_found() {
+fn script_syntax_in_messages_is_detected() {
     let code = "// \"sim.a\"\nlet c = '\"';\nf(\"a \\\" b\", \"in the\nscene\");\n\"use sim.step()\"\n#[cfg(test)]\n\"sim.b\"";
     let found = texts(code);
     let lines: Vec<usize> = found.iter().map(|(line, _)| *line).collect();

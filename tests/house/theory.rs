@@ -92,7 +92,7 @@ fn has_item(all: &[(PathBuf, String)], module: &str, name: &str) -> bool {
 }
 
 #[test]
-fn names_of_the_theory_are_in_the_code() {
+fn names_in_the_theory_document_exist_in_the_code() {
     let all = sources();
     let mut missing = Vec::new();
     let mut count = 0;
@@ -122,7 +122,7 @@ fn names_of_the_theory_are_in_the_code() {
 }
 
 #[test]
-fn files_of_the_theory_are_there() {
+fn files_named_in_the_theory_document_exist() {
     let mut missing = Vec::new();
     let mut folder = String::new();
     for word in theory().split(|c: char| c.is_whitespace() || "`();".contains(c)) {
@@ -260,7 +260,7 @@ const NUMBERS: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn tolerances_of_the_theory_are_those_of_the_code() {
+fn tolerances_in_the_theory_document_equal_those_of_the_code() {
     let theory = theory().split_whitespace().collect::<Vec<_>>().join(" ");
     let mut wrong = Vec::new();
     for (said, file, code) in NUMBERS {

@@ -56,7 +56,7 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
 }
 
 #[test]
-fn wings_of_the_script_use_those_to_their_left() {
+fn script_submodules_use_only_submodules_to_their_left() {
     let files = sources();
     assert!(files.iter().filter(|(path, _)| wing(path).is_some()).count() > 100);
     let found = trespasses(&files);
@@ -77,7 +77,7 @@ fn wings_of_the_script_use_those_to_their_left() {
 }
 
 #[test]
-fn no_file_lies_in_front_of_the_wings() {
+fn script_folder_contains_only_submodules() {
     let entries = fs::read_dir(script()).unwrap().map(|entry| entry.unwrap().path());
     let files: Vec<_> = entries.filter(|path| path.is_file()).collect();
     assert_eq!(files, [script().join("mod.rs")]);

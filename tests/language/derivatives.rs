@@ -18,7 +18,7 @@ fn message(text: &str) -> String {
 }
 
 #[test]
-fn a_function_that_decides_by_a_parameter_is_told_of_once_with_its_place() {
+fn branch_on_a_parameter_is_reported_once_with_its_position() {
     let scene = "let scene = new_scene(\"driven\");
 let a = scene.parameter(\"a\", 0.55);
 let bead = scene.particle([0, 0], 1, #{ name: \"bead\" });

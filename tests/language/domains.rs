@@ -209,13 +209,13 @@ fn wrong_options_are_underlined() {
 }
 
 #[test]
-fn options_in_a_variable_are_blamed_on_the_call() {
+fn errors_of_options_in_a_variable_are_located_at_the_call() {
     let (column, message, _) = said("let o = #{ stiffnes: 2 }; spring(o);");
     assert_eq!((column, message.as_str()), (27, "spring: unknown option 'stiffnes'"));
 }
 
 #[test]
-fn wrong_calls_say_how_it_is_written() {
+fn errors_of_wrong_calls_show_the_signature() {
     let s = "let s = spring(#{ stiffness: 2 }); ";
     let (_, message, hint) = said(&format!("{s}s.pull();"));
     assert_eq!(message, "pull takes 1 to 2 arguments, got 0");
@@ -241,7 +241,7 @@ fn wrong_calls_say_how_it_is_written() {
 }
 
 #[test]
-fn errors_of_bodies_carry_hints_and_those_of_layers_their_words() {
+fn errors_of_bindings_have_hints_and_errors_of_lower_layers_keep_their_messages() {
     let (_, message, hint) = said("spring(#{ stiffness: 2 }).pull(-100);");
     assert_eq!(
         (message.as_str(), hint.as_str()),
@@ -264,7 +264,7 @@ fn callbacks_keep_their_own_errors_and_positions() {
 }
 
 #[test]
-fn our_own_mistakes_are_owned() {
+fn internal_errors_are_reported_as_bugs() {
     for script in ["broken();", "forgotten();"] {
         let error = error(script);
         assert!(error.message.starts_with("internal error of withy"), "{}", error.message);
@@ -289,7 +289,7 @@ fn files_stay_in_the_output_folder() {
 }
 
 #[test]
-fn signatures_show_what_may_be_left_out() {
+fn signatures_show_optional_parameters() {
     let signature =
         |name: &str| TABLE.rows.iter().find(|row| row.name == name).map(FunctionBinding::signature);
     assert_eq!(signature("pull").as_deref(), Some("spring.pull(force, [times])"));

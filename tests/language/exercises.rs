@@ -49,7 +49,7 @@ fn expected<'a>(attempt: &'a str, who: &str) -> &'a str {
 }
 
 #[test]
-fn every_start_file_is_told_what_is_missing() {
+fn every_start_file_reports_its_missing_part() {
     for exercise in EXERCISES {
         let (said, attempt) = (messages(exercise, exercise.start), attempt(exercise));
         let phrase = expected(&attempt, "// Finding for the start file:");
@@ -62,7 +62,7 @@ const LONG_STEPS: [&str; 3] =
     ["integrators/keep_the_energy", "integrators/order", "sliding/corner"];
 
 #[test]
-fn every_solution_passes_and_its_steps_resolve_what_happens() {
+fn every_solution_passes_with_resolved_steps() {
     for exercise in EXERCISES {
         assert_eq!(messages(exercise, exercise.solution), "", "{}", exercise.id());
         let (notes, out) = (Notepad::default(), tempfile::tempdir().unwrap());
@@ -152,7 +152,7 @@ const OTHER_ANSWERS: &[(&str, &str, &str)] = &[
 ];
 
 #[test]
-fn other_right_answers_pass_as_well() {
+fn alternative_solutions_pass() {
     for (name, ours, theirs) in OTHER_ANSWERS {
         let exercise = find(name).unwrap();
         assert!(exercise.solution.contains(ours), "{name}: {ours}");
@@ -180,7 +180,7 @@ fn scripts(folder: &Path) -> BTreeSet<String> {
 }
 
 #[test]
-fn the_trees_mirror_each_other_and_hold_no_unlisted_file() {
+fn exercise_folders_match_and_contain_no_unlisted_file() {
     let listed: BTreeSet<_> = EXERCISES.iter().map(Exercise::file).collect();
     let under = |tree: &str| listed.iter().map(|file| format!("{tree}{file}")).collect::<Vec<_>>();
     let expected: BTreeSet<_> = ["", "solutions/", "judges/"].into_iter().flat_map(under).collect();
@@ -189,7 +189,7 @@ fn the_trees_mirror_each_other_and_hold_no_unlisted_file() {
 }
 
 #[test]
-fn every_exercise_has_a_title_hints_and_something_to_look_at() {
+fn every_exercise_has_a_title_hints_required_variables_and_a_marked_gap() {
     for exercise in EXERCISES {
         let (id, judge) = (exercise.id(), exercise.judge());
         assert!(exercise.title().len() > 10, "{id}");
@@ -308,7 +308,7 @@ const NO_FORMULAS: &[&str] = &[
 ];
 
 #[test]
-fn a_function_that_is_no_formula_does_not_pass() {
+fn function_that_is_not_a_formula_does_not_pass() {
     for exercise in EXERCISES {
         let needs = exercise.judge().needs;
         for need in needs.iter().filter(|need| need.of == "function") {
@@ -336,7 +336,7 @@ fn a_function_that_is_no_formula_does_not_pass() {
 
 /// Names of the attempt that the judge uses as well do no harm.
 #[test]
-fn names_of_attempts_and_judges_do_not_collide() {
+fn names_of_attempts_and_judges_do_not_conflict() {
     let names = "let percent = \"x\"; let how = (); let change = 3; fn drift(history, what) { 1 }";
     let exercise = find("keep_the_energy").unwrap();
     assert_eq!(messages(exercise, &format!("{names}\n{}", exercise.solution)), "");
@@ -351,7 +351,7 @@ fn constants_and_captured_variables_are_seen() {
 }
 
 #[test]
-fn broken_attempts_are_shown_where_they_are_broken() {
+fn errors_of_broken_attempts_are_located() {
     let exercise = find("knot_vector").unwrap();
     let cases = [
         ("let k = knots(4;", "splines/knot_vector.rhai:1:16"),
@@ -370,7 +370,7 @@ fn broken_attempts_are_shown_where_they_are_broken() {
 }
 
 #[test]
-fn an_attempt_without_an_end_is_stopped() {
+fn endless_attempt_is_stopped() {
     let limits = Limits { time: Some(Duration::from_millis(200)), ..Limits::default() };
     let exercise = find("knot_vector").unwrap();
     let endless = "let k = knots(4); while true { k = k; }";
@@ -381,7 +381,7 @@ fn an_attempt_without_an_end_is_stopped() {
 }
 
 #[test]
-fn a_judge_that_cannot_go_on_does_not_pass() {
+fn attempt_does_not_pass_if_its_judge_fails() {
     let exercise = find("corner").unwrap();
     let other = "\nlet other = new_scene(\"other\");\n\
         leg = other.beam(#{ axis: line([0, 0], [1, 0]), section: material });";

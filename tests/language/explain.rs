@@ -82,7 +82,7 @@ fn is_left_out(parts: &[SystemFeature], name: &str) -> bool {
 }
 
 #[test]
-fn a_free_beam_leaves_everything_else_out() {
+fn explanation_of_a_free_beam_omits_other_features() {
     let (scene, _) = rod();
     let parts = scene.explain().unwrap();
     for name in [
@@ -112,7 +112,7 @@ fn a_free_beam_leaves_everything_else_out() {
 }
 
 #[test]
-fn a_slider_has_a_border_and_a_support_has_reactions() {
+fn explanation_counts_contact_unknowns_and_fixed_motions() {
     let scene = with_bead();
     let (parts, mut model) = (scene.explain().unwrap(), System::assemble(&scene).unwrap());
     assert_eq!(model.constraint_shape().width, 5);
@@ -130,7 +130,7 @@ fn a_slider_has_a_border_and_a_support_has_reactions() {
 }
 
 #[test]
-fn tied_movements_are_one_unknown() {
+fn joined_degrees_of_freedom_are_one_unknown() {
     let (mut scene, end) = rod();
     let free = System::assemble(&scene).unwrap().unknowns();
     let arm = add_beam(&mut scene, "arm", Vec2::new(2.0, 0.0), Vec2::new(2.0, 1.0));
@@ -146,7 +146,7 @@ fn tied_movements_are_one_unknown() {
 }
 
 #[test]
-fn functions_of_scripts_are_called_as_often_as_is_said() {
+fn script_functions_are_called_as_often_as_explained() {
     for method in INTEGRATORS.iter().map(|entry| entry.method) {
         let (mut scene, station) = rod();
         let calls = Rc::new(Cell::new(0));
@@ -180,7 +180,7 @@ fn functions_of_scripts_are_called_as_often_as_is_said() {
 }
 
 #[test]
-fn many_beams_and_loads_are_told_of_together() {
+fn many_beams_and_loads_are_summarised() {
     let mut scene = Scene::new("many");
     for index in 0..20 {
         let y = f64::from(index);

@@ -130,7 +130,7 @@ fn saved(folder: &Path, name: &str) -> Simulation {
 }
 
 #[test]
-fn frames_have_what_the_solver_has_to_the_last_bit() {
+fn frames_equal_the_solver_values_bit_for_bit() {
     let (folder, message) = ran(
         "let sim = scene.start(#{ dt: 0.01 }); sim.run_to(0.5); sim.save(\"run.withy\"); write_vtk(sim, \"run.pvd\", #{ every: 0.1 });",
     );
@@ -183,7 +183,7 @@ fn frames_have_what_the_solver_has_to_the_last_bit() {
 }
 
 #[test]
-fn kept_states_and_the_run_made_again_give_the_same_bytes() {
+fn snapshots_and_repeated_run_give_the_same_bytes() {
     let run = |options: &str| {
         let start = format!("let sim = scene.start(#{{ dt: 0.01{options} }}); sim.run_to(0.3);");
         ran(&format!("{start} write_vtk(sim, \"a/run.pvd\", #{{ frames: 4 }});")).0
@@ -196,7 +196,7 @@ fn kept_states_and_the_run_made_again_give_the_same_bytes() {
 }
 
 #[test]
-fn the_end_of_a_free_beam_transmits_nothing_and_whole_turns_are_counted() {
+fn free_ends_have_no_section_forces_and_full_turns_are_counted() {
     let (folder, _) = ran(
         "let free = new_scene(\"free\");
          let wheel = free.beam(#{ axis: line([0, 0], [2, 0]), basis: bspline(6), section: s, spin: 20 });
@@ -221,7 +221,7 @@ fn the_end_of_a_free_beam_transmits_nothing_and_whole_turns_are_counted() {
 }
 
 #[test]
-fn a_run_that_cannot_be_made_again_has_its_shape_alone_and_says_so() {
+fn run_that_cannot_be_repeated_exports_only_its_shape_with_a_note() {
     let script = |options: &str| {
         format!(
             "let rest = scene.equilibrium(); let sim = rest.start(#{{ dt: 0.01 }}); sim.run_to(0.1);
@@ -278,7 +278,7 @@ fn arrays(bytes: &[u8]) -> HashMap<String, (String, Vec<f64>)> {
 }
 
 #[test]
-fn arrays_have_what_is_recorded() {
+fn arrays_contain_the_recorded_data() {
     let (folder, _) = ran(
         "let sim = scene.start(#{ dt: 0.01 }); sim.run_to(0.2); sim.save(\"run.withy\"); write_npz(sim, \"run.npz\");",
     );
@@ -304,7 +304,7 @@ fn arrays_have_what_is_recorded() {
 }
 
 #[test]
-fn tables_have_names_in_the_first_line_and_units_below_where_they_are_wanted() {
+fn tables_have_a_line_of_names_and_an_optional_line_of_units() {
     let (folder, _) = ran(
         "let sim = scene.start(#{ dt: 0.01 }); sim.run_to(0.2);
          write_csv(sim, \"plain.csv\"); write_csv(sim.history.after(0.1), \"units.csv\", #{ units: true });

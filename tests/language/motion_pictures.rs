@@ -26,7 +26,7 @@ plot_motion(sim, \"spin.svg\", #{{ {options} }});"
 }
 
 #[test]
-fn the_last_snapshot_is_the_present_whether_or_not_the_others_meet_it() {
+fn last_snapshot_shows_the_present_configuration() {
     // The times 0, 0.3, 0.6, 0.9 and 1 are as many as 0, 0.25, 0.5, 0.75 and 1.
     assert_eq!(knots("every: 0.3"), knots("every: 0.25"));
     assert_eq!(knots("every: 0.3, to: 1"), knots("every: 0.25"));

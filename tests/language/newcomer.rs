@@ -68,11 +68,11 @@ fn judge(file: &str, least: usize) {
 }
 
 #[test]
-fn first_steps_are_met_with_what_to_write() {
+fn errors_of_beginners_suggest_correct_code() {
     judge("first_steps", 25);
 }
 
 #[test]
-fn habits_of_other_languages_are_met_with_the_cure() {
+fn syntax_of_other_languages_gets_a_suggestion() {
     judge("habits", 50);
 }

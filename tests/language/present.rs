@@ -42,7 +42,7 @@ fn of_scene(expression: &str) -> String {
 }
 
 #[test]
-fn numbers_have_the_digits_that_people_mean() {
+fn numbers_are_shown_without_binary_rounding_errors() {
     let cases = [
         ("0.1 + 0.2", "0.3"),
         ("1e-17", "1e-17"),
@@ -58,7 +58,7 @@ fn numbers_have_the_digits_that_people_mean() {
 }
 
 #[test]
-fn everything_else_looks_like_what_it_is() {
+fn other_values_are_shown_in_plain_form() {
     let cases = [
         ("()", ""),
         ("true", "true"),
@@ -100,7 +100,7 @@ fn wide_collections_take_several_lines() {
 }
 
 #[test]
-fn values_that_hold_themselves_come_to_an_end() {
+fn values_that_contain_themselves_are_abbreviated() {
     let shown = |value: &Dynamic| present(&language(), value, WIDTH);
     let mut ring = Dynamic::from(vec![Dynamic::from(1_i64)]).into_shared();
     for _ in 0..3 {
@@ -132,7 +132,7 @@ fn a_number_alone_is_not_a_table() {
 }
 
 #[test]
-fn what_is_ours_shows_what_a_person_wants_to_know() {
+fn native_values_show_a_summary() {
     let cases: &[(&str, &[&str])] = &[
         ("scene", &["mass            3", "particles       bead", "gravity         (0, -10)"]),
         (
@@ -184,7 +184,7 @@ fn what_is_ours_shows_what_a_person_wants_to_know() {
 }
 
 #[test]
-fn a_long_detail_goes_on_below_itself() {
+fn long_detail_continues_on_the_next_line() {
     let narrow = shown_at(40, "energy_momentum()");
     let expected = "  source  Stander & Stein, Eng. Comput.\n          13 (1996) 60-85";
     assert!(narrow.ends_with(expected), "{narrow}");
@@ -199,7 +199,7 @@ fn details_call_no_function_of_the_script() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
     #[test]
-    fn no_line_is_wider_than_asked(numbers in prop::collection::vec(proptest::num::f64::ANY, 0..30), text in ".{0,60}", width in 20usize..60) {
+    fn no_line_exceeds_the_requested_width(numbers in prop::collection::vec(proptest::num::f64::ANY, 0..30), text in ".{0,60}", width in 20usize..60) {
         let array: rhai::Array = numbers.iter().map(|x| Dynamic::from(*x)).collect();
         let mut map = rhai::Map::new();
         map.insert("numbers".into(), array.clone().into());

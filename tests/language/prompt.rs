@@ -94,7 +94,7 @@ impl Clock for Ticks {
 }
 
 #[test]
-fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
+fn expression_is_plotted_over_all_states_without_changing_the_simulation() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 10");
     let path: Vec<String> = (0..=10)
@@ -121,7 +121,7 @@ fn an_expression_is_drawn_in_all_states_and_the_simulation_stays() {
 }
 
 #[test]
-fn the_history_is_in_each_state_what_it_was() {
+fn history_in_each_state_ends_at_that_state() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 4");
     let rows = prompt.ask(":plot sim.history.rows");
@@ -144,7 +144,7 @@ fn the_history_is_in_each_state_what_it_was() {
 }
 
 #[test]
-fn a_vector_makes_two_curves_and_commas_separate_more() {
+fn vector_gives_two_curves_and_commas_separate_expressions() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 3");
     let reply = prompt.ask(":plot energy, sim.position(rod.end), 2 * sim.t");
@@ -168,7 +168,7 @@ fn a_vector_makes_two_curves_and_commas_separate_more() {
 }
 
 #[test]
-fn arrays_are_drawn_as_they_are_without_any_simulation() {
+fn arrays_are_plotted_without_a_simulation() {
     let mut prompt = Prompt::new();
     let of = |prompt: &mut Prompt, text: &str| prompt.ask(&format!(":plot {text}"));
     let squares = of(&mut prompt, "[0, 1, 2, 3].map(|x| x ^ 2)");
@@ -188,7 +188,7 @@ fn arrays_are_drawn_as_they_are_without_any_simulation() {
 }
 
 #[test]
-fn a_terminal_gets_a_chart_and_the_words() {
+fn terminal_shows_a_chart_and_text() {
     let style =
         TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 12 };
     let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
@@ -214,7 +214,7 @@ fn a_terminal_gets_a_chart_and_the_words() {
 }
 
 #[test]
-fn what_probably_means_something_else_is_noted() {
+fn doubtful_expressions_get_a_note() {
     let mut prompt = Prompt::spinning();
     for (input, note) in [
         ("let n = 7 // 2\n;", "column 11: // begins a comment"),
@@ -242,7 +242,7 @@ fn what_probably_means_something_else_is_noted() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_refused_with_what_to_do() {
+fn values_that_cannot_be_plotted_are_rejected_with_a_suggestion() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 2");
     prompt.ask("let twin = scene.start(#{ dt: 0.2 }); sim.step(0);");
@@ -271,7 +271,7 @@ fn what_cannot_be_drawn_is_refused_with_what_to_do() {
 }
 
 #[test]
-fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
+fn column_is_preferred_to_a_variable_of_its_name_with_a_note() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 2; let energy = [1, 2, 3];".strip_prefix(":step 2; ").unwrap());
     let (reply, message) = prompt.ask_both(":plot energy");
@@ -283,7 +283,7 @@ fn a_column_is_preferred_to_a_variable_of_its_name_and_that_is_told() {
 }
 
 #[test]
-fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
+fn generated_input_is_not_quoted_and_a_single_state_is_no_curve() {
     let style =
         TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 50, height: 14 };
     let mut prompt = Prompt::with(MEGABYTE, ReplyTarget::Terminal(style));
@@ -315,7 +315,7 @@ fn what_a_command_has_written_is_not_quoted_and_one_state_is_no_curve() {
 }
 
 #[test]
-fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
+fn run_is_repeated_and_compared_if_states_were_dropped() {
     let mut prompt = Prompt::with(0, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask(":step 10");
@@ -343,7 +343,7 @@ fn where_states_are_forgotten_the_run_is_made_again_and_compared() {
 }
 
 #[test]
-fn functions_that_wait_for_a_time_are_called_by_the_simulation_alone() {
+fn scheduled_functions_are_called_only_by_the_simulation() {
     let mut prompt = Prompt::with(0, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask(
@@ -357,7 +357,7 @@ fn functions_that_wait_for_a_time_are_called_by_the_simulation_alone() {
 }
 
 #[test]
-fn many_states_are_thinned_out_and_that_is_told() {
+fn many_states_are_thinned_out_with_a_note() {
     let mut prompt = Prompt::with(100 * MEGABYTE, ReplyTarget::Pipe);
     prompt.ask(SPINNING);
     prompt.ask("sim.step(2500);");
@@ -367,7 +367,7 @@ fn many_states_are_thinned_out_and_that_is_told() {
 }
 
 #[test]
-fn an_interrupt_while_drawing_gives_the_simulation_back() {
+fn interrupt_while_plotting_restores_the_simulation() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 5");
     let flag = prompt.interrupt.clone();
@@ -389,7 +389,7 @@ fn an_interrupt_while_drawing_gives_the_simulation_back() {
 }
 
 #[test]
-fn a_pure_input_is_timed_until_the_figure_is_known() {
+fn input_without_side_effects_is_timed_until_the_median_is_accurate() {
     let mut prompt = Prompt::new();
     prompt.ask("let x = 1;");
     let (reply, message) = prompt.ask_both(":time { x += 1; x }");
@@ -403,7 +403,7 @@ fn a_pure_input_is_timed_until_the_figure_is_known() {
 }
 
 #[test]
-fn what_is_printed_is_printed_once() {
+fn output_of_a_timed_input_is_printed_once() {
     let mut prompt = Prompt::new();
     let reply = prompt.ask(":time print(\"seen\")");
     assert_eq!(reply.matches("seen").count(), 1, "{reply}");
@@ -412,7 +412,7 @@ fn what_is_printed_is_printed_once() {
 }
 
 #[test]
-fn what_has_effects_is_timed_once_and_that_is_told() {
+fn input_with_side_effects_is_timed_once_with_a_note() {
     let mut prompt = Prompt::spinning();
     prompt.ask("let n = 0; let count = || n += 1;");
     for (input, why) in [
@@ -433,7 +433,7 @@ fn what_has_effects_is_timed_once_and_that_is_told() {
 }
 
 #[test]
-fn a_run_of_its_own_is_timed_again_and_the_last_simulation_stays() {
+fn input_that_runs_its_own_simulation_is_timed_repeatedly() {
     let mut prompt = Prompt::spinning();
     let reply = prompt.ask(":time { let own = scene.start(#{ dt: 0.1 }); own.step(3); own.t }");
     assert!(reply.starts_with("0.3\n") && reply.contains("more: minimum"), "{reply}");
@@ -451,7 +451,7 @@ fn checks_that_fail_are_counted_once() {
 }
 
 #[test]
-fn a_repetition_that_fails_is_told() {
+fn failed_repetition_is_reported() {
     let mut prompt = Prompt::new();
     prompt.ask("let a = [1];");
     let (reply, _) = prompt.ask_both(":time if a.len() == 0 { throw \"gone\" } else { a.pop() }");
@@ -586,7 +586,7 @@ fn help_goes_through_the_pager_and_short_help_is_printed() {
 }
 
 #[test]
-fn a_simulation_that_was_made_to_be_timed_is_not_the_last_one() {
+fn simulation_created_for_timing_is_not_the_last_used() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":time { let own = scene.start(#{ dt: 0.01 }); own.run_to(1); }");
     assert_eq!(prompt.ask("latest_simulation().t == sim.t"), "true\n");

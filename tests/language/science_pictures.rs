@@ -76,7 +76,7 @@ fn gaps_are_left_and_limits_kept() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_refused_with_what_to_do() {
+fn incompatible_arguments_are_rejected_with_a_suggestion() {
     for (script, messages) in [
         ("plot([1, 2], [1], \"a.svg\");", "x has 2 numbers, but y has 1"),
         ("plot([[1], [2]], [[1], [2], [3]], \"a.svg\");", "x holds 2 arrays, but y holds 3"),
@@ -98,7 +98,7 @@ fn what_does_not_fit_together_is_refused_with_what_to_do() {
 }
 
 #[test]
-fn dots_are_left_out_where_there_are_many_and_loads_when_they_have_ended() {
+fn numerous_dots_and_ended_loads_are_omitted() {
     let drawn = |options: &str, until: &str| {
         picture(&format!(
             "let sim = scene.start(#{{ dt: 0.1 }});\nsim.run_to({until});\nplot_motion(sim, \"it.svg\", #{{ every: 10 {options} }});"
@@ -120,7 +120,7 @@ let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(0.2);\nplot_motion(sim, \"it.sv
 }
 
 #[test]
-fn a_hundred_eyelets_do_not_hide_their_rope() {
+fn numerous_symbols_are_omitted() {
     let marks = |count: usize, options: &str| {
         let svg = picture(&format!(
             "for n in 1..={count} {{ scene.slider(scene.particle([n / {count}.5, 0], 0.1), rod, #{{ at: n / {count}.5 / 2 }}); }}
@@ -135,7 +135,7 @@ fn a_hundred_eyelets_do_not_hide_their_rope() {
 }
 
 #[test]
-fn magnified_displacements_are_as_many_times_as_large() {
+fn magnified_displacements_are_scaled_by_the_factor() {
     let axis = |magnify: &str| {
         picture(&format!(
             "let sim = scene.start(#{{ dt: 0.1 }});\nsim.run_to(0.4);\nplot_motion(sim, \"it.svg\", #{{ every: 10, symbols: false, dots: false {magnify} }});"
@@ -151,7 +151,7 @@ fn magnified_displacements_are_as_many_times_as_large() {
 }
 
 #[test]
-fn what_travels_is_not_magnified() {
+fn rigid_motion_of_free_bodies_is_not_magnified() {
     let largest = |scene: &str, options: &str| {
         let svg = picture(&format!(
             "{scene}\nlet sim = scene.start(#{{ dt: 0.01 }});\nsim.run_to(1);\nplot_motion(sim, \"it.svg\", #{{ every: 10, {options} }});"

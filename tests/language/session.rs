@@ -98,7 +98,7 @@ fn a_semicolon_hides_a_value() {
 }
 
 #[test]
-fn a_constant_named_like_the_answer_is_left_alone() {
+fn constant_with_the_name_of_the_answer_is_not_overwritten() {
     let mut session = session();
     done(&mut session, "const ans = 1;");
     assert_eq!(value(&mut session, "2"), "2");
@@ -106,7 +106,7 @@ fn a_constant_named_like_the_answer_is_left_alone() {
 }
 
 #[test]
-fn what_worked_before_an_error_stays_and_the_statement_that_failed_leaves_nothing() {
+fn only_the_failed_statement_of_an_input_has_no_effect() {
     let mut session = session();
     done(&mut session, "let a = 1; const G = 1; fn g() { global::G }");
     let message =
@@ -128,7 +128,7 @@ fn what_worked_before_an_error_stays_and_the_statement_that_failed_leaves_nothin
 }
 
 #[test]
-fn peeking_changes_no_variable() {
+fn preview_changes_no_variable() {
     let mut session = session();
     done(&mut session, "let n = 1;");
     assert!(matches!(session.evaluate_preview("n += 1; n"), Reply::Value(_)));
@@ -136,7 +136,7 @@ fn peeking_changes_no_variable() {
 }
 
 #[test]
-fn an_error_in_a_function_typed_earlier_is_shown_there() {
+fn error_in_a_function_typed_earlier_is_located_there() {
     let mut session = session();
     done(&mut session, "let zero = 0;");
     done(&mut session, "fn deep(x) {\n    x.wrong()\n}");
@@ -146,7 +146,7 @@ fn an_error_in_a_function_typed_earlier_is_shown_there() {
 }
 
 #[test]
-fn a_function_of_a_module_may_have_the_name_of_one_that_was_typed() {
+fn module_function_may_have_the_name_of_a_typed_function() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("parts.rhai"), "\nfn f(x) { x.lost }").unwrap();
     let mut session = in_folder(folder.path().into());
@@ -175,7 +175,7 @@ fn an_error_in_a_file_is_shown_in_the_file() {
 }
 
 #[test]
-fn a_comment_that_is_never_closed_is_shown_at_its_line() {
+fn unclosed_comment_is_located_at_its_line() {
     let mut session = session();
     done(&mut session, "let a = 1;");
     let message = refusal(&mut session, "a\n  /* lost");
@@ -191,7 +191,7 @@ fn division_by_assignment_works_at_every_line() {
 }
 
 #[test]
-fn peeking_leaves_nothing_behind() {
+fn preview_has_no_lasting_effect() {
     let mut session = session();
     done(&mut session, "let a = 1;");
     assert_eq!(value(&mut session, "a + 1"), "2");
@@ -208,7 +208,7 @@ fn peeking_leaves_nothing_behind() {
 }
 
 #[test]
-fn a_variable_declared_a_thousand_times_is_kept_once() {
+fn shadowed_variables_are_dropped() {
     let mut session = session();
     for index in 0..1000 {
         done(&mut session, &format!("let a = {index}; let b = a;"));
@@ -218,7 +218,7 @@ fn a_variable_declared_a_thousand_times_is_kept_once() {
 }
 
 #[test]
-fn a_reset_forgets_everything() {
+fn reset_removes_all_state() {
     let mut session = session();
     done(&mut session, "let a = 1; const B = 2;");
     done(&mut session, "fn f() { 1 }");
@@ -259,7 +259,7 @@ const SESSIONS: &[&[&str]] = &[
 ];
 
 #[test]
-fn saved_sessions_come_to_the_same_end() {
+fn saved_sessions_give_the_same_result() {
     for inputs in SESSIONS {
         let mut first = session_with_snapshots();
         done(&mut first, SPINNING);

@@ -38,7 +38,7 @@ fn failure(outcome: &RunOutcome) -> String {
 }
 
 #[test]
-fn a_check_that_fails_in_the_library_is_told_at_the_line_of_the_user() {
+fn failed_check_in_the_library_is_located_at_the_calling_line() {
     let script = "import \"std/checks\" as checks;\n\nlet held = checks::assert_close(\"tip\", 1.25, 1, 0.1);\n\
                   check(!held);\ncheck(false, \"own\");\nchecks::assert_fails(\"f\", || { check(false, \"inner\"); 1 }, \"x\");";
     let (outcome, message) = run_beside(&[], script);
@@ -50,7 +50,7 @@ fn a_check_that_fails_in_the_library_is_told_at_the_line_of_the_user() {
 }
 
 #[test]
-fn every_check_says_what_it_found_and_what_it_expected() {
+fn every_check_reports_the_found_and_the_expected_value() {
     let cases = [
         ("assert_relative(\"EI\", 2, 1, 0.1)", ["EI", "value 2", "expected 1", "1.000e0", "0.1"]),
         ("assert_at_most(\"gap\", 0.5, 0.1)", ["gap", "value 0.5", "at most 0.1", "4.000e-1", ""]),
@@ -85,7 +85,7 @@ fn every_check_says_what_it_found_and_what_it_expected() {
 }
 
 #[test]
-fn drift_beyond_the_tolerance_is_told_with_its_time() {
+fn drift_beyond_the_tolerance_is_reported_with_its_time() {
     let script = "import \"std/checks\" as checks;
 let scene = new_scene(\"turning\");
 let s = section(#{ EA: 100, GA: 100, EI: 1, rho_A: 1, rho_I: 1 });
@@ -100,7 +100,7 @@ checks::assert_conserved(sim.history, [\"energy\", \"momentum\"], 1e-12);";
 }
 
 #[test]
-fn a_file_of_ones_own_is_not_read_in_the_place_of_the_library() {
+fn user_file_does_not_replace_a_library_module() {
     let files = [
         ("std/checks.rhai", "fn assert_close(a, b, c, d) { throw \"mine\" }"),
         ("std/mine.rhai", ""),
@@ -114,7 +114,7 @@ fn a_file_of_ones_own_is_not_read_in_the_place_of_the_library() {
 }
 
 #[test]
-fn other_files_can_import_the_library_and_errors_show_the_way() {
+fn imported_files_can_import_the_library_and_errors_show_the_trace() {
     let parts = "import \"std/sections\" as sections;\nfn steel(size) {\n    sections::rectangle(#{ width: size, hight: size } + sections::steel())\n}\n";
     let (outcome, _) =
         run_beside(&[("parts.rhai", parts)], "import \"parts\" as parts;\nparts::steel(0.1);");
@@ -144,7 +144,7 @@ check_close(again::sampled(|u| [u, k * u], 8).length, sqrt(5), 1e-12);";
 }
 
 #[test]
-fn an_error_in_a_closure_of_the_user_stays_at_its_place() {
+fn error_in_a_closure_of_the_user_keeps_its_position() {
     let script = "import \"std/shapes\" as shapes;\nshapes::sampled(|u|\n    [u, lost], 8);";
     let (outcome, _) = run_beside(&[], script);
     let Ending::Failed(diagnostic) = &outcome.ending else { panic!("{:?}", outcome.ending) };
@@ -185,7 +185,7 @@ fn help_explains_modules_and_their_functions() {
 }
 
 #[test]
-fn what_was_imported_is_completed_at_the_prompt() {
+fn imported_names_are_completed_at_the_prompt() {
     let session = Session::new(language(), RunSettings::silent(RunMode::Run)).unwrap();
     let mut shell = Shell::new(session, ReplyTarget::Pipe);
     shell.submit("import \"std/sections\" as parts;");

@@ -120,7 +120,7 @@ fn path(viewer_data: &Value, place: &Value) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn places_are_where_the_solver_says() {
+fn positions_agree_with_the_solver() {
     let script = "
         let told = [];
         let where_is = |sim| print(`${sim.t} ${sim.position(two.at(1.3)).x} ${sim.position(two.at(1.3)).y} ${sim.position(ring).x} ${sim.position(ring).y}`);
@@ -190,7 +190,7 @@ fn columns_and_colours_are_those_of_the_run() {
 }
 
 #[test]
-fn moments_and_strain_energy_are_those_of_the_states_also_where_a_run_is_made_again_over_bounces() {
+fn moments_and_strain_energy_agree_with_the_states_of_repeated_runs() {
     // Section forces at both ends of the first beam, then at the end of the second beam.
     let script = "
         let look = |q| { let f = [q.section_forces(one, 0), q.section_forces(one, 2), q.section_forces(two, 2)];
@@ -259,7 +259,7 @@ fn springs_are_drawn_between_their_ends_and_a_slider_until_it_has_left() {
 }
 
 #[test]
-fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
+fn rigid_bodies_have_outlines_and_drives_have_symbols() {
     let script = "
         let wheel = scene.body(#{ name: \"wheel\", at: [5, 0], mass: 1, inertia: 1, angle: 0.3,
                                   points: #{ e: [1, 0], n: [0, 1], w: [-1, 0] } });
@@ -314,7 +314,7 @@ fn rigid_bodies_have_outlines_and_what_drives_has_signs() {
 }
 
 #[test]
-fn signs_and_loads_are_there() {
+fn symbols_and_loads_are_in_the_page() {
     let (_, page) = written("sim.run_to(1);\nwrite_viewer(sim, \"page.html\");", "page.html");
     let data = data(&page);
     let viewer_data = &data["films"][0];
@@ -361,7 +361,7 @@ fn fifty_beams_in_a_thousand_frames_stay_below_five_megabytes() {
 }
 
 #[test]
-fn what_is_wrong_is_told() {
+fn invalid_options_are_reported() {
     let said = refused("write_viewer(sim, \"page.htm\");");
     assert!(said.contains("\"page.htm\" does not end in .html"), "{said}");
     let said = refused("write_viewer(sim, \"a.html\", #{ columns: [\"kinetc\"] });");
@@ -432,7 +432,7 @@ impl Frame {
 }
 
 #[test]
-fn an_animation_shows_the_tip_where_the_solver_says() {
+fn animated_tip_position_agrees_with_the_solver() {
     let script = "
         for k in 0..=10 { sim.run_to(0.1 * k); let p = sim.position(two.end); print(`${p.x} ${p.y}`); }
         write_animation(sim, \"a.png\", #{ frames: 11, fps: 10, width: 400, symbols: false });";
@@ -461,7 +461,7 @@ fn an_animation_shows_the_tip_where_the_solver_says() {
 }
 
 #[test]
-fn animations_stand_side_by_side() {
+fn animations_are_arranged_side_by_side() {
     let script = "sim.run_to(1);\nwrite_animation([sim, sim.fork()], \"b.png\", #{ frames: 3, trace: [two.end] });";
     let frames = Frame::all(&written(script, "b.png").1);
     assert_eq!((frames.len(), frames[0].0.width, frames[0].1), (3, 960, (1, 20)));

@@ -52,7 +52,7 @@ fn allocations_of(action: impl FnOnce()) -> usize {
 }
 
 #[test]
-fn the_counter_counts() {
+fn allocation_counter_counts_allocations() {
     assert_eq!(allocations_of(|| drop(std::hint::black_box(vec![1_u8; 100]))), 1);
 }
 
@@ -111,7 +111,7 @@ fn fifteen_times_the_steps_take_no_more_allocations() {
 }
 
 #[test]
-fn sliders_take_no_allocations_in_steps_either() {
+fn steps_with_sliders_take_no_allocations() {
     let rules = SLIDING_RULES.iter().filter(|entry| entry.claims.gap);
     for (entry, of) in rules.flat_map(|rule| INTEGRATORS.iter().map(move |of| (rule, of))) {
         for (name, mesh) in meshes(4) {
@@ -130,7 +130,7 @@ fn sliders_take_no_allocations_in_steps_either() {
 
 /// The present contact force of a unilateral slider is checked in every step. One slider slides on a fixed beam, and another one falls on it.
 #[test]
-fn sliders_that_only_push_take_no_allocations_in_steps() {
+fn steps_with_unilateral_sliders_take_no_allocations() {
     let mut scene = Scene::new("pushing");
     let axis = scenes::line(at(-1.0, 0.0), at(1.0, 0.0));
     let rod = scenes::add_beam(&mut scene, axis, &sliding::smooth(4), sliding::STIFF);

@@ -32,7 +32,7 @@ fn resident() -> usize {
 }
 
 #[test]
-fn a_million_steps_keep_everything_in_the_memory_of_a_few() {
+fn million_steps_conserve_all_invariants_in_constant_memory() {
     let mut simulation = Simulation::start(thrown(), settings(Method::EnergyMomentum, DT)).unwrap();
     simulation.record(Recording::Every(NonZeroUsize::new(10_000).unwrap()));
     let end = |steps: usize| REST + steps as f64 * DT;

@@ -21,7 +21,7 @@ mod times;
 use book::Book;
 
 #[test]
-fn outputs_are_the_recorded_ones() {
+fn outputs_equal_the_recorded_outputs() {
     let mut book = Book::default();
     pages::record(&mut book);
     language::record(&mut book);

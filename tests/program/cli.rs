@@ -60,7 +60,7 @@ fn quiet_hides_the_summary_but_not_the_script() {
 }
 
 #[test]
-fn a_wrong_script_exits_with_2_and_shows_the_place() {
+fn wrong_script_exits_with_2_and_shows_the_location() {
     let output = run("let a = 1;\nprint(sqr(a));");
     assert_eq!(code(&output), 2);
     let shown = said(&output);
@@ -118,7 +118,7 @@ fn check_builds_without_printing_or_judging() {
 }
 
 #[test]
-fn recursion_for_ever_is_an_error_and_not_a_crash() {
+fn endless_recursion_is_an_error_and_not_a_crash() {
     let output = run("fn f(n) { 1 + f(n + 1) } f(0);");
     assert_eq!(code(&output), 2, "{}", said(&output));
     assert_eq!(first_line(&output), "error: functions call each other too deeply");
@@ -147,7 +147,7 @@ const BEAD: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_
     let sim = scene.start(#{ dt: 0.3 });\n";
 
 #[test]
-fn a_run_that_ends_early_is_told_once_and_reported() {
+fn early_end_of_a_run_is_printed_once_and_reported() {
     let (folder, file) = script(&format!("{BEAD} sim.run_to(3); sim.run_to(4);"));
     let report = folder.path().join("report.json");
     let output =
@@ -168,7 +168,7 @@ fn a_run_that_ends_early_is_told_once_and_reported() {
 }
 
 #[test]
-fn a_script_that_waits_for_an_end_can_be_checked() {
+fn script_that_waits_for_the_end_of_a_run_can_be_checked() {
     let (_folder, file) = script(&format!(
         "{BEAD} while !sim.ended {{ sim.step(); }} print(sim.events[0].t); print(sim.contact_force(ring));"
     ));
@@ -182,7 +182,7 @@ let sim = scene.start(#{ dt: 0.01 });
 "#;
 
 #[test]
-fn a_check_ends_where_the_script_waits_for_what_a_simulation_finds() {
+fn check_ends_where_the_script_waits_for_a_simulation_result() {
     let (_folder, file) = script(&format!("{FALL}while sim.position(p).y > 5 {{ sim.step(); }}"));
     let output = withy().arg("check").arg(&file).output().expect("withy starts");
     assert_eq!(code(&output), 0, "{}", said(&output));
@@ -190,7 +190,7 @@ fn a_check_ends_where_the_script_waits_for_what_a_simulation_finds() {
 }
 
 #[test]
-fn a_check_says_what_it_cannot_see() {
+fn check_explains_that_it_runs_no_simulation() {
     let late = script(&format!("{FALL}sim.run_to(2); print([sim.t].filter(|t| t > 9)[0]);"));
     let output = withy().arg("check").arg(&late.1).output().expect("withy starts");
     assert_eq!(code(&output), 2, "{}", said(&output));
@@ -279,7 +279,7 @@ fn a_file_that_imports_itself_is_an_error_and_not_a_crash() {
 
 #[cfg(unix)]
 #[test]
-fn a_closed_pipe_is_a_quiet_end() {
+fn closed_pipe_ends_the_run_silently() {
     let (_folder, file) = script("loop { print(\"more\"); }");
     let mut running = withy()
         .arg("run")
@@ -295,7 +295,7 @@ fn a_closed_pipe_is_a_quiet_end() {
 }
 
 #[test]
-fn nothing_that_a_terminal_obeys_is_printed_or_told() {
+fn control_sequences_are_not_printed() {
     let (_folder, file) = script(
         "print(\"\\u001b]0;title\\u0007\"); check(false, \"\\u001b[2J\"); // \u{1b}]0;title\u{7}\u{202e}
          let a = \"\u{1b}[2J\u{202e}\"; throw \"\\r\\u202e\\u200b\" + a;",

@@ -66,7 +66,7 @@ fn a_saved_simulation_is_converted_beside_itself_or_into_a_folder() {
 }
 
 #[test]
-fn what_cannot_be_converted_is_told() {
+fn files_that_cannot_be_converted_are_rejected() {
     let (folder, _) = saved();
     let home = folder.path();
     let output = withy(home, &["convert", "no.withy", "--to", "vtk"]);
@@ -84,7 +84,7 @@ fn what_cannot_be_converted_is_told() {
 
 /// Uses the Python interpreter in `WITHY_PYTHON`, which needs numpy, meshio, pyvista and pyarrow.
 #[test]
-fn other_programs_read_what_is_written() {
+fn other_programs_read_the_written_files() {
     let Some(python) = std::env::var_os("WITHY_PYTHON") else {
         eprintln!("SKIPPED: WITHY_PYTHON names no Python with numpy, meshio, pyvista and pyarrow");
         return;

@@ -36,7 +36,7 @@ fn a_name_shows_its_page_without_colours_in_a_pipe() {
 }
 
 #[test]
-fn the_example_of_a_page_runs_as_it_stands() {
+fn example_of_a_page_runs_unchanged() {
     let page = shown(&docs(&["slider_position"]));
     let script: Vec<_> = page.lines().filter_map(|line| line.strip_prefix("    ")).collect();
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -52,7 +52,7 @@ fn the_example_of_a_page_runs_as_it_stands() {
 }
 
 #[test]
-fn columns_are_those_of_the_terminal() {
+fn page_width_is_that_of_the_terminal() {
     let output = Command::new(env!("CARGO_BIN_EXE_withy"))
         .args(["docs", "section"])
         .env("COLUMNS", "50")
@@ -63,7 +63,7 @@ fn columns_are_those_of_the_terminal() {
 }
 
 #[test]
-fn unknown_names_are_refused_with_a_suggestion() {
+fn unknown_names_are_rejected_with_a_suggestion() {
     let output = docs(&["slidr"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8_lossy(&output.stderr);
@@ -72,7 +72,7 @@ fn unknown_names_are_refused_with_a_suggestion() {
 }
 
 #[test]
-fn markdown_is_the_reference_of_the_documents() {
+fn markdown_output_equals_the_reference_in_docs() {
     let index = fs::read_to_string("docs/language.md").expect("docs/language.md");
     let shown = shown(&docs(&["--markdown"]));
     assert!(shown.starts_with(&index), "docs/language.md is old");
@@ -93,7 +93,7 @@ fn definitions_are_written_for_every_table() {
 }
 
 #[test]
-fn files_of_somebody_else_are_not_replaced_by_definitions() {
+fn foreign_files_are_not_replaced_by_definitions() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().to_str().expect("a path in UTF-8").to_owned();
     for _ in 0..2 {
@@ -118,6 +118,6 @@ fn a_folder_that_cannot_be_made_is_named() {
 }
 
 #[test]
-fn a_name_and_another_form_exclude_each_other() {
+fn name_and_other_output_form_exclude_each_other() {
     assert_eq!(docs(&["sin", "--markdown"]).status.code(), Some(2));
 }

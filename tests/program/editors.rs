@@ -79,7 +79,7 @@ fn colours_of_the_editor(text: &str, pieces: &serde_json::Value) -> Vec<&'static
 
 /// Uses the Node packages in the folder `WITHY_TEXTMATE`.
 #[test]
-fn an_editor_finds_the_colours_of_the_prompt() {
+fn editor_grammar_gives_the_colours_of_the_prompt() {
     let Some(modules) = std::env::var_os("WITHY_TEXTMATE") else {
         eprintln!(
             "SKIPPED: WITHY_TEXTMATE names no folder with vscode-textmate and vscode-oniguruma"

@@ -106,7 +106,7 @@ fn run(script: &Path) -> Result<Vec<Row<f64>>, String> {
 }
 
 #[test]
-fn the_gallery_tells_what_its_machines_find() {
+fn gallery_shows_the_results_of_its_scripts() {
     let page = std::fs::read_to_string(root().join("docs/gallery.md")).unwrap();
     let scripts = scripts();
     assert!(scripts.len() >= 4);
@@ -154,7 +154,7 @@ fn the_gallery_tells_what_its_machines_find() {
 }
 
 #[test]
-fn the_gallery_shows_every_machine() {
+fn gallery_shows_every_script() {
     let page = std::fs::read_to_string(root().join("docs/gallery.md")).unwrap();
     for script in scripts() {
         let name = name(&script);

@@ -37,7 +37,7 @@ fn solve(folder: &Path, count: usize) {
 }
 
 #[test]
-fn a_first_look_makes_the_folder_and_says_what_to_do() {
+fn first_call_creates_the_folder_and_shows_the_next_exercise() {
     let class = classroom();
     let (code, text) = said(class.path(), &[]);
     assert_eq!(code, 0);
@@ -70,7 +70,7 @@ fn listing_writes_nothing_and_shows_every_title() {
 }
 
 #[test]
-fn checks_tell_by_their_exit_code_and_progress_survives() {
+fn check_sets_the_exit_code_and_stores_progress() {
     let class = classroom();
     let name = EXERCISES[0].name;
     let (code, text) = said(class.path(), &["check", name]);
@@ -101,7 +101,7 @@ fn mistakes_are_shown_at_their_line_and_column() {
 }
 
 #[test]
-fn a_check_of_all_is_a_summary_and_each_is_told_when_that_is_asked_for() {
+fn check_of_all_prints_a_summary_and_details_on_request() {
     let class = classroom();
     said(class.path(), &[]);
     let folder = class.path().join("withy-exercises");
@@ -120,7 +120,7 @@ fn a_check_of_all_is_a_summary_and_each_is_told_when_that_is_asked_for() {
 }
 
 #[test]
-fn the_solution_is_shown_after_passing_and_kindly_refused_before() {
+fn solution_is_shown_only_after_passing() {
     let class = classroom();
     let name = EXERCISES[0].name;
     let (code, text) = said(class.path(), &["solution", name]);
@@ -189,7 +189,7 @@ fn a_reset_keeps_the_attempt_and_says_where() {
 }
 
 #[test]
-fn unknown_names_and_damaged_progress_are_told() {
+fn unknown_names_and_damaged_progress_are_reported() {
     let class = classroom();
     let (code, text) = said(class.path(), &["check", "knik"]);
     assert_eq!(code, 2);
@@ -230,7 +230,7 @@ fn wait_for(lines: &Receiver<String>, phrase: &str) {
 
 #[cfg(unix)]
 #[test]
-fn watching_judges_what_is_saved_and_ends_with_ctrl_c() {
+fn watch_judges_saved_files_and_ends_with_ctrl_c() {
     let class = classroom();
     said(class.path(), &[]);
     let folder = class.path().join("withy-exercises");
@@ -315,7 +315,7 @@ fn class_of_three() -> TempDir {
 }
 
 #[test]
-fn a_class_is_graded_as_json_whatever_it_hands_in() {
+fn any_submissions_are_graded_as_json() {
     let class = class_of_three();
     let output = learn(class.path(), &["grade", ".", "--json", "--max-time", "1"]);
     assert_eq!(output.status.code(), Some(0));
@@ -364,7 +364,7 @@ fn a_class_is_graded_as_a_table() {
 }
 
 #[test]
-fn a_folder_that_holds_no_submissions_is_refused() {
+fn folder_without_submissions_is_rejected() {
     let class = classroom();
     let (code, text) = said(class.path(), &["grade", "."]);
     assert_eq!(code, 2);
@@ -427,7 +427,7 @@ fn poisoned_class(poisons: &[&Poison]) -> TempDir {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn every_poison_costs_its_author_only() {
+fn malicious_attempts_affect_only_their_author() {
     // Attempts that exceed the time limit get a short limit, all others a long one for slow machines.
     let (endless, other): (Vec<&Poison>, Vec<&Poison>) =
         POISONS.iter().partition(|(_, _, mark)| *mark == "stopped");
@@ -463,7 +463,7 @@ fn expect_marks(poisons: &[&Poison], time: &str, honest: Option<&str>) {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn marks_come_one_by_one_and_outlast_a_kill() {
+fn marks_are_written_one_by_one_and_survive_a_kill() {
     let class = classroom();
     solve(&class.path().join("ada"), 2);
     fs::create_dir_all(class.path().join("bea")).unwrap();
@@ -514,7 +514,7 @@ fn grading_for_ever(class: &TempDir) -> (std::process::Child, std::path::PathBuf
 
 #[cfg(target_os = "linux")]
 #[test]
-fn nothing_is_left_of_a_grading_that_was_ended_or_killed() {
+fn ended_or_killed_grading_leaves_no_files() {
     let class = classroom();
     let left = |folder: &Path| fs::read_dir(folder).unwrap().count();
     let (mut ended, temporary) = grading_for_ever(&class);
@@ -535,7 +535,7 @@ fn nothing_is_left_of_a_grading_that_was_ended_or_killed() {
 }
 
 #[test]
-fn marks_of_what_has_not_changed_are_kept() {
+fn marks_of_unchanged_attempts_are_reused() {
     let class = classroom();
     solve(&class.path().join("class/ada"), 2);
     solve(&class.path().join("class/bea"), 1);
@@ -575,7 +575,7 @@ fn marks_of_what_has_not_changed_are_kept() {
 
 #[cfg(unix)]
 #[test]
-fn a_link_to_the_work_of_another_student_is_nobodys_work() {
+fn link_to_the_work_of_another_student_is_not_graded() {
     let class = classroom();
     solve(&class.path().join("ada"), 1);
     std::os::unix::fs::symlink("ada", class.path().join("mallory")).unwrap();

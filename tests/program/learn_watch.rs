@@ -101,7 +101,7 @@ fn a_student_goes_through_all_exercises() {
 }
 
 #[test]
-fn keys_answer_while_an_attempt_runs_for_ever_and_saving_begins_anew() {
+fn keys_work_during_an_endless_attempt_and_saving_restarts_it() {
     let mut student = Student::watches("rows 40 cols 100", "");
     student.sees("(run 1)");
     student.saves(&EXERCISES[0], "loop { }");
@@ -120,7 +120,7 @@ fn keys_answer_while_an_attempt_runs_for_ever_and_saving_begins_anew() {
 }
 
 #[test]
-fn limits_stop_what_runs_for_ever() {
+fn time_limit_stops_an_endless_attempt() {
     let mut student = Student::watches("rows 40 cols 100", "--max-time 1");
     student.sees("(run 1)");
     student.saves(&EXERCISES[0], "loop { }");
@@ -131,7 +131,7 @@ fn limits_stop_what_runs_for_ever() {
 }
 
 #[test]
-fn limits_stop_what_eats_memory() {
+fn memory_limit_stops_an_attempt() {
     let mut student = Student::watches("rows 40 cols 100", "--max-memory 300");
     student.sees("(run 1)");
     let eater =
@@ -164,7 +164,7 @@ fn the_list_opens_another_exercise_and_previous_goes_back() {
 }
 
 #[test]
-fn being_asked_to_end_gives_the_terminal_back() {
+fn termination_restores_the_terminal() {
     let mut student = Student::watches("rows 40 cols 100", "");
     student.sees("(run 1)");
     student.saves(&EXERCISES[0], "loop { }");

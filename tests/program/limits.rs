@@ -59,7 +59,7 @@ fn expect(output: &Output, words: &[&str]) {
 }
 
 #[test]
-fn time_ends_an_endless_loop_that_catches_everything() {
+fn time_limit_ends_a_loop_that_catches_all_errors() {
     let begun = Instant::now();
     let output = run("\nloop { try { loop { } } catch { print(1); } }", &["--max-time", "0.3"]);
     expect(&output, &["takes longer than 0.3 s", "main.rhai:2:", "--max-time SECONDS"]);
@@ -68,7 +68,7 @@ fn time_ends_an_endless_loop_that_catches_everything() {
 }
 
 #[test]
-fn memory_that_grows_for_ever_is_an_error() {
+fn unlimited_growth_of_memory_is_an_error() {
     let script = "let all = []; loop { let x = []; x.pad(500000, 1); all.push(x); }";
     expect(&run(script, &["--max-memory", "60"]), &["more than 60 MB", "--max-memory MB"]);
 }
@@ -93,7 +93,7 @@ fn steps_are_counted_over_all_simulations() {
 }
 
 #[test]
-fn what_is_kept_of_a_stopped_run_is_held_by_the_limit_of_what_is_written() {
+fn rescue_files_respect_the_limit_of_written_output() {
     let script = format!("{SCENE}let sim = scene.start(#{{ dt: 1e-3 }}); sim.run_to(100);");
     let home = Home::with(&[("main.rhai", &script)]);
     let output = home.run(&["--max-steps", "4000", "--max-written", "1"]);
@@ -131,7 +131,7 @@ fn a_script_and_its_workers_fit_a_limited_address_space() {
 }
 
 #[test]
-fn failed_checks_are_counted_as_what_is_written() {
+fn failed_checks_count_towards_the_limit_of_written_output() {
     let script = format!("loop {{ check(false, \"{}\"); }}", "x".repeat(100));
     expect(&run(&script, &["--max-written", "1"]), &["1 MB", "--max-written MB"]);
 }
@@ -165,7 +165,7 @@ fn a_deeper_recursion_can_be_allowed() {
 }
 
 #[test]
-fn a_long_chain_of_closures_is_let_go_without_a_crash() {
+fn long_chain_of_closures_is_dropped_without_a_crash() {
     let script = "let a = |x| x; for i in 0..1000000 { let b = a; a = |x| { b.call(x) }; } a = 1; print(\"gone\");";
     let output = run(script, &[]);
     assert_eq!(output.stdout, b"gone\n", "{}", said(&output));
@@ -179,7 +179,7 @@ fn a_script_cannot_sleep() {
 }
 
 #[test]
-fn sorting_hands_on_what_goes_wrong_in_its_function() {
+fn sorting_returns_errors_of_its_function() {
     expect(&run("[2, 1].sort(|x, y|\n x - lost);", &[]), &["no variable 'lost'", "main.rhai:2:"]);
     expect(&run("[2, 1].sort(|x, y| \"x\");", &[]), &["must return a number or true or false"]);
     let script =
@@ -188,7 +188,7 @@ fn sorting_hands_on_what_goes_wrong_in_its_function() {
 }
 
 #[test]
-fn a_load_cannot_use_the_simulation_that_it_is_called_by() {
+fn load_function_cannot_use_its_running_simulation() {
     let script = format!(
         "{SCENE}let held = [];
          scene.force(rod.end, [0, 1], |t| {{ if held.len() > 0 {{ print(held[0]); held[0].step(); }} 1 }});
@@ -240,7 +240,7 @@ let sim = scene.start(#{ dt: 0.1 }); sim.at(0.3, |s| print(library::deep::twice(
 }
 
 #[test]
-fn errors_in_imported_files_show_their_file_and_the_way_there() {
+fn errors_in_imported_files_show_file_and_trace() {
     let bad = ["no variable 'lost'", "library.rhai:4:21", "x + global::K + lost"];
     let cases: &[(&str, &[&str])] = &[
         (
@@ -314,7 +314,7 @@ fn imports_stay_in_the_folder_of_the_script() {
 }
 
 #[test]
-fn files_that_import_each_other_for_ever_are_an_error() {
+fn circular_imports_are_an_error() {
     let files = [
         ("main.rhai", "import \"a\" as a;"),
         ("a.rhai", "import \"b\" as b;"),
@@ -338,7 +338,7 @@ fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
 }
 
 #[test]
-fn time_ends_what_does_not_hear_of_it() {
+fn time_limit_ends_code_that_checks_no_limits() {
     // Four statements per line, because a script may have 65 000 lines.
     let lets: String = (0..200_000)
         .map(|i| format!("let a{i} = {i};{}", if i % 4 == 3 { "\n" } else { " " }))
@@ -357,7 +357,7 @@ fn time_ends_what_does_not_hear_of_it() {
 }
 
 #[test]
-fn long_natives_and_long_texts_hear_of_a_limit() {
+fn long_native_calls_and_long_texts_check_limits() {
     let lets: String = (0..60_000).map(|i| format!("let a{i} = {i};\n")).collect();
     let numbers =
         "let a = []; a.pad(3000000, 1); for i in 0..3000000 { a[i] = (i * 7919) % 3000017; }";
@@ -374,7 +374,7 @@ fn long_natives_and_long_texts_hear_of_a_limit() {
 }
 
 #[test]
-fn repetitions_are_dropped_and_errors_of_the_function_are_told() {
+fn dedup_removes_repetitions_and_returns_errors_of_its_function() {
     let script = "let a = [1, 1, 2, 2.0, \"x\", \"x\", 1]; a.dedup(); print(a);
         let b = [1, 2, 4, 5, 9]; b.dedup(|x, y| y - x == 1); print(b); let c = []; c.dedup(); print(c);";
     let output = run(script, &[]);
@@ -383,7 +383,7 @@ fn repetitions_are_dropped_and_errors_of_the_function_are_told() {
 }
 
 #[test]
-fn errors_quote_long_values_in_part() {
+fn errors_quote_only_a_part_of_long_values() {
     let text = "let t = \"\"; t.pad(15000000, 'x'); let a = []; a.pad(3000000, 1);";
     for wrong in [
         "throw t;",
@@ -404,7 +404,7 @@ fn errors_quote_long_values_in_part() {
 }
 
 #[test]
-fn what_is_told_beside_the_output_and_kept_of_studies_counts() {
+fn messages_and_journals_count_towards_the_limit_of_written_output() {
     let script = "let s = \"\"; s.pad(100000, 'a'); loop { debug(s); }";
     let output = run(script, &["--max-written", "2"]);
     expect(&output, &["prints and writes more than 2 MB"]);
@@ -425,7 +425,7 @@ fn a_script_that_made_thousands_of_simulations_ends_soon_after_it_is_stopped() {
 }
 
 #[test]
-fn so_many_pictures_side_by_side_are_refused() {
+fn too_many_pictures_side_by_side_are_rejected() {
     let script = format!(
         "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.step(); let all = []; all.pad(3000, sim); plot_motion(all, \"a.svg\");"
     );
@@ -433,7 +433,7 @@ fn so_many_pictures_side_by_side_are_refused() {
 }
 
 #[test]
-fn a_check_of_a_run_without_an_end_ends() {
+fn check_of_an_endless_run_ends() {
     let script = format!("{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.run_to(1e10);");
     let begun = Instant::now();
     let output = Home::with(&[("main.rhai", &script)]).withy(&["check", "main.rhai"]);
@@ -442,7 +442,7 @@ fn a_check_of_a_run_without_an_end_ends() {
 }
 
 #[test]
-fn a_text_that_grows_too_long_is_refused_before_it_is_made() {
+fn too_long_text_is_rejected_before_it_is_allocated() {
     let script =
         "let s = \"\"; s.pad(1000000, 'a'); let t = s; s.replace(\"a\", t); print(s.len());";
     expect(&run(script, &["--max-memory", "500"]), &["main.rhai:1:"]);
@@ -459,7 +459,7 @@ fn widths_of_any_size_are_printed() {
 }
 
 #[test]
-fn what_is_printed_and_written_is_limited() {
+fn printed_and_written_output_is_limited() {
     let script = "let s = \"\"; s.pad(100000, 'a'); loop { print(s); }";
     let output = run(script, &["--max-written", "2"]);
     expect(&output, &["prints and writes more than 2 MB", "--max-written MB"]);
@@ -539,7 +539,7 @@ fn pipes_devices_and_enormous_files_are_refused_at_once() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn input_without_an_end_is_refused() {
+fn endless_input_is_rejected() {
     let home = Home::with(&[]);
     let begun = Instant::now();
     let mut command = Command::new(env!("CARGO_BIN_EXE_withy"));
@@ -550,7 +550,7 @@ fn input_without_an_end_is_refused() {
 }
 
 #[test]
-fn a_report_replaces_reports_alone() {
+fn report_replaces_only_reports() {
     let home = Home::with(&[("main.rhai", "print(1);"), ("notes.txt", "mine")]);
     for file in ["main.rhai", "notes.txt"] {
         let before = fs::read(home.0.path().join(file)).unwrap();
@@ -563,7 +563,7 @@ fn a_report_replaces_reports_alone() {
 }
 
 #[test]
-fn files_that_withy_did_not_write_are_kept_and_told_of() {
+fn foreign_files_are_kept_and_reported() {
     let script = format!(
         "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.step(); write_history(sim, \"a.csv\");"
     );
@@ -576,7 +576,7 @@ fn files_that_withy_did_not_write_are_kept_and_told_of() {
 
 #[cfg(unix)]
 #[test]
-fn one_signal_ends_what_does_not_hear_of_it() {
+fn one_signal_ends_code_that_checks_no_limits() {
     let busy = "print(\"begun\"); let a = []; a.pad(10000000, 1); for i in 0..1000 { let b = a + []; b.dedup(); }";
     let home = Home::with(&[("main.rhai", busy)]);
     for signal in ["-INT", "-TERM"] {

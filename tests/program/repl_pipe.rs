@@ -52,14 +52,14 @@ fn values_are_printed_and_nothing_else() {
 }
 
 #[test]
-fn inputs_of_several_lines_are_one() {
+fn lines_of_an_unfinished_input_are_joined() {
     let (code, replies, complaints) =
         piped("fn f(x) {\n  x + 1\n}\nlet a = [1,\n 2];\nf(a[0]) +\n  a[1]\n");
     assert_eq!((code, &*replies, &*complaints), (0, "4\n", ""));
 }
 
 #[test]
-fn words_of_other_prompts_leave_and_help() {
+fn words_of_other_prompts_quit_and_show_help() {
     for word in ["quit", "exit", "quit()", "exit();"] {
         let message = piped(&format!("1\n{word}\nnonsense\n"));
         assert_eq!(message, (0, "1\n".into(), String::new()), "{word}");
@@ -87,7 +87,7 @@ fn a_file_name_cannot_control_the_terminal() {
 }
 
 #[test]
-fn words_of_mechanics_find_what_there_is() {
+fn terms_of_mechanics_find_related_names() {
     for (word, found) in [
         ("damping", "energy_decaying"),
         ("support", "scene.support(station, options)"),
@@ -109,14 +109,14 @@ fn an_error_ends_the_session_with_2() {
 }
 
 #[test]
-fn lines_that_go_on_belong_to_those_before() {
+fn continuation_lines_belong_to_the_previous_input() {
     let input = "let x = [3, 1]\n  .map(|x| 2 * x);\nif x[0] > 9 {\n  1\n}\nelse {\n  2\n}\n/// Documented.\nfn f() { 5 }\nf()\n";
     let (code, replies, complaints) = piped(input);
     assert_eq!((code, &*replies, &*complaints), (0, "2\n5\n", ""));
 }
 
 #[test]
-fn an_input_that_never_ends_is_an_error() {
+fn unfinished_input_is_an_error() {
     let (code, _, complaints) = piped("let a = [1,\n2");
     assert_eq!(code, 2);
     assert!(complaints.contains("prompt:"), "{complaints}");
@@ -160,7 +160,7 @@ fn commands_act_on_the_last_simulation() {
 }
 
 #[test]
-fn variables_are_listed_in_a_line_each() {
+fn variables_are_listed_one_per_line() {
     let input = "let parts = #{ one: 1, many: [1, 2, 3], text: \"a b\" };\nimport \"std/mechanisms\" as parts_of;\n:vars\n";
     let (code, replies, complaints) = piped(input);
     assert_eq!((code, &*complaints), (0, ""), "{replies}");
@@ -188,7 +188,7 @@ fn watched_expressions_are_shown_after_every_step() {
 }
 
 #[test]
-fn commands_say_what_is_wrong() {
+fn errors_of_commands_are_explained() {
     for (input, expected) in [
         (":step", "there is no simulation yet"),
         (":stepp", "did you mean :step?"),
@@ -221,7 +221,7 @@ fn commands_say_what_is_wrong() {
 }
 
 #[test]
-fn a_saved_session_comes_to_the_same_end() {
+fn saved_session_gives_the_same_result() {
     let folder = tempfile::tempdir().unwrap();
     let asked = "`${sim.t} ${sim.energy} ${sim.position(rod.end).y}`\n";
     let input = format!(
@@ -238,7 +238,7 @@ fn a_saved_session_comes_to_the_same_end() {
 }
 
 #[test]
-fn somebody_elses_file_is_not_overwritten() {
+fn foreign_file_is_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("mine.rhai"), "print(1);").unwrap();
     let (code, _, complaints) = piped_in(folder.path(), &["repl"], "1\n:save mine.rhai\n");
@@ -252,7 +252,7 @@ fn somebody_elses_file_is_not_overwritten() {
 }
 
 #[test]
-fn a_file_is_evaluated_first_and_its_errors_stand_in_it() {
+fn file_is_evaluated_first_and_its_errors_are_located_in_it() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("parts.rhai"), "let a = 5;\nfn half(x) { x / 2 }\na")
         .unwrap();
@@ -274,7 +274,7 @@ fn limits_hold_for_each_input() {
 }
 
 #[test]
-fn files_are_told_when_they_are_written() {
+fn written_files_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let input = format!("{SPINNING}sim.step(3);\nplot_motion(sim, \"spin.svg\");\n");
     let (code, _, complaints) = piped_in(folder.path(), &["repl", "--out", "pictures"], &input);
@@ -284,7 +284,7 @@ fn files_are_told_when_they_are_written() {
 }
 
 #[test]
-fn commands_step_by_a_tolerance_and_take_it_back() {
+fn commands_make_and_undo_adaptive_steps() {
     let adaptive = SPINNING.replace("dt: 0.1", "dt: adaptive(#{ tolerance: 1e-3 })");
     let (code, replies, complaints) = piped(&format!("{adaptive}:step 3\n:back 3\n:run 1\n"));
     let message = format!("{replies}{complaints}");

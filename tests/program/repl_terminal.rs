@@ -47,7 +47,7 @@ fn tell(session: &mut PtySession, input: &str, next_line: usize) {
 }
 
 #[test]
-fn a_person_throws_a_beam_and_goes_back() {
+fn session_simulates_and_rewinds_a_beam() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start(folder.path(), &[]);
     let s = &mut session;
@@ -111,7 +111,7 @@ fn a_person_throws_a_beam_and_goes_back() {
 }
 
 #[test]
-fn what_is_typed_ahead_is_not_lost() {
+fn input_typed_ahead_is_not_lost() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start(folder.path(), &[]);
     session.send("let a = 1\nlet b = 2\nlet c = 4\n").unwrap();
@@ -135,7 +135,7 @@ fn what_is_typed_ahead_is_not_lost() {
 }
 
 #[test]
-fn history_lives_from_session_to_session() {
+fn history_is_kept_between_sessions() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = start(folder.path(), &[]);
     ask(&mut first, "111 + 222", "333");
@@ -205,7 +205,7 @@ fn press(session: &mut PtySession, key: &str) {
 }
 
 #[test]
-fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
+fn long_help_is_paged_and_every_exit_returns_to_the_prompt() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1")]);
     let s = &mut session;
@@ -248,7 +248,7 @@ fn long_help_comes_in_pages_and_every_way_out_leads_to_the_prompt() {
 }
 
 #[test]
-fn the_pager_of_the_environment_is_asked() {
+fn pager_of_the_environment_is_used() {
     let folder = tempfile::tempdir().unwrap();
     let mut session = start_sized(folder.path(), &[("NO_COLOR", "1"), ("PAGER", "head -n 1")]);
     session.send_line(":help topics").unwrap();
@@ -265,7 +265,7 @@ fn the_pager_of_the_environment_is_asked() {
 }
 
 #[test]
-fn what_is_typed_has_colours_unless_nobody_wants_them() {
+fn typed_input_is_coloured_unless_colours_are_disabled() {
     let folder = tempfile::tempdir().unwrap();
     let mut coloured = start_sized(folder.path(), &[]);
     coloured.send_line("let a = sqrt(4); // two").unwrap();

@@ -47,7 +47,7 @@ fn script(options: &str, after: &str) -> (TempDir, PathBuf) {
 const TURNED: &str = "# turned by t radians\nt,xtip,ytip,thtip,d_pos\n1,1.0806,1.6829,1,0.5\n";
 
 #[test]
-fn a_study_is_compared_with_a_table_and_with_rivals() {
+fn study_is_compared_with_a_table_and_with_other_programs() {
     let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 5, reference: \"turned.csv\", rivals: \"rivals.csv\"";
     let (folder, file) = script(options, "print(study.cheapest([1e9, 1e-9]));");
     let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA implicit,A,euler,4,1,1.0806,9.6829,,an abacus\n";
@@ -72,7 +72,7 @@ fn a_study_is_compared_with_a_table_and_with_rivals() {
 }
 
 #[test]
-fn a_wrong_reference_is_told_before_anything_runs() {
+fn wrong_reference_is_reported_before_any_run() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [0.5], reference: \"turned.csv\"";
     let (_folder, file) = script(options, "");
     for command in ["study", "run"] {
@@ -84,7 +84,7 @@ fn a_wrong_reference_is_told_before_anything_runs() {
 }
 
 #[test]
-fn a_reference_without_a_number_is_told_with_its_place() {
+fn reference_without_a_number_is_reported_with_its_position() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], reference: \"turned.csv\"";
     let (folder, file) = script(options, "");
     fs::write(folder.path().join("turned.csv"), TURNED.replace("1.6829", "nan")).unwrap();
@@ -96,7 +96,7 @@ fn a_reference_without_a_number_is_told_with_its_place() {
 }
 
 #[test]
-fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told() {
+fn reference_with_missing_duplicate_or_negative_values_is_reported() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], reference: \"turned.csv\"";
     let (folder, file) = script(options, "");
     let (rows, other) = (TURNED.lines().take(2).collect::<Vec<_>>().join("\n"), "1,1,1,1,0.5\n");
@@ -113,7 +113,7 @@ fn a_reference_without_rows_or_with_two_of_one_time_or_a_negative_size_is_told()
 }
 
 #[test]
-fn wrong_rivals_are_told_before_anything_runs() {
+fn wrong_results_of_other_programs_are_reported_before_any_run() {
     let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], rivals: \"rivals.csv\"";
     let (folder, file) = script(options, "");
     let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA,A,euler,4,2,1,9,,an abacus\n";
@@ -124,7 +124,7 @@ fn wrong_rivals_are_told_before_anything_runs() {
 }
 
 #[test]
-fn what_ran_out_of_patience_is_tried_again() {
+fn cases_that_exceeded_their_time_are_repeated() {
     let options = "meshes: [bspline(2)], dts: [0.1, 1e-3, 5e-4, 2e-4], times: [1], repeats: 1, reference: \"turned.csv\"";
     let (folder, file) = script(options, "");
     let journal = folder.path().join("out").join("rod.journal");
@@ -154,7 +154,7 @@ fn wait_for(journal: &Path, cases: usize) {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_study_goes_on_where_it_was() {
+fn interrupted_study_continues_with_unfinished_cases() {
     let (folder, file) = script(ENDLESS, "");
     let journal = folder.path().join("out").join("rod.journal");
     let running = withy(&["study"], &file).spawn().unwrap();
@@ -215,7 +215,7 @@ fn finished_studies_are_not_repeated_before_the_whole_script_has_ended() {
 }
 
 #[test]
-fn a_study_of_a_run_keeps_no_journal() {
+fn study_in_a_plain_run_writes_no_journal() {
     let (folder, file) = script(ENDLESS, "");
     let output = withy(&["run", "--max-time", "1"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
@@ -223,7 +223,7 @@ fn a_study_of_a_run_keeps_no_journal() {
 }
 
 #[test]
-fn steps_are_limited_and_each_run_has_patience() {
+fn steps_and_time_of_each_run_are_limited() {
     let (_folder, file) = script(ENDLESS, "");
     let output = withy(&["study", "--max-steps", "25"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
@@ -268,7 +268,7 @@ fn every_study_prints_its_table_once_and_a_check_prints_none() {
 }
 
 #[test]
-fn all_cells_that_did_not_finish_are_listed_in_a_line_each() {
+fn unfinished_cells_are_listed_one_per_line() {
     let options = "meshes: [bspline(2)], dts: [0.2], times: [1], repeats: 1";
     let map = "study_stability(#{ name: \"map\", end: 0.5, rows: #{ size: [1, 2, 3, 4, 5] }, columns: #{ dt: [0.1, 0.2, 0.3] }, \
         scene: |cell| { let scene = new_scene(\"pushed\"); let bead = scene.particle([0, 0], 1); \

@@ -54,7 +54,7 @@ fn table(file: &Path, out: &str) -> Vec<u8> {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn one_core_and_all_of_them_give_the_same_bytes() {
+fn any_number_of_cores_gives_the_same_bytes() {
     let (_folder, file) = script(&flights(60));
     let all = withy(&file, "all").output().unwrap();
     assert_eq!(all.status.code(), Some(0), "{}", said(&all));
@@ -71,7 +71,7 @@ fn one_core_and_all_of_them_give_the_same_bytes() {
 }
 
 #[test]
-fn a_killed_sweep_goes_on_where_it_was() {
+fn killed_sweep_continues_with_unfinished_rows() {
     let (_folder, file) = script(&flights(1500));
     let whole = withy(&file, "whole").output().unwrap();
     assert_eq!(whole.status.code(), Some(0), "{}", said(&whole));
@@ -107,7 +107,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
 }
 
 #[test]
-fn a_journal_of_another_sweep_is_not_taken() {
+fn journal_of_another_sweep_is_not_used() {
     let (_folder, file) = script(&flights(20));
     let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, format!("{text}\nmissing();")).unwrap();
@@ -122,7 +122,7 @@ fn a_journal_of_another_sweep_is_not_taken() {
 
 /// Three parts in separate folders, from machines with other names. The second one is killed and continued.
 #[test]
-fn parts_are_joined_to_the_bytes_of_one_machine() {
+fn merged_parts_equal_the_output_of_a_single_run() {
     let (folder, file) = script(&flights(300));
     let whole = withy(&file, "whole").output().unwrap();
     assert_eq!(whole.status.code(), Some(0), "{}", said(&whole));
@@ -175,7 +175,7 @@ fn parts_are_joined_to_the_bytes_of_one_machine() {
 }
 
 #[test]
-fn parts_of_maps_and_orders_are_joined_to_the_bytes_of_one_machine() {
+fn merged_parts_of_other_studies_equal_the_output_of_a_single_run() {
     let text = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
         let scene = |mesh| {
             let scene = new_scene(\"rod\");
@@ -219,7 +219,7 @@ fn parts_of_maps_and_orders_are_joined_to_the_bytes_of_one_machine() {
 }
 
 #[test]
-fn steps_of_all_runs_count_and_a_check_makes_one() {
+fn steps_of_all_runs_are_limited_and_a_check_writes_nothing() {
     let (folder, file) = script(&flights(400));
     let mut limited = withy(&file, "out");
     let output = limited.args(["--max-steps", "300"]).output().unwrap();
@@ -233,7 +233,7 @@ fn steps_of_all_runs_count_and_a_check_makes_one() {
 
 /// Scatter plots select points at random and maps average cells, as the pictures state. Pictures of selected rows have names of their own.
 #[test]
-fn pictures_are_of_all_rows_and_have_names_of_their_own() {
+fn pictures_show_all_rows_and_have_distinct_names() {
     let (_folder, file) = script(
         r#"
         let lots = study_sweep(#{ name: "lots", samples: sobol(4000), parameters: #{ a: uniform(0, 1), b: uniform(-1, 1) }, run: |p| #{ y: p.a + p.b } });
@@ -266,7 +266,7 @@ fn pictures_are_of_all_rows_and_have_names_of_their_own() {
 
 /// If all runs fail, the first one is repeated to locate its error. It neither prints nor writes.
 #[test]
-fn runs_that_all_fail_leave_nothing_behind() {
+fn failed_runs_of_a_sweep_print_and_write_nothing() {
     let (_folder, file) = script(
         r#"
         study_sweep(#{ name: "failing", parameters: #{ x: [1, 2] }, run: |p| {
@@ -288,7 +288,7 @@ fn runs_that_all_fail_leave_nothing_behind() {
 }
 
 #[test]
-fn sensitivity_tells_how_many_rows_it_leaves_out() {
+fn sensitivity_reports_the_number_of_omitted_rows() {
     let (_folder, file) = script(
         r#"
         let sweep = study_sweep(#{

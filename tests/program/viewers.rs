@@ -51,7 +51,7 @@ fn a_script_and_a_saved_simulation_become_the_same_page() {
 }
 
 #[test]
-fn what_cannot_be_viewed_is_told() {
+fn files_that_cannot_be_viewed_are_rejected() {
     let folder = folder();
     let home = folder.path();
     fs::write(home.join("none.rhai"), "print(1)").expect("a script");
@@ -129,7 +129,7 @@ fn a_narrow_page_is_not_cut() {
 }
 
 #[test]
-fn the_tip_on_the_screen_is_where_the_solver_says() {
+fn displayed_tip_position_agrees_with_the_solver() {
     let Some(browser) = browser() else {
         let is_wanted = std::env::var_os("WITHY_BROWSER").is_some();
         assert!(!is_wanted, "WITHY_BROWSER is set, and there is no chromium");

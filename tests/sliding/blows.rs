@@ -92,7 +92,7 @@ fn by_characteristics(bar: f64) -> (f64, f64) {
 }
 
 #[test]
-fn the_method_of_characteristics_finds_the_classical_figures() {
+fn method_of_characteristics_gives_the_classical_values() {
     // Timoshenko & Goodier, section 167: end times of the contact for masses of one, two and four times the mass of the bar.
     for (bar, expected) in [(1.0, 3.068), (0.5, 4.708), (0.25, 5.900)] {
         let (_, lasts) = by_characteristics(bar);
@@ -101,7 +101,7 @@ fn the_method_of_characteristics_finds_the_classical_figures() {
 }
 
 #[test]
-fn what_steps_and_mesh_resolve_rebounds_as_from_the_bar_of_saint_venant() {
+fn resolved_rebound_agrees_with_the_bar_of_saint_venant() {
     println!("{:>5} {:>5} {:>6}  velocity  lasts", "bar", "spans", "c Δt/L");
     for (bar_mass, tolerance) in [(1.0, 0.02), (0.25, 0.02)] {
         let (velocity, lasts) = by_characteristics(bar_mass);
@@ -138,7 +138,7 @@ fn the_rebound_is_the_same_over_ten_decades_of_stiffness() {
 }
 
 #[test]
-fn what_steps_do_not_resolve_rebounds_as_from_a_rigid_body_at_any_step_on_any_mesh() {
+fn unresolved_rebound_agrees_with_a_rigid_body_at_any_step_and_mesh() {
     println!("  EA  spans  clamped    free");
     for exponent in [4, 6, 8, 10, 12] {
         for spans in [4, 10, 40] {
@@ -159,7 +159,7 @@ fn what_steps_do_not_resolve_rebounds_as_from_a_rigid_body_at_any_step_on_any_me
 }
 
 #[test]
-fn a_ring_on_a_steel_rod_leaves_its_stop_in_any_steps() {
+fn ring_on_a_steel_rod_leaves_its_stop_at_any_step_size() {
     // 1 kg on a clamped rod of 1 m and 1 cm²: a wave needs 0.2 ms. With the restitution 0.5 each impact halves the speed.
     let steel = Section {
         axial_stiffness: 2.1e7,

@@ -168,7 +168,7 @@ fn the_derivatives_of_every_law_are_those_of_its_equations() {
 }
 
 #[test]
-fn the_derivatives_by_the_way_hold_where_it_passes_zero() {
+fn derivatives_by_the_increment_hold_near_zero() {
     for state in states().iter().filter(|state| state.unknowns.increment.abs() < 1e-3) {
         let numbers = state.numbers();
         for (law_name, law) in LAWS.into_iter().filter(|(name, _)| *name != "relaxed") {
@@ -201,7 +201,7 @@ fn balance(state: &State, contact: &Contact<'_>, passage: &ContactPath) -> (Vec2
 }
 
 #[test]
-fn what_a_contact_does_is_what_its_equations_leave() {
+fn contact_is_balanced_up_to_the_residuals_of_its_equations() {
     for mut state in states() {
         state.kink = None;
         state.with(&state.numbers(), |contact, passage| {
@@ -329,7 +329,7 @@ fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
 }
 
 #[test]
-fn the_border_of_every_scene_is_the_derivative_of_its_forces_and_equations() {
+fn constraint_border_of_every_scene_is_the_derivative_of_forces_and_equations() {
     let mut random = Random(77);
     for entry in SLIDING_RULES {
         for (mesh_name, mesh) in meshes(4) {
@@ -400,7 +400,7 @@ fn assert_border(label: &str, model: &mut System, random: &mut Random) {
 }
 
 #[test]
-fn the_equations_of_a_law_have_the_units_that_they_say() {
+fn equations_of_a_law_have_their_stated_units() {
     // Doubled lengths double equations with the unit length only, and doubled forces double equations with the unit force only.
     for state in states() {
         for (name, law) in LAWS {

@@ -33,7 +33,7 @@ fn slope(changes: &[f64]) -> f64 {
 }
 
 #[test]
-fn forces_at_the_present_moment_have_the_order_of_the_motion_with_every_rule_and_method() {
+fn present_forces_have_the_order_of_the_motion_with_every_rule_and_method() {
     for reference in ["P7b", "P8s_hinged"] {
         // With the relaxed rule, the second reference has no solution.
         let rules = SLIDING_RULES.iter().filter(|rule| rule.claims.gap || reference == "P7b");

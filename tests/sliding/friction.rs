@@ -181,7 +181,7 @@ fn friction_does_not_follow_the_alternating_part_of_the_contact_force() {
 }
 
 #[test]
-fn a_flexible_beam_that_flies_keeps_its_ledgers_at_any_step() {
+fn flying_flexible_beam_keeps_its_balances_at_any_step_size() {
     for friction in [0.3, 0.8] {
         for dt in [0.2, 0.05, 0.01] {
             let label = format!("friction {friction}, dt {dt}");
@@ -193,7 +193,7 @@ fn a_flexible_beam_that_flies_keeps_its_ledgers_at_any_step() {
 }
 
 #[test]
-fn a_turned_scene_has_the_same_motion() {
+fn rotated_scene_has_the_same_motion() {
     let places = [0.0, 0.7, 2.0].map(|rotation| {
         let simulation = simulate(flying(0.3, rotation), METHOD, 0.02, 2.0);
         (place(&simulation), simulation.counts().steps)
@@ -205,7 +205,7 @@ fn a_turned_scene_has_the_same_motion() {
 }
 
 #[test]
-fn going_back_and_on_again_keeps_every_bit() {
+fn rewinding_and_continuing_keeps_every_bit() {
     let mut simulation = Simulation::start(incline(30.0, 0.3), settings(METHOD, 0.04)).unwrap();
     simulation.enable_snapshots(1 << 24);
     run(&mut simulation, 1.0).unwrap();
@@ -216,7 +216,7 @@ fn going_back_and_on_again_keeps_every_bit() {
 }
 
 #[test]
-fn without_friction_nothing_changes() {
+fn vanishing_friction_does_not_change_the_motion() {
     let ends = [0.0, f64::MIN_POSITIVE].map(|friction| {
         let simulation = simulate(flying(friction, 0.0), METHOD, 0.02, 1.0);
         place(&simulation)
@@ -225,7 +225,7 @@ fn without_friction_nothing_changes() {
 }
 
 #[test]
-fn other_methods_and_rules_are_refused() {
+fn friction_with_other_methods_and_rules_is_rejected() {
     let started = Simulation::start(incline(30.0, 0.3), settings(Method::FourthOrder, 0.1));
     let error = started.map(|_| ()).unwrap_err();
     assert!(matches!(error, SimulationError::FrictionMethod { .. }), "{error}");
@@ -241,7 +241,7 @@ fn other_methods_and_rules_are_refused() {
 
 /// A step of one second is divided where the block stops after a quarter of it.
 #[test]
-fn a_transition_cuts_the_step() {
+fn step_ends_at_a_transition() {
     let mut simulation = Simulation::start(incline(15.0, 0.3), settings(METHOD, 1.0)).unwrap();
     step(&mut simulation).unwrap();
     let times = simulation.history().column("t").unwrap();
@@ -251,7 +251,7 @@ fn a_transition_cuts_the_step() {
 
 /// Random scenes with sliders that stick, slip and bounce. Friction never adds energy, and impacts explain all other changes.
 #[test]
-fn wild_scenes_with_friction_keep_their_ledgers() {
+fn random_scenes_with_friction_keep_their_balances() {
     let seeds = if std::env::var("WITHY_LONG").is_ok() { 60 } else { 12 };
     let (mut failed, mut with_fixed_friction) = (Vec::new(), 0);
     for seed in 0..seeds {

@@ -30,7 +30,7 @@ fn claimed(claims: RuleClaims) -> [bool; 4] {
 }
 
 #[test]
-fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
+fn free_sliding_mass_conserves_all_invariants_in_at_most_five_iterations() {
     println!(
         "mesh            A       EA     dt/dt0 steps  drift of E, p, L, gap              most mean"
     );
@@ -67,7 +67,7 @@ fn the_free_sliding_mass_keeps_all_to_rounding_in_at_most_five_iterations() {
 }
 
 #[test]
-fn the_conserving_rule_keeps_what_the_integrator_claims_on_every_mesh_and_in_every_scene() {
+fn conserving_rule_keeps_the_claims_of_the_integrator_on_every_mesh_and_scene() {
     for entry in INTEGRATORS.iter().filter(|entry| entry.claims.angular_momentum) {
         let keeps_energy = entry.claims.energy == EnergyClaim::Conserved;
         let mut worst = [0.0_f64; 4];
@@ -91,7 +91,7 @@ fn the_conserving_rule_keeps_what_the_integrator_claims_on_every_mesh_and_in_eve
 }
 
 #[test]
-fn every_rule_keeps_what_it_claims_and_nothing_else() {
+fn every_rule_conserves_only_its_claimed_invariants() {
     for entry in SLIDING_RULES {
         for (name, [ab, cm]) in paper_meshes() {
             for support in [Support::Free, Support::Hinged] {
@@ -116,7 +116,7 @@ fn every_rule_keeps_what_it_claims_and_nothing_else() {
 }
 
 #[test]
-fn what_a_rule_does_not_keep_is_lost_at_second_order() {
+fn unclaimed_invariants_of_rules_are_lost_at_second_order() {
     let cases =
         [(SlidingRule::Exact, Invariant::AngularMomentum), (SlidingRule::Relaxed, Invariant::Gap)];
     for (rule, invariant) in cases {
@@ -135,7 +135,7 @@ fn what_a_rule_does_not_keep_is_lost_at_second_order() {
 }
 
 #[test]
-fn generalized_alpha_keeps_the_gap_under_every_rule_that_closes_it() {
+fn generalized_alpha_keeps_the_gap_closed_under_every_gap_rule() {
     for entry in SLIDING_RULES.iter().filter(|entry| entry.claims.gap) {
         for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), entry.rule) {
             let label = format!("{}, {}", entry.name, scene.name);
@@ -147,7 +147,7 @@ fn generalized_alpha_keeps_the_gap_under_every_rule_that_closes_it() {
 }
 
 #[test]
-fn the_trapezoidal_rule_keeps_the_gap_and_the_momentum_under_every_rule_that_closes_it() {
+fn trapezoidal_rule_keeps_gap_and_momentum_under_every_gap_rule() {
     for entry in SLIDING_RULES.iter().filter(|entry| entry.claims.gap) {
         for scene in sliding_scenes::all(&Mesh::bspline(4, 3, 2).unwrap(), entry.rule) {
             let label = format!("{}, {}", entry.name, scene.name);
@@ -174,7 +174,7 @@ const DEEDS: [(&str, Deed); 4] = [
 ];
 
 #[test]
-fn a_restored_state_goes_on_bit_for_bit_whatever_sliders_did() {
+fn restored_state_continues_bit_for_bit_after_slider_events() {
     let methods = INTEGRATORS.iter().map(|entry| entry.method);
     let pairs = methods.flat_map(|method| SLIDING_RULES.iter().map(move |entry| (method, entry)));
     for (method, entry) in pairs {

@@ -132,7 +132,7 @@ fn carts_press_on_stiff_bridges_as_with_the_conserving_rule() {
 }
 
 #[test]
-fn the_force_of_a_row_is_the_mean_of_its_step() {
+fn recorded_force_is_the_mean_over_its_step() {
     let mass = 5.0;
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         for start in [0.0, 2.3] {
@@ -168,7 +168,7 @@ fn a_kink_that_starts_from_an_equilibrium_keeps_its_force() {
 }
 
 #[test]
-fn kinked_runs_go_on_with_every_bit_after_archives_forks_and_going_back() {
+fn kinked_runs_continue_bit_for_bit_after_archives_forks_and_rewinds() {
     let stiff = bridge(Cart { mass: 5.0, start: 2.3, is_curved: true }, 8, SlidingRule::Kinked);
     let mut bouncing = rails::bouncing_bead(&smooth(4), 1.0);
     bouncing.sliders[0].rule = SlidingRule::Kinked;
@@ -235,7 +235,7 @@ fn turned_beam(rotation: f64, speed: f64) -> Scene {
 
 /// Rounding changes the position of a slider at an end by a few units in the last place, in some frames beyond the end of the axis.
 #[test]
-fn kinks_after_bounces_are_alike_in_turned_frames() {
+fn kinks_after_bounces_agree_in_rotated_frames() {
     let places = |rotation: f64, speed: f64| {
         let scene = turned_beam(rotation, speed);
         let ran = simulate(scene, Method::EnergyMomentum, 0.027, 0.6);

@@ -34,7 +34,7 @@ fn errors(reference: &str, spans: usize, rule: SlidingRule, end: f64) -> [f64; 4
 }
 
 #[test]
-fn on_kinked_axes_contacts_come_nearer_to_the_references() {
+fn kinked_axes_bring_contacts_nearer_to_the_references() {
     let is_long = std::env::var_os("WITHY_LONG").is_some();
     let spans: &[usize] = if is_long { &[4, 8, 16, 32] } else { &[4, 16] };
     let references =
@@ -110,7 +110,7 @@ fn several_sliders_on_a_beam_converge_at_third_order_also_in_one_span() {
 }
 
 #[test]
-fn a_slider_as_fast_as_shear_waves_goes_on_with_the_kink_that_it_has_and_is_told() {
+fn slider_at_shear_wave_speed_keeps_its_kink_with_a_note() {
     for (speed, is_told) in [(3.0, false), (5.0, true)] {
         let mut scene = clamped_rail(&smooth(6), at(1.0, 0.0));
         let mut section = scene.beams[0].section.mean();

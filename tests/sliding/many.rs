@@ -42,7 +42,7 @@ fn solution(model: &mut System, mut tangent: BorderedMatrix, right: &[f64]) -> V
 }
 
 #[test]
-fn the_solution_is_that_of_a_border() {
+fn solution_equals_that_of_a_bordered_system() {
     let mut random = Random(3);
     for entry in SLIDING_RULES.iter().filter(|entry| entry.claims.gap) {
         for (mesh_name, mesh) in meshes(4) {
@@ -77,14 +77,14 @@ fn the_solution_is_that_of_a_border() {
 }
 
 #[test]
-fn few_sliders_have_a_border() {
+fn few_sliders_use_a_bordered_system() {
     let mesh = withy::beams::Mesh::bspline(4, 3, 2).unwrap();
     let scene = sliding_scenes::abacus(&mesh, withy::joints::SlidingRule::Kinked);
     assert!(System::assemble(&scene).unwrap().constraint_blocks().is_none());
 }
 
 #[test]
-fn all_is_kept_with_beads_eyelets_and_rings_by_the_dozen() {
+fn dozens_of_beads_eyelets_and_rings_conserve_all_invariants() {
     // An eyelet of the last scene is released from the ground, and then moves as a bead.
     let mut loose = sliding_scenes::eyelets(20, 6);
     let (hold, trigger) = (Releasable::Joint(2), Trigger::Time(0.05));

@@ -146,7 +146,7 @@ impl Crossing {
 }
 
 #[test]
-fn heavy_masses_amid_a_span_press_more_nearly_as_modes_with_kinks() {
+fn kinks_improve_contact_forces_of_heavy_masses_within_a_span() {
     for mass in [50.0, 500.0] {
         let crossing = Crossing::new(mass, 2.3, (1e-3, 0.35));
         let [coarse, fine] = [16, 64].map(|spans| crossing.errors(spans));
@@ -157,7 +157,7 @@ fn heavy_masses_amid_a_span_press_more_nearly_as_modes_with_kinks() {
 
 /// The velocity of a slider that begins at an end is rotated onto the kinked axis, and the modal solution starts along the unloaded axis.
 #[test]
-fn heavy_masses_that_enter_press_less_nearly_as_modes_with_kinks() {
+fn kinks_worsen_contact_forces_of_entering_heavy_masses() {
     let [smeared, kinked] = Crossing::new(500.0, 0.0, (1e-3, 0.35)).errors(64);
     assert!(smeared < 0.012 && kinked > 0.015 && kinked < 0.03, "{smeared} {kinked}");
 }

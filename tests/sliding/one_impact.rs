@@ -58,7 +58,7 @@ fn by_bead<T: Copy + Default>(simulation: &Simulation, of: impl Fn(usize) -> T) 
 }
 
 #[test]
-fn a_corner_and_a_stop_that_are_met_at_one_time_share_one_impact() {
+fn simultaneous_corner_and_stop_share_one_impact() {
     let ((m, v), (n, u)) = (TO_CORNERS, TO_ENDS);
     for restitution in [1.0, 0.5] {
         let scene = tray([0, 1, 2, 3], 1e8, restitution);
@@ -140,7 +140,7 @@ fn mirrored_beads_at_corners_and_ends_stay_mirrored_in_any_order() {
 }
 
 #[test]
-fn a_bounce_tells_its_impulse() {
+fn bounce_reports_its_impulse() {
     let mut scene = clamped_rail(&Mesh::bspline(4, 3, 2).unwrap(), at(1.0, 0.0));
     let mut section = scene.beams[0].section.mean();
     (section.axial_stiffness, section.shear_stiffness) = (1e10, 1e10);

@@ -159,7 +159,7 @@ fn energies_converge_to_those_of_the_references() {
 }
 
 #[test]
-fn sliders_turn_round_without_noticing() {
+fn sliders_reverse_at_the_reference_turning_points() {
     // Turning point ξ, and time of passing 0.95 on the way out: P7c, P8s hinged (README of the references).
     for (reference, turning, end, back) in
         [("P7c", 0.42165, 1.2, 1.101_05), ("P8s_hinged", 0.2687, 0.7, 0.628_61)]

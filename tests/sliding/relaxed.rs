@@ -30,7 +30,7 @@ fn solutions(model: &mut System, interval: Interval) -> usize {
 }
 
 #[test]
-fn where_the_relaxed_rule_stops_its_step_has_no_solution() {
+fn relaxed_rule_stops_only_where_its_step_has_no_solution() {
     let mut ends = Vec::new();
     for support in [Support::Free, Support::Hinged] {
         for (name, meshes) in paper_meshes() {

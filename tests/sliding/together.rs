@@ -100,7 +100,7 @@ fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
 }
 
 #[test]
-fn a_stiff_beam_hands_a_blow_on_from_bead_to_bead() {
+fn stiff_beam_transmits_an_impulse_between_beads() {
     // Newton's cradle: beads and beam have equal masses. The steps do not resolve waves, so the beam acts as a rigid body. The third bead rests at the other
     // end, and the second one takes no part.
     for dt in [0.01, 0.1] {
@@ -163,7 +163,7 @@ fn a_bouncing_bead_comes_to_rest_in_the_time_of_the_series() {
 }
 
 #[test]
-fn whatever_happens_in_one_step_keeps_everything() {
+fn simultaneous_events_in_one_step_conserve_all_invariants() {
     // In the step from 0.3 on, one bead strikes an end, one is released at an end, one reverses, a load jumps, and the foot of the beam is released.
     for method in METHODS {
         for dt in [0.3, 0.1, 0.02] {
@@ -191,7 +191,7 @@ fn whatever_happens_in_one_step_keeps_everything() {
 }
 
 #[test]
-fn what_leans_loses_and_leaves_goes_on_bit_for_bit_from_files_and_after_going_back() {
+fn sliders_at_stops_continue_bit_for_bit_from_files_and_after_rewinds() {
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     for method in METHODS {
         // Steps that resolve impacts, in which sliders stay in contact with stops, and steps that do not.
@@ -280,7 +280,7 @@ fn resting_beads(angle: f64) -> Scene {
 }
 
 #[test]
-fn turned_scenes_decide_alike_when_a_bead_at_rest_leaves_a_stop() {
+fn bead_at_rest_leaves_a_stop_alike_in_rotated_scenes() {
     let run = |angle: f64| simulated(resting_beads(angle), Method::FourthOrder, 0.00813, 0.5);
     let own = run(0.0);
     for angle in [0.4, 1.1, 2.3, 4.7] {

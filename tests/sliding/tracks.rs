@@ -83,7 +83,7 @@ fn crossing(spans: usize, seam: Option<f64>, turned: [bool; 2]) -> (Scene, usize
 }
 
 #[test]
-fn two_beams_that_join_smoothly_are_as_one() {
+fn smoothly_joined_beams_act_as_one_beam() {
     let mut apart = Vec::new();
     for spans in [4, 8, 16, 32] {
         let places = [None, Some(1.0)].map(|seam| {
@@ -101,7 +101,7 @@ fn two_beams_that_join_smoothly_are_as_one() {
 }
 
 #[test]
-fn contact_forces_go_on_through_a_smooth_seam() {
+fn contact_forces_are_continuous_at_a_smooth_seam() {
     let (scene, slider) = crossing(8, Some(1.0), [false; 2]);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.005, 0.8);
     let passed = simulation.arrivals()[slider].time;
@@ -116,7 +116,7 @@ fn contact_forces_go_on_through_a_smooth_seam() {
 }
 
 #[test]
-fn beams_may_be_drawn_either_way() {
+fn beams_of_a_track_may_have_either_direction() {
     let places = |turned| {
         let (scene, slider) = crossing(6, Some(0.7), turned);
         let simulation = simulate(scene, Method::EnergyMomentum, 0.01, 1.6);
@@ -211,7 +211,7 @@ fn a_free_rigid_corner_turns_the_relative_velocity_in_the_kinetic_metric() {
 }
 
 #[test]
-fn ten_thousand_steps_round_a_free_triangle_keep_everything() {
+fn ten_thousand_steps_round_a_free_triangle_conserve_all_invariants() {
     let scene = sliding_scenes::triangle(&smooth(4), SlidingRule::Conserving);
     let simulation = simulate(scene, Method::EnergyMomentum, 0.005, 50.0);
     let passed = simulation.arrivals().len();
@@ -303,7 +303,7 @@ fn everything_at_once(order: [usize; 3]) -> Scene {
 }
 
 #[test]
-fn an_end_a_corner_a_seam_a_release_and_a_jump_of_a_load_come_together() {
+fn end_corner_seam_release_and_load_jump_may_coincide() {
     let places = |order: [usize; 3]| {
         let scene = everything_at_once(order);
         let mut simulation =
@@ -328,7 +328,7 @@ fn an_end_a_corner_a_seam_a_release_and_a_jump_of_a_load_come_together() {
 }
 
 #[test]
-fn a_bead_that_turns_round_at_a_seam_comes_back() {
+fn bead_that_reverses_at_a_seam_returns() {
     let mut scene = Scene::new("throw");
     let low = line(at(0.0, 0.0), at(1.0, 1.0));
     let low = add_beam(&mut scene, low, &smooth(4), section(1e8, 1e8));
@@ -350,7 +350,7 @@ fn a_bead_that_turns_round_at_a_seam_comes_back() {
 }
 
 #[test]
-fn a_bead_in_a_valley_stays_there_and_leaves_with_what_it_had() {
+fn bead_rests_in_a_valley_and_leaves_when_pulled() {
     let mut scene = Scene::new("valley");
     let left =
         add_beam(&mut scene, line(at(-1.0, 1.0), Vec2::zeros()), &smooth(4), section(1e6, 1e5));

@@ -198,7 +198,7 @@ fn take_offs(simulation: &Simulation) -> usize {
 }
 
 #[test]
-fn a_flexible_beam_keeps_its_ledger_through_many_landings() {
+fn flexible_beam_keeps_its_energy_balance_through_many_landings() {
     for restitution in [0.0, 0.5, 1.0] {
         for dt in [0.01, 0.03, 0.1] {
             let scene = cantilever(0.0, Side::Left, restitution);
@@ -233,7 +233,7 @@ fn a_free_beam_and_a_bead_keep_their_momenta() {
 }
 
 #[test]
-fn turned_and_mirrored_copies_agree() {
+fn rotated_and_mirrored_copies_agree() {
     let gaps = |turn: f64, side: Side| {
         let scene = cantilever(turn, side, 0.5);
         let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
@@ -251,7 +251,7 @@ fn turned_and_mirrored_copies_agree() {
 
 /// An impact near a bead in contact moves the beam away from the bead.
 #[test]
-fn a_landing_leaves_another_slider_behind() {
+fn impact_of_a_slider_separates_another_slider() {
     let mut scene = Scene::new("seesaw");
     let mesh = Mesh::bspline(4, 3, 2).unwrap();
     let rod = add_beam(&mut scene, line(at(-1.0, 0.0), at(1.0, 0.0)), &mesh, STIFF);
@@ -292,7 +292,7 @@ fn a_bead_passes_beyond_the_end_of_a_beam() {
 }
 
 #[test]
-fn going_back_and_continuing_gives_the_same_bits() {
+fn rewinding_and_continuing_gives_the_same_bits() {
     let scene = cantilever(0.0, Side::Left, 0.5);
     let mut simulation = Simulation::start(scene, settings(METHOD, 0.03)).unwrap();
     simulation.enable_snapshots(1 << 26);
@@ -306,7 +306,7 @@ fn going_back_and_continuing_gives_the_same_bits() {
 }
 
 #[test]
-fn adaptive_steps_keep_the_ledger() {
+fn adaptive_steps_keep_the_energy_balance() {
     let scene = cantilever(0.0, Side::Left, 0.5);
     let steps = StepSize::from(StepControl::to(1e-4));
     let mut simulation = Simulation::start(scene, settings(METHOD, steps)).unwrap();
@@ -340,7 +340,7 @@ fn two_on_a_beam(mass_per_length: f64) -> Scene {
 }
 
 #[test]
-fn two_sliders_do_not_separate_each_other_without_end() {
+fn two_sliders_do_not_separate_each_other_endlessly() {
     for mass_per_length in [0.01, 0.1, 1.0] {
         let scene = two_on_a_beam(mass_per_length);
         let mut simulation = Simulation::start(scene, settings(METHOD, 0.01)).unwrap();
@@ -397,7 +397,7 @@ fn saved_runs_are_repeated_through_landings() {
 }
 
 #[test]
-fn runs_with_derivatives_take_off_as_others() {
+fn runs_with_derivatives_take_off_like_runs_without() {
     let scene = || sphere(0.3);
     let variation = Variation {
         name: "gravity".to_owned(),
@@ -422,7 +422,7 @@ fn runs_with_derivatives_take_off_as_others() {
 
 /// Events divide steps, but the steps of the grid have one length.
 #[test]
-fn take_offs_and_landings_are_no_alternating_steps() {
+fn take_offs_and_landings_are_not_reported_as_alternating_steps() {
     let simulation = dropped(0.0);
     let divided = |dt: &f64| *dt < 0.029;
     let lengths = simulation.history().column("dt").unwrap();

@@ -38,7 +38,7 @@ struct Row {
 }
 
 #[test]
-fn wild_scenes_end_or_say_why() {
+fn random_scenes_complete_or_fail_with_a_reason() {
     let seeds = if std::env::var("WITHY_LONG").is_ok() { SEEDS } else { IN_SHORT };
     // Option: one rule for all sliders, by its name. The results are printed only, without limits on work and failures.
     let named = std::env::var("WITHY_RULE").ok();
@@ -105,7 +105,7 @@ fn wild_scenes_end_or_say_why() {
 }
 
 #[test]
-fn steps_that_keep_a_tolerance_keep_kinks_where_there_is_no_other_step() {
+fn adaptive_steps_keep_kinks_if_other_steps_fail() {
     // If steps did not keep their kinks, all steps would fail at t = 0.946.
     let (mut scene, method) = scene(32);
     scene.sliders.iter_mut().for_each(|slider| slider.rule = SlidingRule::Kinked);

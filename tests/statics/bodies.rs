@@ -43,7 +43,7 @@ fn squares(model: &System, count: usize) -> Vec<f64> {
 }
 
 #[test]
-fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
+fn lamp_on_a_spring_has_its_equilibrium_and_frequency() {
     for stiffness in [3.0, 30.0, 1e6] {
         let torque = 0.8 * GRAVITY;
         let turned = root(|a| stiffness * a + torque * a.cos(), -1.6, 0.0);
@@ -74,7 +74,7 @@ fn a_lamp_sinks_until_its_spring_holds_it_and_swings_about_there() {
 }
 
 #[test]
-fn a_body_that_nothing_but_its_weight_holds_hangs_and_one_that_nothing_holds_falls() {
+fn body_hanging_by_its_weight_has_an_equilibrium_and_a_free_body_has_none() {
     let mut scene = lamp(1.0);
     scene.elements.retain(|element| !matches!(element, withy::system::Element::Spring(_)));
     let mut free = scene.clone();

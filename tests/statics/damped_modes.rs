@@ -60,7 +60,7 @@ fn a_damper_at_one_of_two_masses_couples_their_modes() {
 }
 
 #[test]
-fn an_overdamped_mass_has_two_rates_and_swings_with_none() {
+fn overdamped_mass_has_two_rates_without_oscillation() {
     let found = damped(&row(&[(2.0, 18.0, 20.0)]), 2).unwrap();
     for (found, expected) in found.iter().zip([1.0, 9.0]) {
         close(found.decay_rate, expected, 1e-12);
@@ -156,7 +156,7 @@ fn a_mass_with_a_damper_of_any_strength_has_both_roots_of_its_equation() {
 }
 
 #[test]
-fn beams_of_a_damped_material_have_the_rates_of_each_mode_by_itself() {
+fn beams_of_a_damped_material_have_the_rates_of_separate_modes() {
     for tau in [1e-3, 0.3] {
         let mesh = Mesh::bspline(6, 3, 2).unwrap();
         let mut scene = scenes::cantilever(&mesh, scenes::rod());
@@ -183,7 +183,7 @@ fn beams_of_a_damped_material_have_the_rates_of_each_mode_by_itself() {
 }
 
 #[test]
-fn what_is_not_damped_is_what_it_is_without() {
+fn undamped_modes_equal_those_without_dampers() {
     let mesh = Mesh::bspline(5, 3, 2).unwrap();
     let scene = scenes::cantilever(&mesh, scenes::rod());
     let modes = Modes::of(&System::assemble(&scene).unwrap(), 4, &mut || true).unwrap();

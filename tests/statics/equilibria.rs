@@ -100,7 +100,7 @@ fn every_step_of_the_roll_up_lies_on_its_circle() {
 }
 
 #[test]
-fn the_elastica_is_that_of_elliptic_integrals_for_every_load() {
+fn elastica_agrees_with_elliptic_integrals_for_every_load() {
     let json: serde_json::Value = serde_json::from_str(&text("P4_statics.json")).unwrap();
     for case in json["elastica"]["cases"].as_array().unwrap() {
         let load = number(&case["a2"]) * BENDING / LENGTH.powi(2);
@@ -114,7 +114,7 @@ fn the_elastica_is_that_of_elliptic_integrals_for_every_load() {
 }
 
 #[test]
-fn the_elastica_is_met_at_third_order() {
+fn elastica_converges_at_third_order() {
     let json: serde_json::Value = serde_json::from_str(&text("P4_statics.json")).unwrap();
     let case = &json["elastica"]["cases"][9];
     let exact = at(number(&case["x_over_L"]), number(&case["y_over_L"])) * LENGTH;
@@ -303,7 +303,7 @@ fn reactions_balance_the_loads() {
 
 /// The bending stiffness is 1e-14 of the axial stiffness and is lost in rounding, but Newton's method converges.
 #[test]
-fn a_beam_that_is_all_but_inextensible_is_held_and_bends_as_it_should() {
+fn nearly_inextensible_beam_bends_correctly() {
     let bend = |stiffness: f64| {
         let scene = clamped(straight(), &smooth(8), section(stiffness, stiffness));
         load_tip(scene, at(0.0, 1.0), 0.0, 8).position
@@ -313,7 +313,7 @@ fn a_beam_that_is_all_but_inextensible_is_held_and_bends_as_it_should() {
 }
 
 #[test]
-fn stability_is_that_of_eulers_column_or_not_known() {
+fn stability_agrees_with_eulers_column_or_is_unknown() {
     let at_part = |part: f64, frame: LoadFrame| {
         let mut scene = clamped(straight(), &smooth(16), section(1e7, 1e7));
         let station = scenes::end_of(&mut scene, 0);
@@ -352,7 +352,7 @@ fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
 
 /// Two beams joined at one clamped corner: the reaction at either beam is the same total reaction.
 #[test]
-fn a_support_holds_all_that_is_tied_to_it_and_nothing_beside_it() {
+fn support_holds_all_joined_bodies_and_no_others() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
     let up = scenes::line(Vec2::zeros(), at(0.0, LENGTH));
     let up = scenes::add_beam(&mut scene, up, &smooth(8), section(1e4, 1e4));
@@ -389,7 +389,7 @@ fn truss(force: f64) -> Scene {
 }
 
 #[test]
-fn load_control_never_arrives_snapped_through() {
+fn load_control_does_not_snap_through() {
     let limit = find(truss(12.0), along(40, 300)).unwrap().path().limit_points()[0];
     for steps in [1, 4, 10, 40] {
         let error =
@@ -401,7 +401,7 @@ fn load_control_never_arrives_snapped_through() {
 }
 
 #[test]
-fn the_last_load_factor_is_what_was_asked_for() {
+fn last_load_factor_is_the_requested_one() {
     for (factor, steps) in [(0.1, 3), (0.11, 10), (0.81, 7), (-0.3, 10)] {
         let scene = clamped(straight(), &smooth(4), section(1e4, 1e4));
         let mut scene = scene;
@@ -414,7 +414,7 @@ fn the_last_load_factor_is_what_was_asked_for() {
 }
 
 #[test]
-fn what_is_not_held_or_not_loaded_or_slides_is_told() {
+fn unsupported_unloaded_and_sliding_bodies_are_reported() {
     let mut free = Scene::new("free");
     scenes::add_beam(&mut free, straight(), &smooth(4), section(1e4, 1e4));
     let end = scenes::end_of(&mut free, 0);
@@ -477,7 +477,7 @@ fn a_search_stops_within_an_iteration() {
 }
 
 #[test]
-fn a_simulation_that_starts_at_rest_stays_there_and_swings_when_let_go() {
+fn simulation_from_an_equilibrium_stays_at_rest_and_oscillates_after_unloading() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
     let station = scenes::end_of(&mut scene, 0);
     let load = LoadKind::Force { station, force: at(0.0, 5.0), frame: LoadFrame::Dead };

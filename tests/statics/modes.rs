@@ -92,7 +92,7 @@ fn vibrate(case: &Case, mesh: &Mesh) -> (usize, Vec<f64>, Vec<f64>) {
 }
 
 #[test]
-fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
+fn beam_has_rigid_modes_and_no_other_modes_without_energy() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
             // Two quadrature points per cubic C1 span integrate one strain too few: two hourglass modes (docs/theory.md, section 4).
@@ -108,7 +108,7 @@ fn a_beam_has_its_rigid_modes_and_no_other_without_energy() {
 }
 
 #[test]
-fn frequencies_agree_with_the_exact_ones() {
+fn frequencies_agree_with_exact_values() {
     for case in cases() {
         for (name, mesh) in meshes(16) {
             let (_, flexural, axial) = vibrate(&case, &mesh);
@@ -205,7 +205,7 @@ fn the_lowest_modes_of_a_large_scene_are_those_of_a_small_one() {
 
 /// The ratio of shear stiffness to rotary inertia is so large that its rounding error exceeds the bending frequencies.
 #[test]
-fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
+fn lowest_mode_of_a_thin_strip_is_not_taken_for_a_rigid_motion() {
     let (modulus, density, thickness, width, length) = (210e9, 7850.0, 1e-3, 0.02, 4.0);
     let area = thickness * width;
     let second_moment = area * thickness * thickness / 12.0;
@@ -231,7 +231,7 @@ fn the_lowest_mode_of_a_thin_strip_is_not_taken_for_a_free_movement() {
 
 /// The search must not miss a single unstable mode far below many soft modes.
 #[test]
-fn an_unstable_mode_among_many_soft_ones_is_found_or_the_search_refused() {
+fn unstable_mode_among_many_soft_modes_is_found_or_the_search_fails() {
     let of = |spans: usize| {
         let mut scene = Scene::new("cable and column");
         let mesh = |spans| Mesh::bspline(spans, 3, 2).unwrap();
@@ -280,7 +280,7 @@ fn a_column_loses_its_stiffness_at_eulers_load() {
 }
 
 #[test]
-fn looking_for_modes_changes_nothing_of_a_simulation() {
+fn computing_modes_does_not_change_a_simulation() {
     let run = |looks: bool| {
         let scene = scenes::cantilever(
             &Mesh::bspline(6, 3, 2).unwrap(),
@@ -304,7 +304,7 @@ fn looking_for_modes_changes_nothing_of_a_simulation() {
 }
 
 #[test]
-fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
+fn mode_shapes_are_orthonormal_in_the_inertia_and_impossible_numbers_are_rejected() {
     let scene =
         scenes::cantilever(&Mesh::bspline(8, 3, 2).unwrap(), scenes::spaghetti_section(1e4, 100.0));
     let mut model = System::assemble(&scene).unwrap();
@@ -332,7 +332,7 @@ fn shapes_are_those_of_the_inertia_and_modes_that_cannot_be_are_told() {
 
 /// Without rotary inertia, section rotations have no inertia, and the corresponding modes have no finite frequency.
 #[test]
-fn a_beam_without_rotary_inertia_has_a_mode_for_each_movement_with_inertia() {
+fn beam_without_rotary_inertia_has_a_mode_for_each_motion_with_inertia() {
     let section = Section { rotary_inertia: 0.0, ..scenes::spaghetti_section(1e6, 100.0) };
     let scene = supported("free-free", &Mesh::bspline(6, 3, 2).unwrap(), section);
     let model = System::assemble(&scene).unwrap();

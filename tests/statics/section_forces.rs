@@ -66,7 +66,7 @@ fn errors(rest: &Equilibrium, force: Vec2) -> [f64; 3] {
 }
 
 #[test]
-fn balance_is_found_along_a_strongly_bent_cantilever() {
+fn section_forces_balance_the_load_along_a_strongly_bent_cantilever() {
     let force = at(-1.0, 6.0);
     // Orders of M at the last doubling of spans. The force is constant, and exact up to rounding.
     let least_order = [
@@ -104,7 +104,7 @@ fn balance_is_found_along_a_strongly_bent_cantilever() {
 }
 
 #[test]
-fn turning_changes_nothing_and_mirroring_the_signs_of_shear_and_moment() {
+fn rotation_keeps_section_forces_and_mirroring_changes_signs_of_shear_and_moment() {
     let mesh = Mesh::bspline(8, 3, 2).unwrap();
     let force = at(-1.0, 4.0);
     let along = |direction: f64, force: Vec2| {
@@ -131,7 +131,7 @@ fn turning_changes_nothing_and_mirroring_the_signs_of_shear_and_moment() {
 }
 
 #[test]
-fn the_law_of_the_material_holds_between_the_points_as_at_them() {
+fn material_law_holds_at_and_between_the_quadrature_points() {
     let rest = loaded(&Mesh::bspline(7, 3, 2).unwrap(), 0.0, at(1.0, 3.0));
     for sample in rest.section_forces_along(0).unwrap() {
         let SectionForces { axial, shear, moment, .. } = sample.forces;
@@ -144,7 +144,7 @@ fn the_law_of_the_material_holds_between_the_points_as_at_them() {
 
 /// Straight beam on three supports. The shear force jumps at the middle one.
 #[test]
-fn where_a_support_cuts_the_beam_both_sides_are_told() {
+fn section_forces_on_both_sides_of_a_support_are_returned() {
     let mut scene = Scene::new("continuous beam");
     let axis = Curve::line(Vec2::zeros(), at(2.0, 0.0)).unwrap();
     let beam = scenes::add_beam(&mut scene, axis, &Mesh::bspline(8, 3, 2).unwrap(), section());
@@ -169,7 +169,7 @@ fn where_a_support_cuts_the_beam_both_sides_are_told() {
 }
 
 #[test]
-fn a_bar_that_turns_is_pulled_by_its_own_inertia() {
+fn rotating_bar_is_stretched_by_its_inertia() {
     let errors = [4, 8, 16].map(|spans| {
         let mesh = Mesh::bspline(spans, 3, 2).unwrap();
         let stiff = Section { axial_stiffness: 1e6, shear_stiffness: 1e6, ..section() };

@@ -135,7 +135,7 @@ fn a_bead_sinks_into_the_sag_of_its_wire_and_rests_there_in_a_simulation() {
 }
 
 #[test]
-fn a_load_on_a_slender_beam_sinks_as_timoshenko_says_and_far_nearer_where_the_axis_is_kinked() {
+fn sliding_load_on_a_slender_beam_deflects_it_as_timoshenko_theory() {
     // P L³/48 EI + P L/4 GA in the middle, for a load in the linear range.
     let (mass, shear) = (1e-6, 2e3);
     let load = mass * GRAVITY;
@@ -177,7 +177,7 @@ fn a_bead_in_a_stiff_arc_swings_as_a_pendulum() {
 }
 
 #[test]
-fn a_disturbed_rest_swings_with_the_frequencies_of_its_modes() {
+fn disturbed_equilibrium_oscillates_with_the_frequencies_of_its_modes() {
     // Bead on a sagging wire with a short downward force. The second mode is that of wire and bead.
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         let mut scene = sag(8, 2e3, 1.0, 2.0, rule);
@@ -252,7 +252,7 @@ fn a_slider_leans_on_the_stop_below_and_leaves_where_there_is_none() {
 }
 
 #[test]
-fn what_only_its_load_holds_sinks_to_its_rest() {
+fn body_held_only_by_its_load_reaches_equilibrium() {
     // A hinged beam, and a chain of three beams, both initially horizontal. They hang vertically and are elongated by their weight.
     for links in [1, 3] {
         let mut scene = Scene::new("chain");
@@ -278,7 +278,7 @@ fn what_only_its_load_holds_sinks_to_its_rest() {
 }
 
 #[test]
-fn a_ring_of_the_ground_lets_a_beam_through_until_it_hangs_where_forces_balance() {
+fn beam_slides_through_a_fixed_ring_to_its_equilibrium() {
     // Heavy beam on a hinge that passes through a fixed ring. The contact force is transverse, so the beam lies on the line from the hinge to the ring.
     let mut scene = Scene::new("through a ring");
     let rod = add_beam(&mut scene, line(at(0.0, 0.0), at(3.0, 1.0)), &smooth(12), section(1e6));

@@ -79,7 +79,7 @@ fn a_torsion_spring_turns_the_tip_back() {
 }
 
 #[test]
-fn a_hanging_mass_rests_where_the_spring_holds_it_and_dampers_have_no_say() {
+fn hanging_mass_on_a_spring_has_its_equilibrium_independent_of_dampers() {
     let mut scene = Scene::new("scales");
     let pan = ParticleDefinition { name: "pan".to_owned(), position: at(0.0, -1.0) };
     let pan = Anchor::Station(scene.add_particle(pan, 3.0).unwrap());

@@ -185,7 +185,7 @@ fn errors(
 }
 
 #[test]
-fn the_exact_frequencies_are_those_of_the_reference() {
+fn exact_frequencies_agree_with_the_reference() {
     let json: serde_json::Value = serde_json::from_str(&text("P5_frequencies.json")).unwrap();
     let mut checked = 0;
     for case in json["cases"].as_array().unwrap() {
@@ -275,7 +275,7 @@ fn beams_of_any_stiffness_have_their_first_six_frequencies() {
 }
 
 #[test]
-fn the_whole_grid() {
+fn beams_of_the_whole_grid_have_their_first_six_frequencies() {
     let ratios = [2, 4, 6, 8, 10, 12, 14];
     check_all(&ratios, &[None, Some(1e-6), Some(1e-12)], &[4, 16, 64, 120, 400, 2000]);
 }
@@ -394,11 +394,11 @@ fn random_scenes(count: usize) {
 }
 
 #[test]
-fn plain_scenes_settle() {
+fn modes_of_random_plain_scenes_converge() {
     random_scenes(40);
 }
 
 #[test]
-fn all_plain_scenes_settle() {
+fn modes_of_all_random_plain_scenes_converge() {
     random_scenes(216);
 }

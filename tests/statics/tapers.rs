@@ -21,7 +21,7 @@ fn clamped(variation: SectionVariation, length: f64, spans: usize) -> Scene {
 }
 
 #[test]
-fn the_tip_of_a_tapered_cantilever_sinks_as_the_integral_says() {
+fn deflection_of_a_tapered_cantilever_agrees_with_the_integral() {
     // EI = B (1 - a s): δ = F L³/B ∫ (1 - s)²/(1 - a s) ds. The shear deflection is F L/G, as GA is uniform.
     let (stiffness, a, length, force) = (50.0, 0.8, 2.0, 1e-4);
     let section = |bending: f64| Section {
@@ -83,7 +83,7 @@ fn wedge_root() -> f64 {
 }
 
 #[test]
-fn a_wedge_vibrates_as_kirchhoff_found() {
+fn wedge_has_the_frequencies_of_kirchhoff() {
     // Kirchhoff's wedge has a sharp tip. Here the tip height is a thousandth of that at the clamp, and shear and rotary inertia reduce the frequency by 0.2 %.
     let (young, density, height, length) = (1e9, 1000.0, 0.01, 1.0);
     let solid = |part: f64| Solid {
@@ -104,7 +104,7 @@ fn a_wedge_vibrates_as_kirchhoff_found() {
 }
 
 #[test]
-fn a_tapered_bar_stretches_and_rings_as_its_area_says() {
+fn tapered_bar_has_the_stretch_and_frequencies_of_its_area() {
     // Conical bar with area (1 - s/2)²: modes u = f/(1 - s/2) with f'' + β² f = 0, f(0) = 0, (f/r)'(1) = 0, r = 1 - s/2.
     let (stiffness, mass, length) = (100.0, 2.0, 3.0);
     let solid = |radius: f64| Solid {

@@ -1,15 +1,8 @@
-//! Converts the state to the lines of the screen, without side effects. Example of a screen:
+//! Converts the state to the lines of the screen, without side effects.
 //!
-//! ```text
-//! Exercise 2 of 28: title                 the header does not scroll
-//! [##----------------] 1 of 28 passed
-//! Edit beams/rectangle.rhai
-//! ───────────────────────────────────
-//! task, result, hints                     this part scrolls if it is longer than the screen
-//! ───────────────────────────────────
-//! notice after a key
-//! h hint   l list   …                     the available keys
-//! ```
+//! The top of the screen shows the title of the exercise, a bar of passed exercises, and the file to edit.
+//! The middle shows the task, the result and the hints, and scrolls if it is longer than the screen.
+//! The bottom shows a notice after a key, and the available keys.
 
 use super::line::{
     FAINT, GOOD, HEADING, LineStyle, PLAIN, STRONG, ScreenLine, WARNING, labelled, paragraph,

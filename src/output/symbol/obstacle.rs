@@ -31,7 +31,7 @@ impl PlacedSymbol {
             let (start, middle) = (outline[0], outline[outline.len() / 2]);
             let width = hypot(middle.0 - start.0, middle.1 - start.1);
             for run in curve::pieces(outline, plot) {
-                // The hatching of a disc of a few pixels would leave the disc.
+                // A disc of a few pixels has no hatching, because the strokes would leave the disc.
                 if width > SMALL {
                     hatch_along(canvas, &run, plot);
                 }

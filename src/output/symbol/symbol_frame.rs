@@ -104,7 +104,7 @@ impl SymbolFrame<'_> {
     }
 
     fn hinge(&mut self) {
-        // The symbol is always drawn upright.
+        // The symbol of a hinge is always drawn upright.
         self.ahead = (0.0, -1.0);
         self.triangle();
         self.ground_behind(TRIANGLE);

@@ -187,7 +187,7 @@ impl Layout {
         let mut dots = Dots::new(self.columns, self.rows);
         let (right, bottom) = dots.last();
         for index in series {
-            // Axes move infinite values to their ends. A curve must have a gap at such values.
+            // Axes move infinite values to the ends of the axis. A curve must have a gap at an infinite value.
             let seen = |&(a, b): &(f64, f64)| match a.is_finite() && b.is_finite() {
                 true => (x.place(a) * right, (1.0 - y.place(b)) * bottom),
                 false => (f64::NAN, f64::NAN),

@@ -35,7 +35,7 @@ impl PictureMark {
     }
 }
 
-/// Sizes that count as zero, as a fraction of the coordinates and as a length.
+/// Size of a drawing that counts as zero: as a fraction of the coordinates, and as a length.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
 /// Smallest size of a picture with a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);
@@ -208,7 +208,7 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame. The second text is omitted unless the first keeps its whole width or at least half of the line.
+    /// Writes two texts into a line of the frame. The right text is omitted if the left text would be cut to less than half of the line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,

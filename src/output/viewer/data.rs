@@ -43,8 +43,8 @@ pub struct BodyShape {
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. Empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if any. For such a body, `outline` is the line from the centre to a point of the body.
-    /// The coordinates of a corner are along the line and to its left, in units of the length of the line. The last corner repeats the first.
+    /// Corners of the polygon of the body, if it has one. The field `outline` is then the line from the centre to a point of the body.
+    /// The two coordinates of a corner are along the line `outline` and to its left, in units of its length. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -71,7 +71,7 @@ pub struct SpringShape {
     pub symbol: Symbol,
     pub name: String,
     pub anchors: Vec<SpringEnd>,
-    /// Time of the release of the element; `None` if it is not released.
+    /// Time of the release of the spring, damper or tendon; `None` if it is not released.
     pub until: Option<f64>,
 }
 

@@ -31,9 +31,9 @@ const PROGRAMS: [&str; 9] = [
 
 /// Number of steps between the smallest and the largest value of a field. A screen shows fewer shades.
 const SHADES: u16 = 255;
-/// Number of steps between the smallest and the largest value of a load, to which its values are rounded.
+/// Number of steps between the smallest and the largest value of a load, for rounding of the values.
 const LOAD_STEPS: u16 = 4095;
-/// Number of steps between 0 and 1 to which weights are rounded. The rounding error is far below the resolution of the points.
+/// Number of steps between 0 and 1 for rounding of weights. The rounding error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
 
 /// HTML page with one motion or several motions side by side.

@@ -2,9 +2,8 @@
 
 const MOST_ROWS: usize = 3000;
 
-/// Indices of the rows that are kept.
+/// Indices of the rows that are kept, always including the last row.
 /// Many rows are divided into pieces. Of each piece, the first row and the rows with the extreme values of every column are kept.
-/// The last row of the history is always kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -13,7 +13,7 @@ use crate::script::presentation::present::present;
 
 const DIGITS: usize = 6;
 
-/// Help for a name of the session, as a text and a help page. The text is shown unchanged.
+/// Help for a name of the session, as a text and a help page. The text may contain source code and is shown without changes.
 pub struct NameInfo {
     pub shown: Option<String>,
     pub page: HelpPage,
@@ -51,7 +51,7 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// Source text of a function of the session, without its doc comments, which the help shows separately.
+/// Source text of a function of the session without its doc comments. The help shows the doc comments separately.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));
@@ -125,7 +125,7 @@ fn extent(value: &Dynamic) -> String {
     }
 }
 
-/// Value of a property of a variable. Its evaluation has no side effects.
+/// Value of a property of a variable. Reading the property has no side effects.
 fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {

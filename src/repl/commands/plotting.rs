@@ -51,7 +51,7 @@ pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Splits an operand into the curves and the map of options at its end. A comma between them is optional.
+/// Splits the operand of `:plot` into its curves and the map of options at its end. A comma between curves and map is optional.
 fn with_options(operand: &str) -> (&str, Option<&str>) {
     let mut depth = 0;
     for token in scan(operand) {
@@ -107,7 +107,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Interprets a part of the operand. Column names may be quoted. Unquoted words are columns unless they have another meaning.
+/// Interprets a part of the operand of `:plot`. Column names may be quoted. An unquoted word is a column unless it has another meaning.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
@@ -186,7 +186,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Success
 }
 
-/// Charts of curves, one for each dimension. Values of expressions are drawn with the first column, because their dimension is not known.
+/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn with the first column.
 fn charts(
     shell: &Shell,
     options: &Map,
@@ -228,7 +228,7 @@ fn expression(shell: &mut Shell, text: &str) -> PlotData {
         Err(refusal) => return Err(shell.report_error(&refusal)),
     };
     let before = shell.session().simulation_positions();
-    // The expression is evaluated on a copy, so that it cannot change the simulation by mistake.
+    // The expression is evaluated on a copy of the simulation, so that it cannot change the simulation by mistake.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
     let present = present.map_err(|error| shell.report_native_error(error))?;
     let place = present.as_ref().map(Revisit::place);
@@ -325,7 +325,7 @@ fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = Simulation
     named.into_iter()
 }
 
-/// Simulation of an expression: the simulation that it names, or the last used simulation.
+/// Simulation whose states an expression uses: the simulation that the expression names, or the last used simulation.
 fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {

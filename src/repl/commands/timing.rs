@@ -71,7 +71,7 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     }
 }
 
-/// Text with the results. The first run is reported separately, because it includes one-time work such as loading.
+/// Text with the measured run times. The first run is reported separately, because it includes one-time work such as loading.
 fn report(first: &str, figures: &Figures) -> String {
     let [least, median, low, high] =
         [figures.least, figures.median, figures.quartiles.0, figures.quartiles.1].map(in_words);

@@ -28,7 +28,7 @@ impl Candidate {
         }
     }
 
-    /// Candidate for a function or property of the language. `before_dot` is the number of parameters before the dot.
+    /// Candidate for a function or property of the language. `before_dot` is the number of parameters before the dot of a method call.
     pub fn row(row: &'static FunctionBinding, before_dot: usize) -> Self {
         match row.form {
             CallSyntax::Property(_) | CallSyntax::Operator => Self::word(row.name, row.summary),
@@ -77,8 +77,8 @@ pub fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", names.collect::<Vec<_>>().join(", "))
 }
 
-/// Candidates that match `typed`, sorted and without duplicates. These are the candidates that begin with `typed`.
-/// If no candidate begins with `typed`, candidates that contain the letters of `typed` in the same order, in upper or lower case, are returned.
+/// Candidates that begin with `typed`, sorted and without duplicates.
+/// If no candidate begins with `typed`, candidates that contain its letters in the same order, in upper or lower case, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

@@ -5,7 +5,7 @@ use super::completion::complete;
 use super::paths::{FileFilter, complete_path};
 use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
-/// Completion candidates for `text`, which is a command or a help request. The number is the start of the replaced text.
+/// Completion candidates for `text`, a command or a help request. The number is the index of the first byte that a candidate replaces.
 pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Only columns and variables are suggested, because there are too many functions.
+                // Only columns and variables are suggested as curves, because a list of all functions would be too long.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));
@@ -64,7 +64,7 @@ fn options_at(operand: &str) -> Option<usize> {
 }
 
 /// Completes an operand that is a map of options like an argument of the unfinished call `call`.
-/// Operands of other commands are completed like expressions.
+/// An operand that is not a map is completed like an expression.
 fn in_call(
     call: &str,
     operand: &str,

@@ -5,9 +5,9 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 /// Completeness of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
-    /// The input can be evaluated, or its evaluation reports an error.
+    /// The input can be evaluated, or evaluating it reports an error.
     Complete,
-    /// The input is incomplete. The value is the indentation level of the next line.
+    /// The input is incomplete. The variant contains the indentation level of the next line.
     Open(usize),
 }
 
@@ -37,7 +37,7 @@ pub fn is_command(text: &str) -> bool {
 /// An input that cannot be corrected counts as complete, so that its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
-    // A doc comment must be followed by a function.
+    // A doc comment is incomplete, because a function must follow it.
     let last = tokens.iter().rev().find(|token| token.kind != TokenKind::Space);
     let last = last.filter(|token| token.kind == TokenKind::Comment).map(|token| token.of(text));
     if last.is_some_and(|comment| comment.starts_with("///") && !comment.starts_with("////")) {
@@ -52,7 +52,7 @@ pub fn completeness_of_script(text: &str) -> Completeness {
     reader.conclude()
 }
 
-/// Operators that need an operand on their right.
+/// Operators that need an operand on their right, so that an input that ends with one is incomplete.
 const GO_ON: &[&str] = &[
     "+", "-", "*", "/", "%", "**", "^", "=", "+=", "-=", "*=", "/=", "%=", "**=", "^=", "&=", "|=",
     "<<=", ">>=", "==", "!=", "<", ">", "<=", ">=", "&&", "||", "&", "|", "<<", ">>", "??", "!",
@@ -146,7 +146,7 @@ impl<'t> InputReader<'t> {
         ParseOutcome::Incomplete
     }
 
-    /// Handles a string literal that is not closed on its line. The literal continues on the next line only after a backslash.
+    /// Handles a string literal without a closing quote on its line. Only a backslash continues the literal on the next line.
     fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
         ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })

@@ -14,7 +14,7 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Candidates for the word at `position` in `line`, and the start of the word.
+/// Candidates for the word at `position` in `line`, and the index of the first byte of this word.
 pub fn complete(
     line: &str,
     position: usize,
@@ -25,7 +25,7 @@ pub fn complete(
         true => complete_command(&line[..position], surroundings),
         false => complete_language(line, position, surroundings),
     };
-    // If the end of a candidate already follows the cursor, it is not inserted again.
+    // If the text after the cursor already is the end of a candidate, this end is not inserted again.
     for candidate in &mut candidates {
         for mark in ["(", "\"", "\"]", "::", ": "] {
             if after.starts_with(mark.trim_end()) && candidate.replacement.ends_with(mark) {

@@ -9,13 +9,13 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::Bracket;
 
-/// Open brackets at the cursor. They determine the expected parameters.
+/// Open brackets at the cursor, which determine the expected parameters.
 pub struct Expected<'a, 't> {
     types: Types<'a, 't>,
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Called function, with the number of its parameters before the dot.
+/// Function that is called at the cursor, with the number of its parameters before the dot of a method call.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
@@ -46,7 +46,7 @@ impl<'a, 't> Expected<'a, 't> {
     }
 
     /// Option keys of a library function with their descriptions.
-    /// Empty if the innermost bracket at the cursor is not the option map of a library function.
+    /// No keys are returned if the innermost bracket at the cursor is not the option map of a library function.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -134,7 +134,7 @@ fn keys(parameters: &[&'static Parameter]) -> Vec<&'static Parameter> {
     parameters.iter().flat_map(|parameter| kinds(&parameter.kind)).flat_map(options).collect()
 }
 
-/// Alternative types that a type allows.
+/// Types that a value of type `kind` may have: the alternatives of a union, otherwise the type itself.
 pub fn kinds(kind: &'static Kind) -> &'static [Kind] {
     match kind {
         Kind::Either(kinds) => kinds,

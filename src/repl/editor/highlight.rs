@@ -14,7 +14,7 @@ pub struct SessionNames {
 }
 
 impl SessionNames {
-    /// Creates the vocabulary of a session.
+    /// Collects the names of a session.
     pub fn of(context: CompletionContext) -> Self {
         let mut language = highlight::Vocabulary::of_language(&context.catalog);
         for function in &context.functions {
@@ -30,7 +30,7 @@ impl SessionNames {
         Self { language, context }
     }
 
-    /// Session to which the names belong.
+    /// Session data from which the names were collected.
     pub fn surroundings(&self) -> &CompletionContext {
         &self.context
     }

@@ -33,8 +33,8 @@ impl Hint {
     }
 }
 
-/// Hint for the cursor at `position`, which must be the end of `line`.
-/// The hint is the rest of the only matching name, the signature of the call around the cursor, or the keys of its options.
+/// Hint for the cursor at `position`. There is a hint only if the cursor is at the end of `line`.
+/// The hint is the rest of the only matching name, the signature of the call around the cursor, or the keys of the options of this call.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;

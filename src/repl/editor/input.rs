@@ -2,16 +2,16 @@
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Largest number of open brackets in the search. Brackets further outside have no influence at the cursor.
+/// Largest number of open brackets in the search. Brackets farther outside have no influence on the completion at the cursor.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
     pub text: &'t str,
     /// Tokens of the text, without spaces and comments.
     pub tokens: Vec<Token>,
-    /// Token that ends at the cursor, including spaces and comments.
+    /// Token that ends at the cursor. It may be white space or a comment.
     pub last: Option<Token>,
-    /// Index of the matching bracket for each bracket token.
+    /// Index of the matching bracket for each token that is a bracket.
     partners: Vec<Option<usize>>,
     /// Token indices of the brackets that are open at the cursor. The innermost bracket is last.
     open: Vec<usize>,
@@ -28,7 +28,7 @@ pub struct OpenBracket<'t> {
 #[derive(Clone, Copy, Debug)]
 pub struct CalleeName<'t> {
     pub name: &'t str,
-    /// Index of the last token of the value before the dot.
+    /// Index of the last token of the value before the dot of a method call.
     pub receiver: Option<usize>,
     pub module: Option<&'t str>,
 }
@@ -60,7 +60,7 @@ impl<'t> Input<'t> {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// Name at the cursor that is being typed, and its start [bytes]; empty between names.
+    /// Name that is being typed at the cursor, and its start [bytes]. The name is empty if the cursor is not at a name.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
@@ -72,7 +72,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets that are open at the cursor, from the outside to the inside. If there are many, only the innermost brackets are returned.
+    /// Brackets that are open at the cursor, from the outside to the inside. Of many brackets, only the innermost are returned.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()

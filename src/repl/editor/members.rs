@@ -7,9 +7,8 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value as completion candidates.
-/// If the type of the value is unknown, matching members of all types are returned, provided that something has been typed.
-/// If the value is a map in a variable, the keys of the map are returned.
+/// Members of a value as completion candidates, for a map in a variable also the keys of the map.
+/// For a value of unknown type, matching members of all types are returned, provided that part of a name has been typed.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

@@ -1,6 +1,6 @@
 //! Editing of inputs: detection of complete inputs, completion, hints and colours.
 //!
-//! These modules have no side effects. They use the tokens of [`scanner`](crate::script::source::scanner).
+//! The modules of the editor have no side effects. They use the tokens of [`scanner`](crate::script::source::scanner).
 
 pub(crate) mod candidates;
 mod commands;

@@ -7,7 +7,7 @@ use crate::script::bindings::catalog::Catalog;
 /// Names of a session for completion and hints, collected before each prompt. The values of variables are not stored.
 #[derive(Clone)]
 pub struct CompletionContext {
-    /// Catalog of the language.
+    /// Catalog of the names of the language.
     pub catalog: Catalog,
     /// Variables and constants of the session.
     pub variables: Vec<Variable>,
@@ -41,9 +41,9 @@ pub struct ScriptFunction {
     pub name: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
-    /// One-line summary; may be empty.
+    /// One-line summary of the function; may be empty.
     pub summary: String,
-    /// Keys of the options with their descriptions.
+    /// Keys of the options of the function, with their descriptions.
     pub keys: Vec<(String, String)>,
 }
 
@@ -61,7 +61,7 @@ pub struct ImportedModule {
 pub struct CommandWord {
     /// Command as it is typed, with its colon, such as `:step`.
     pub name: &'static str,
-    /// One-line summary.
+    /// One-line summary of the command.
     pub summary: &'static str,
     /// Type of the operand.
     pub operand: CommandOperand,
@@ -76,15 +76,15 @@ pub enum CommandOperand {
     Name,
     /// File name.
     File,
-    /// Expression.
+    /// An expression of the language.
     Expression,
     /// Columns of the history, or expressions that define curves.
     Curves,
     /// Number.
     Number,
-    /// One of the given words.
+    /// One of the given words, such as `on` and `off`.
     OneOf(&'static [&'static str]),
-    /// Expression or map of options. A map is completed like the next argument of the given unfinished call.
+    /// Expression or map of options. The map is completed like the next argument of the given unfinished call.
     OptionsOf(&'static str),
 }
 

@@ -10,7 +10,7 @@ use crate::script::source::scanner::{Bracket, TokenKind};
 /// Largest number of members and calls in a chain such as `a.b().c[0].d`.
 const LONGEST_CHAIN: usize = 32;
 
-/// Largest nesting of parentheses and declarations.
+/// Largest nesting depth of parentheses and declarations that is examined.
 const DEEPEST: usize = 16;
 
 /// Derivation of types from tokens, session variables, and return types of functions.
@@ -139,7 +139,8 @@ impl<'t> Types<'_, 't> {
         }
     }
 
-    /// Type of the value in the last statement `let name = value;` before the token `at`; `None` without such a statement.
+    /// Type of the value in the last statement `let name = value;` before the token `at`.
+    /// The outer option is `None` if the name is not declared, the inner option if the type of its value is unknown.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {

@@ -7,9 +7,9 @@ use crate::script::state::watchdog::Watchdog;
 
 /// Control of the repeated evaluation of an input. Each evaluation starts from the same variables.
 pub trait Rounds {
-    /// Prepares the next evaluation. Returns `false` if the input is not evaluated again.
+    /// Prepares the next evaluation. Returns `false` if the input must not be evaluated again.
     fn begin(&mut self) -> bool;
-    /// Receives the value of an evaluation after its end.
+    /// Receives the value of a completed evaluation.
     fn end(&mut self, value: Dynamic);
 }
 
@@ -30,7 +30,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression without lasting effects, except for changes of scenes and simulations.
+    /// Evaluates an expression without lasting effects. Only changes of scenes and simulations remain.
     pub fn evaluate_preview(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.evaluate_repeatedly(text, &mut once) {
@@ -40,7 +40,7 @@ impl Session {
         }
     }
 
-    /// Evaluates an expression repeatedly. The text is parsed once, and variables are restored before each evaluation.
+    /// Evaluates an expression repeatedly. The text is parsed only once, and variables are restored before each evaluation.
     ///
     /// # Errors
     /// Returns the reply to the first failed evaluation.

@@ -16,7 +16,7 @@ use crate::repl::editor::completion::complete;
 use crate::repl::editor::highlight::{SessionNames, highlight};
 use crate::repl::editor::hints::{self, Hint};
 
-/// Largest number of candidates for a list with summaries, one candidate per line.
+/// Largest number of candidates that are listed with summaries, one candidate per line.
 const SHORT_LIST: usize = 12;
 
 pub struct Assistant {
@@ -131,7 +131,7 @@ impl Hinter for Assistant {
     }
 }
 
-/// Hint with the remaining text of a history entry. Only the first line is shown, so that the height of the input does not change.
+/// Hint with the rest of a history entry. Only its first line is shown, so that the height of the input does not change.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

@@ -11,8 +11,8 @@ pub const MOST_ENTRIES: usize = 5000;
 /// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// Path of the history file. `setting` is the value of the environment variable. Without this variable, the file is in the user's state folder.
-/// If the environment variable is empty, the result is `None`.
+/// Path of the history file; `None` if `setting`, the value of the environment variable, is empty.
+/// Without the environment variable, the history file is in the user's state folder.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

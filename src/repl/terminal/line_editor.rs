@@ -25,7 +25,7 @@ pub enum Keys {
 }
 
 impl Keys {
-    /// Environment variable that selects the editing mode.
+    /// Environment variable that selects the editing mode, `emacs` or `vi`.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
     /// Editing mode with the given name, such as `emacs` or `vi`; `None` for other names.
@@ -97,7 +97,7 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Reads an input and adds it to the history. The input may have several lines.
+    /// Reads an input of one or more lines and adds it to the history.
     ///
     /// # Errors
     /// Fails if the terminal fails.
@@ -132,14 +132,14 @@ impl Editor {
         Some((usize::from(columns), usize::from(lines)))
     }
 
-    /// Problem with the history file; `None` without a problem. The problem is returned only once.
+    /// Problem with the history file, returned only once; `None` without a problem.
     pub fn take_history_problem(&mut self) -> Option<String> {
         self.history_problem.take()
     }
 
     fn recall(&mut self) {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
-        // Reading from a pipe or a device would block the session.
+        // Other files than regular files are refused, because reading from a pipe or a device would block the session.
         if !file.is_file() {
             let error = ReadlineError::from(io::Error::other("it is not a regular file"));
             return self.disable_history("read", &file, &error);

@@ -1,13 +1,13 @@
 //! Type-ahead: keys typed during an evaluation are kept for the next prompt.
 //!
-//! Between two prompts, a terminal in line mode would process keys such as Ctrl-D or Ctrl-R itself.
-//! The terminal is in raw input mode during the whole session. Ctrl-C and Ctrl-Z keep their meaning.
+//! A terminal in line mode would process keys such as Ctrl-D or Ctrl-R between two prompts, instead of keeping them.
+//! The terminal is therefore in raw input mode during the whole session, in which Ctrl-C and Ctrl-Z keep their meaning.
 
 /// Guard that keeps the terminal in raw input mode. Dropping the guard restores the original mode.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Sets the raw input mode. If setting the mode fails, the terminal is unchanged.
+    /// Switches the terminal to raw input mode. After a failure, the terminal is unchanged.
     pub fn set_mode() -> Self {
         terminal::set_raw_mode();
         Self(())
@@ -18,7 +18,7 @@ impl TypedAhead {
     }
 }
 
-/// Guard that exists while another program uses the terminal.
+/// Guard for the time in which another program uses the terminal. Dropping the guard sets the raw input mode again.
 pub struct TerminalLease(bool);
 
 impl Drop for TerminalLease {
@@ -54,7 +54,7 @@ mod terminal {
     pub fn set_raw_mode() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
-        // Without echo, waiting keys are shown only once, at the prompt that reads them.
+        // Without echo, keys that are typed ahead appear only once, at the prompt that reads them.
         held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
         held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
         held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
@@ -67,7 +67,7 @@ mod terminal {
     pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
-            // An error means that the terminal has been closed, so it is ignored.
+            // Restoring fails only if the terminal has been closed, so the error is ignored.
             let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
         original.is_some()
@@ -76,7 +76,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! On this system, keys are events, so no key is lost.
+    //! Systems other than Unix: keys are events, so that no key is lost between prompts.
 
     pub fn set_raw_mode() {}
 

@@ -42,8 +42,8 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// Result of a conversion. An outer error is reported unchanged.
-/// An inner error contains the value, for which the general error message is created.
+/// Result of a conversion. The outer `Err` is an error that is reported unchanged.
+/// The inner `Err` contains the unconverted value, for which the general error message is created.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {

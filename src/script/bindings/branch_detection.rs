@@ -1,5 +1,5 @@
 //! Detection of script functions that branch on parameters.
-//! The branch causes a jump at a position that depends on a parameter, so derivatives are wrong.
+//! A branch on a parameter makes a function jump at a position that depends on the parameter. Derivatives are then wrong.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 
@@ -10,7 +10,7 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns about a function that branches on an expression of its argument and of a variable that depends on a parameter.
+/// Warns about a function that branches on an expression that contains its argument and a variable that depends on a parameter.
 /// Each position of a branch is reported once.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));

@@ -43,11 +43,11 @@ pub struct FunctionForm {
 pub enum NameSuffix {
     Property,
     Arguments,
-    /// Arguments. The last argument may be repeated.
+    /// Arguments, of which the last may be repeated.
     Repeated,
 }
 
-/// Creates the entry of a function of Rhai. The return value is added by [`BuiltIn::returns`].
+/// Creates the entry of a function of Rhai. The method [`BuiltIn::returns`] adds the return value.
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -85,12 +85,12 @@ impl BuiltIn {
         self.form_of(type_name).is_some()
     }
 
-    /// First notation of the function for a value of this type before the dot.
+    /// First notation of the function in which a value of this type stands before the dot.
     pub fn form_of(&self, type_name: &str) -> Option<FunctionForm> {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// First notation of the function without a receiver.
+    /// First notation in which the function is called without a value before the dot.
     pub fn form_of_function(&self) -> Option<FunctionForm> {
         self.written().find(|form| form.receiver.is_none())
     }
@@ -102,12 +102,12 @@ impl BuiltIn {
 }
 
 impl FunctionForm {
-    /// Returns true if this notation applies to values of this type.
+    /// Returns true if this notation applies to values of the type with this name.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// List of the arguments. Optional arguments are in brackets.
+    /// List of the arguments, with optional arguments in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()

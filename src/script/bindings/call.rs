@@ -25,7 +25,7 @@ pub struct Call<'c, 'r> {
     arguments: Arguments,
 }
 
-/// Arguments can be read directly from the call, for example `call.number("dt")`.
+/// Gives direct access to the arguments of a call, for example `call.number("dt")`.
 impl Deref for Call<'_, '_> {
     type Target = Arguments;
 
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function with this name and number of parameters, including captured variables. `None` stands for any number of parameters.
+/// Script function with this name and number of parameters, including captured variables. `None` allows any number of parameters.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,18 +222,18 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// Syntax tree that contains only the script function with this name and number of parameters, including captured variables. Empty if there is none.
+/// Syntax tree that contains only the script function with this name and number of parameters; empty if there is no such function.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
     let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
     let mut body = library.unwrap_or_default();
-    // A clone of a syntax tree with a filter keeps all functions. Therefore the other functions are removed.
+    // Cloning a syntax tree with a filter keeps all functions. Therefore all other functions are removed here.
     body.retain_functions(|_, _, own, count| own == name && count == parameters);
     body
 }
 
-/// Closure created by this call expression, without captured values, and the captured variables.
+/// Closure that a call expression creates, without captured values, and the expressions of the variables that it captures.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

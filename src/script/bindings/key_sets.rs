@@ -5,7 +5,7 @@ use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map. The code that reads the map assigns a meaning to each set.
+/// Alternative sets of keys of an option map. The value of type `T` tells the reading code which set was given.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     pub always_allowed: &'static [&'static str],
@@ -24,7 +24,7 @@ pub struct KeySet<T> {
 }
 
 impl<T: Copy> KeySets<T> {
-    /// Returns the meaning of the set that `options` selects.
+    /// Returns the value of type `T` of the key set that `options` selects.
     ///
     /// # Errors
     /// Fails if a key of the set is missing, or a key of another set is given.
@@ -45,8 +45,8 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the key set that is selected by a text.
-    /// If no text selects a key set, returns the first key set with the largest number of given keys.
+    /// Returns the key set that is selected by the text value of one of its keys.
+    /// If no key has such a text, returns the first key set with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

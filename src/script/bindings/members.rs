@@ -1,5 +1,5 @@
 //! Methods and properties of values that depend on parameters.
-//! Methods and properties are evaluated in each variant, for the section, curve, vector or number of the variant.
+//! The methods and properties are evaluated once for each variant of the parameters.
 
 use std::collections::BTreeMap;
 

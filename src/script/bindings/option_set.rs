@@ -12,7 +12,7 @@ pub trait FromOption: Sized {
     /// Reads the value of a key. An omitted key has its default value.
     ///
     /// # Errors
-    /// Fails if the type does not match, which is an internal error.
+    /// Fails if the value of the key has another type, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
 

@@ -116,7 +116,7 @@ fn list(keys: &[Parameter]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Sets the position of an error to the key, unless the error already has the position of a key in a nested map.
+/// Sets the position of an error to that of the key, unless the error already has the position of a key in a nested map.
 fn at_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

@@ -17,7 +17,7 @@ pub const FOLDER: &str = "std/";
 
 /// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// The engine stores the source files as its default tag.
+/// The engine contains the source files as its default tag.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -69,7 +69,7 @@ impl Sources {
         self.reader.begin();
     }
 
-    /// Calls `work` while parsing cannot be stopped. Used for texts that have been parsed before.
+    /// Calls `work`, during which parsing cannot be stopped. It must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }

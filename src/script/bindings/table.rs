@@ -1,8 +1,8 @@
 //! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
 //!
-//! Registration, argument checks, error messages with suggestions, help, definition files and the language reference are derived from these bindings.
+//! Registration, argument checks, messages with suggestions, help, definition files and the reference are derived from the bindings of the tables.
 //! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages).
-//! Add the table to the list in that module.
+//! A new table must also be added to the list in the module `packages`.
 
 use rhai::Dynamic;
 

@@ -309,7 +309,7 @@ impl UnknownName<'_> {
     }
 }
 
-/// Hint for a column or a recorded quantity that is used as a property.
+/// Hint for a history column or another recorded quantity that a script reads as a property.
 fn recorded(of: &str, name: &str) -> Option<String> {
     let [(_, of_stations), ..] = RECORDABLE;
     match of {

@@ -64,7 +64,7 @@ pub enum Callee {
     Closure,
     /// Imported file.
     File(String),
-    /// No call. The frame shows the line of the standard library at which the error occurred.
+    /// The frame is not a call: it shows the line of the standard library at which the error occurred.
     Library,
 }
 
@@ -97,7 +97,7 @@ impl Diagnostic {
         self
     }
 
-    /// Message and location on one line, for tables.
+    /// Message and location of the error on one line, for tables.
     pub fn line(&self) -> String {
         let message = self.message.split_whitespace().collect::<Vec<_>>().join(" ");
         match self.location.as_ref().filter(|at| !at.program.name.is_empty()) {

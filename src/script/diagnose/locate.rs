@@ -92,7 +92,7 @@ fn argument_of(
     let called = word_at(program, position)?;
     let is_function =
         catalog.named(called.text()).any(|row| matches!(row.form, CallSyntax::Function));
-    // In `a.norm()`, the first argument of the function is the value before the dot.
+    // In `a.norm()`, the first argument of the function is `a`, which stands before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     argument(program, call, number)
 }

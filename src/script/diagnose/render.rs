@@ -60,11 +60,11 @@ impl Diagnostic {
     }
 }
 
-/// Largest length of a displayed source line [characters]. For longer lines, the location is described instead.
+/// Largest length of a displayed source line [characters]. In a longer line, the location is described instead of drawn.
 const LONGEST_DRAWN: usize = 1000;
 const LONGEST_EXCERPT: usize = 60;
 
-/// Number of columns before the hint, that is, the length of `  = help: `.
+/// Number of columns before the hint, which is the length of `  = help: `.
 const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;

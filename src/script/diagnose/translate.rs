@@ -54,7 +54,7 @@ pub fn is_interrupt(error: &EvalAltResult) -> bool {
     }
 }
 
-/// Returns true if a dry run ended because the script waits for a result of a real run.
+/// Returns true if a dry run ended because the script waits for a result that only a real run computes.
 pub fn is_waiting(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => matches!(Stop::of_token(stop), Stop::Waiting),

@@ -1,6 +1,6 @@
 //! Methods of arrays and maps that call a function.
-//! Two differences from the methods of Rhai: a result that is not a boolean is an error instead of false.
-//! The method `for_each` passes the element instead of the index to its function.
+//! Unlike in Rhai, a test function that does not return a boolean causes an error instead of counting as false.
+//! Unlike in Rhai, `for_each` passes the element instead of the index to its function.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -181,7 +181,7 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the function for an element. The first call determines the number of arguments of the function.
+    /// Calls the script function for an element. The first call determines the number of arguments of the function.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

@@ -2,7 +2,7 @@
 //!
 //! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai.
 //! The language does not contain `sleep` either, because it cannot be interrupted.
-//! Users may expect functions that Rhai lacks or defines in a surprising way. A call of such a function is an error with a suggestion.
+//! Functions that users may expect, and that Rhai lacks or defines in a surprising way, cause an error with a suggestion.
 
 use std::any::TypeId;
 
@@ -97,12 +97,12 @@ pub const REFUSED: &[Refused] = &[
 
 /// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // The seed can be set only once per process. For later engines, it is already set.
+    // The seed of the hashes can be set only once per process. For later engines, it is already set.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // Code evaluated from strings has no line numbers, and no script needs it.
+    // The function `eval` is disabled, because code in strings has no line numbers, and no script needs it.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -113,7 +113,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Rhai defines some of the rejected functions for exact types, which would take precedence over functions for any type.
+    // Functions of Rhai for exact types take precedence over functions for any type, so a rejection is registered for these types too.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

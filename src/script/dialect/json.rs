@@ -1,6 +1,6 @@
 //! The method `map.to_json()`.
-//! There are three differences from the method of Rhai. Vectors become arrays. Values that depend on parameters become plain values.
-//! Values without a JSON form are an error.
+//! Unlike with the method of Rhai, vectors become arrays, and values that depend on parameters become plain values.
+//! A value without a JSON form is an error.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,

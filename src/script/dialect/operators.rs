@@ -64,7 +64,7 @@ pub fn written(operator: &str) -> &str {
 
 /// Registers a comparison of numbers. The argument of `holds` is `None` if a number is NaN, which has no order.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // The operator is also registered under the name of the engine, which arrays use to compare and search elements.
+    // The comparison is also registered under its name in the engine, because arrays use this name to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));

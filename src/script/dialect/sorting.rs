@@ -68,7 +68,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
-    // Above 2^53, integers are more exact than floats, so the order of an array must not depend on both comparisons.
+    // As floats, different integers above 2^53 can be equal. Therefore an array of integers is compared as integers, other arrays as floats.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),

@@ -18,7 +18,7 @@ use crate::script::state::files::{InputFolder, InputFolders};
 #[derive(Default)]
 struct FoundInputs {
     names: Vec<String>,
-    /// True if there may be further inputs: a name or the path of an import is computed.
+    /// True if the script may have further inputs, because the name of an input or the path of an import is computed.
     are_incomplete: bool,
     imported: HashSet<PathBuf>,
 }

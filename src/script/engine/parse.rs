@@ -16,7 +16,7 @@ pub struct SourcePiece<'a> {
     pub name: &'a str,
     /// Text.
     pub text: &'a Source,
-    /// Number of lines before the text.
+    /// Number of lines of the program before the text.
     pub before: usize,
     /// Variables that are visible in the text.
     pub scope: &'a Scope<'static>,

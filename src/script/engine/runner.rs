@@ -55,7 +55,7 @@ pub struct RunOutcome {
     pub checks: Checks,
     /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
-    /// Estimated errors of the simulations, one line each. Without estimates, a remark.
+    /// Estimated errors of the simulations, one line each, or a remark if errors are not estimated.
     pub errors: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
@@ -144,7 +144,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Largest run time for which errors are estimated without a request.
+/// Largest run time for which errors are estimated although the user has not requested an estimate.
 const BRIEF: Duration = Duration::from_secs(1);
 
 /// Maximum number of simulations whose errors are estimated at the end of a run.

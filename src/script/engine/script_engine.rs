@@ -116,12 +116,12 @@ impl ScriptEngine {
         &self.catalog
     }
 
-    /// State shared by the calls.
+    /// State that all native calls share.
     pub fn context(&self) -> &Context {
         &self.context
     }
 
-    /// Engine, for printing values and for parsing.
+    /// Engine, which prints values and parses texts.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }

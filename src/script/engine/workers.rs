@@ -49,7 +49,7 @@ impl EngineConfig {
     /// The argument `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // The run supervises the time and memory of the whole process.
+        // Workers have no limits of time and memory, because the run supervises the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -151,7 +151,7 @@ pub struct WorkerPool<'c, J, R> {
 
 pub enum WorkerEvent<R> {
     Done(usize, R),
-    /// The waiting time has elapsed. The caller can check for interruption.
+    /// No result has arrived within the waiting time. The caller can check for interruption.
     Timeout,
     NoWorkers,
 }
@@ -161,13 +161,13 @@ impl<J, R> WorkerPool<'_, J, R> {
         self.states.len()
     }
 
-    /// Queues a job. The result of the job has the same number.
+    /// Queues a job. The number of the job is returned with its result.
     pub fn submit(&self, number: usize, job: J) {
-        // Missing workers are detected when results are received.
+        // A failure to queue the job is ignored, because missing workers are detected when results are received.
         let _ = self.jobs.send((number, job));
     }
 
-    /// Waits for results like [`receive`](Self::receive), but for many queued jobs.
+    /// Waits for the next result like [`receive`](Self::receive). This method is faster if many jobs are queued.
     /// Results are collected in batches, because each wake-up of the thread takes time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {

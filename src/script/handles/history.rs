@@ -22,7 +22,7 @@ pub struct HistoryHandle {
 }
 
 impl HistoryHandle {
-    /// Calls a function with the rows of the interval.
+    /// Calls a function with the rows of the history within the interval.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         self.of.read_history((self.from, self.to), read)
     }
@@ -42,7 +42,7 @@ impl HistoryHandle {
         column_names(self.of.simulation().history())
     }
 
-    /// Checks that a value is the name of a column. `argument` is the position of the value in the call.
+    /// Checks that a value is the name of a column. `argument` is the index of the value in the call, for the position of the error.
     pub fn expect_column(
         &self,
         call: &Call,

@@ -61,7 +61,7 @@ pub enum RunTarget {
 /// Observer of steps. It updates the progress display, counts steps, and stops the run after an interrupt or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// Time at which the run may stop.
+    /// End of the run [time]. At this time, the limit of steps cannot stop the run, because no further step is needed.
     end: f64,
     /// True if script functions must be called after every step.
     pauses: bool,
@@ -339,7 +339,7 @@ impl SimulationHandle {
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
             let Some(function) = due else { return Ok(()) };
-            // The return value of a scheduled function is ignored.
+            // The value that a scheduled function returns is ignored.
             self.0.is_firing.set(true);
             let called = function.call([Dynamic::from(self.clone())]);
             self.0.is_firing.set(false);

@@ -1,6 +1,6 @@
 //! Definition files (`.d.rhai`) for the Rhai language server in editors. They are generated from the bindings.
 //!
-//! The format has no optional arguments, so a function has one declaration for each number of arguments.
+//! The format of definition files has no optional arguments, so a function has one declaration for each number of arguments.
 //! Allowed values, units, options and examples are in the comment above the declaration, which editors show.
 
 mod types;

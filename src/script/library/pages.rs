@@ -24,7 +24,7 @@ pub struct ModuleFunction {
     pub full_name: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
-    /// Text: summary, parameters, sources, and examples.
+    /// Help text of the function: summary, parameters, sources, and examples.
     pub text: Vec<DocBlock>,
 }
 

@@ -83,7 +83,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the index of an argument to an index in a method call, without the value before the dot.
+    /// Converts the index of an argument to its index in a method call, which does not count the value before the dot.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place

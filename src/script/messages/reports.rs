@@ -36,7 +36,7 @@ impl Reports {
     }
 
     /// Unique names and contents of the rescue files for the first simulations of a run. Their total size is about `bytes`.
-    /// Returns also a note about simulations without a rescue file, if there are any.
+    /// Also returns a note about simulations without a rescue file, if there are any.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);

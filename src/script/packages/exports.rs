@@ -145,9 +145,9 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
 }
 
 struct VtkFiles {
-    /// Name of the collection without extension.
+    /// Name of the collection file without extension, with its folder.
     stem: String,
-    /// Name of the collection without extension and folder.
+    /// Name of the collection file without extension and without its folder.
     base: String,
     digits: usize,
 }

@@ -83,9 +83,9 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
 }
 
 pub(super) struct Missing {
-    /// Description of the missing data.
+    /// Description of the data that are missing because states cannot be computed again.
     pub what: &'static str,
-    /// Alternative without the missing data.
+    /// Suggestion of an alternative that does not need the missing data.
     pub instead: &'static str,
 }
 

@@ -34,7 +34,7 @@ impl SectionForceProfile {
     /// Results of a simulation at the present time, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn of_simulation(simulation: &Simulation, beams: &[usize]) -> Result<Self, SystemError> {
         let when = format!("t = {}", significant(simulation.time(), DIGITS));
         let at = SceneAt::of(simulation, simulation.time());
@@ -44,7 +44,7 @@ impl SectionForceProfile {
     /// Results of an equilibrium under its full load, for the beams with the given indices, or for all beams if `beams` is empty.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn of_equilibrium(rest: &Equilibrium, beams: &[usize]) -> Result<Self, SystemError> {
         Self::of_model(&SceneAt::at_rest(rest), rest.model(), beams)
     }

@@ -19,7 +19,7 @@ impl Grids {
     /// Grids of the beams of a simulation.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, SystemError> {
         let scene = simulation.scene();
         let beams = (0..scene.beams.len())

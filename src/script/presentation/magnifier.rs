@@ -23,7 +23,7 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Rotation: cosine and sine. With several joints, they are multiplied by the ratio of the distances of the joints.
+    /// Cosine and sine of the rotation. For a body with several joints, both are multiplied by the elongation between the joints.
     turn: Option<Vec2>,
     /// Displacement that keeps the joints and sliders of the body attached to magnified bodies.
     shift: Vec2,
@@ -58,7 +58,7 @@ impl<'a> Magnifier<'a> {
     /// Magnifier of a simulation; `None` if nothing is recorded.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn new(simulation: &'a Simulation, factor: f64) -> Result<Option<Self>, SystemError> {
         let Some(start) = simulation.configuration_near(0.0)? else { return Ok(None) };
         let scene = simulation.scene();

@@ -11,7 +11,7 @@ use crate::script::messages::suggest::nearest;
 use crate::simulation::{DrawnConfiguration, History, Invariant, Simulation};
 
 const DIGITS: usize = 6;
-/// Smallest height of one of several charts in a terminal [lines].
+/// Smallest height of each chart in a stack of charts in a terminal [lines].
 const LEAST_HEIGHT: usize = 9;
 
 /// Chart of history columns as functions of time, as text for a terminal.
@@ -137,7 +137,7 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
 /// The initial configuration is dotted.
 ///
 /// # Errors
-/// Fails if an axis has a point without a tangent.
+/// Fails if the axis of a beam has a point without a tangent.
 pub fn configuration_picture(
     simulation: &Simulation,
     time: Option<f64>,
@@ -164,7 +164,7 @@ pub fn configuration_picture(
 /// Summary of a configuration as lines of text, for output that is not a terminal.
 ///
 /// # Errors
-/// Fails if an axis has a point without a tangent.
+/// Fails if the axis of a beam has a point without a tangent.
 pub fn configuration_summary(
     simulation: &Simulation,
     time: Option<f64>,

@@ -5,7 +5,7 @@ use crate::system::BeamSample;
 
 pub struct BeamQuantity {
     pub name: &'static str,
-    /// Name in titles.
+    /// Name of the quantity in titles of pictures.
     pub words: &'static str,
     /// Symbol on axes.
     pub sign: &'static str,

@@ -23,7 +23,7 @@ pub struct StationSymbol<'a> {
 }
 
 pub enum Pointing {
-    /// Direction that is fixed in space.
+    /// Direction that is fixed in space, independent of the beam.
     To(Vec2),
     /// Direction relative to the beam, with components along the beam and to its left.
     WithBeam(Vec2),
@@ -40,7 +40,7 @@ impl Pointing {
         }
     }
 
-    /// Angle in space, for a beam with the given angle [rad].
+    /// Angle of the direction in space, for a beam with the angle `along` [rad].
     pub fn angle(&self, along: f64) -> f64 {
         match self {
             Self::To(direction) => atan2(direction.y, direction.x),
@@ -294,8 +294,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Factor of a load just before a time. At time zero, the factor just after it.
-/// The factor is 1 for loads with script functions, because script functions are not called here.
+/// Factor of a load just before a time, at time zero just after it.
+/// The factor counts as 1 if a script function computes it, because script functions are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

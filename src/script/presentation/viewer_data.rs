@@ -220,7 +220,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Unsupported ends of beams (one for each joint), and point masses. Empty if there are many.
+/// Unsupported ends of beams (one for each joint), and point masses. The list is empty if there would be many.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {
@@ -282,7 +282,7 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// Load vector in space. For a follower load, sections are assumed to be normal to the axis.
+/// Load vector in space. For a follower load, the section is assumed to be normal to the axis of the beam.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {

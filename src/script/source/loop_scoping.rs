@@ -2,7 +2,7 @@
 //!
 //! In Rhai, all iterations of a loop share one variable. Closures of the first iteration would see the value of the last iteration.
 //! If a closure in the body uses the loop variable, an additional first statement declares the variable again in the scope of the iteration.
-//! The statement is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
+//! The declaration is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
 //! If there are fewer than two blanks around the brace, the remaining line is shifted by one or two columns.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
@@ -46,7 +46,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Positions of the loop bodies that need the statement, with the inserted character.
+/// Positions of the loop bodies that need a declaration statement, with the character inserted for this statement.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -89,7 +89,7 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts the statement after the brace at `column` of a line, counted from 0. Blanks are replaced if there are any.
+/// Inserts the statement `letter` after the brace at `column` of a line, counted from 0. It replaces blanks if there are any.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

@@ -7,7 +7,7 @@ use super::text::{Lexeme, Source, name_of};
 
 #[derive(Debug, Default)]
 pub struct ScriptOutline {
-    /// Variables and constants outside functions and blocks, with the lines of their declarations.
+    /// Variables and constants declared outside functions and blocks, with the lines of their declarations.
     pub top_level: Vec<(String, usize)>,
     pub variables: Vec<String>,
     pub functions: Vec<(String, usize)>,

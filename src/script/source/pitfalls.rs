@@ -1,8 +1,8 @@
-//! Expressions that are valid but probably mean something else.
+//! Notes on expressions that are valid, but probably do not mean what the user intends.
 
 use super::scanner::{Bracket, Token, TokenKind, is_name, scan};
 
-/// Notes on expressions that are valid but probably mean something else. `lines_before` is the number of lines before the text.
+/// Notes on the doubtful expressions of `text`. `lines_before` is the number of lines before this text.
 pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
     let all = scan(text);
     let tokens: Vec<Token> = all.iter().copied().filter(Token::is_significant).collect();
@@ -30,7 +30,7 @@ pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
     found.into_iter().map(placed).collect()
 }
 
-/// Note on a comment of a single number after a value, as in `7 // 2`, with its place in the text.
+/// Note on a comment that consists of a number and follows a value, as in `7 // 2`, with its place in the text.
 fn note_on_comment(text: &str, comment: &Token) -> Option<(usize, String)> {
     let divisor = comment.of(text).strip_prefix("//")?.trim().trim_end_matches(';').trim_end();
     divisor.parse::<f64>().ok()?;
@@ -52,7 +52,7 @@ fn note_on_braces(literal: &str) -> Option<String> {
     ))
 }
 
-/// Note on a number that is given as the schedule of a load. `tokens` begins with the token before the name of the method.
+/// Note on a number that is given as the schedule of a load. The slice `tokens` begins before the name of the method.
 fn note_on_schedule(text: &str, tokens: &[Token]) -> Option<String> {
     let [dot, name, open, rest @ ..] = tokens else { return None };
     let name = name.of(text);
@@ -85,7 +85,7 @@ fn note_on_schedule(text: &str, tokens: &[Token]) -> Option<String> {
     None
 }
 
-/// Note on a sum of two arrays of two elements. The tokens are those before and after the operator.
+/// Note on a sum of two arrays of two elements. The slices `before` and `after` are the tokens around the operator.
 fn note_on_sum(text: &str, before: &[Token], after: &[Token]) -> Option<String> {
     let is_point = |inside: &[Token]| {
         let is_flat = !inside.iter().any(|token| matches!(token.kind, TokenKind::Open(_)));

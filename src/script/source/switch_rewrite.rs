@@ -2,7 +2,7 @@
 //!
 //! A private-use character is inserted after the keyword `switch` before parsing.
 //! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
-//! The character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
+//! The inserted character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
@@ -41,7 +41,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the character after the keyword at `column` of a line, counted from 0. A blank is replaced if there is one.
+/// Inserts the character [`CHOICE`] after the keyword at `column` of a line, counted from 0. It replaces a blank if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -41,7 +41,7 @@ pub const REPLACED: [(&str, u8); 9] = [
 /// Maximum length of a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Precedence of the power operator in Rhai. The next higher precedence is 210.
+/// Precedence of the power operator in Rhai. The next higher precedence of an operator in Rhai is 210.
 const POWER_PRECEDENCE: u8 = 190;
 
 /// Private-use characters for the operators in `/=`, `^=`, `<<=` and `>>=`. The last character wraps the right-hand side.
@@ -77,7 +77,7 @@ impl TokenReader {
         self.stopped.set(None);
     }
 
-    /// Disables the interruption of parsing while `work` runs. Used for texts that have been parsed before.
+    /// Disables the interruption of parsing while `work` runs. The function `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();
@@ -138,7 +138,7 @@ pub fn install(
 }
 
 /// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand. Also marks loop bodies and `switch` expressions.
-/// The insertion of marks leaves columns unchanged if marks replace blanks.
+/// Columns are unchanged if the inserted marks replace blanks.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
     let halves = |token: &Token| -> &[char] {

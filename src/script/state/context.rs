@@ -346,7 +346,7 @@ impl Context {
         self.0.level.get()
     }
 
-    /// Calls a stored function within a native call.
+    /// Calls a stored script function within a native call.
     pub fn call_back<T>(&self, call: impl FnOnce() -> T) -> T {
         let was_calling_back = self.0.is_calling_back.replace(true);
         let result = call();
@@ -354,7 +354,7 @@ impl Context {
         result
     }
 
-    /// Returns true while a stored function is called within a native call.
+    /// Returns true while a native call runs a stored script function.
     pub fn is_calling_back(&self) -> bool {
         self.0.is_calling_back.get()
     }

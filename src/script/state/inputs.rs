@@ -58,7 +58,7 @@ pub enum InputValue {
 }
 
 impl InputValue {
-    /// Value of a script; `None` if inputs cannot have its type.
+    /// Converts a script value to the value of an input; `None` if inputs cannot have its type.
     pub fn of(value: &Dynamic) -> Option<Self> {
         if let Ok(truth) = value.as_bool() {
             return Some(Self::Boolean(truth));
@@ -75,7 +75,7 @@ impl InputValue {
         finite(value).map(Self::Number)
     }
 
-    /// Value of a script, converted to the type of `self`; `None` if it has another type.
+    /// Converts a script value to the type of `self`; `None` if it has another type.
     pub fn convert(&self, value: &Dynamic) -> Option<Self> {
         match self {
             Self::Number(_) => finite(value).map(Self::Number),
@@ -84,7 +84,7 @@ impl InputValue {
         }
     }
 
-    /// Value parsed from a text, with the type of `self`; `None` if the text has another form.
+    /// Parses a text as a value of the type of `self`; `None` if the text has another form.
     fn parse(&self, text: &str) -> Option<Self> {
         let number = |text: &str| text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
         match self {
@@ -330,7 +330,7 @@ impl Inputs {
         Err(ScriptError::new(format!("the script has no input '{name}'")).hint(hint))
     }
 
-    /// Settings, for the fingerprint of results that depend on them; empty without settings.
+    /// Values given from outside, as bytes for the fingerprint of results that depend on them; empty without such values.
     pub fn fingerprint(&self) -> Vec<u8> {
         let of = |setting: &InputSetting| format!("{}={}\n", setting.name, setting.text);
         self.settings.iter().map(of).collect::<String>().into_bytes()

@@ -19,7 +19,7 @@ pub const DEFAULT_FILES: u64 = 100_000;
 pub const DEFAULT_DEPTH: usize = 400;
 /// Largest allowed setting of the call depth. The stack size [`LEAST_STACK`] is sufficient for this depth.
 pub const DEEPEST: usize = 1000;
-/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. Memory is used only when the stack grows.
+/// Size of the stack for [`DEEPEST`] nested calls [bytes of address space]. Memory is used only when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
 /// Largest address space of the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
@@ -59,7 +59,7 @@ impl Limits {
         LEAST_STACK / DEEPEST * self.depth.clamp(DEFAULT_DEPTH, DEEPEST)
     }
 
-    /// Address space for the values of a script [bytes]. A factor allows for freed memory that is not returned at once.
+    /// Address space for the values of a script [bytes], twice the memory limit, because freed memory is not returned at once.
     pub fn address_space(&self) -> usize {
         usize::try_from(self.memory_or_default().saturating_mul(2)).unwrap_or(usize::MAX)
     }
@@ -102,7 +102,7 @@ const MOST_DRY_ADVANCES: u64 = 100_000;
 /// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Watchdog state without an exceeded limit.
+/// Value of the watchdog alarm while no limit is exceeded.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;

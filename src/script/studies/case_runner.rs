@@ -56,12 +56,12 @@ pub struct CaseRunner<'c> {
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,
-    /// Serialised data on which the results depend, in addition to the cases.
+    /// Serialised data, in addition to the cases, on which the results depend.
     pub parts: &'t [u8],
 }
 
 impl CaseTask<'_> {
-    /// Fingerprint of a case for this computation; `None` if the case cannot be serialised.
+    /// Fingerprint of a case and of this type of computation; `None` if the case cannot be serialised.
     fn fingerprint(&self, case: &Case) -> Option<u64> {
         Some(Journal::fingerprint(&[self.name.as_bytes(), self.parts, &case.to_bytes()?]))
     }
@@ -239,7 +239,7 @@ impl<'c> CaseRunner<'c> {
         match (self.journal, task.fingerprint(case)) {
             (Some(journal), Some(fingerprint)) if result.is_final() || is_part => {
                 let bytes = self.context.journals().write(journal, fingerprint, result)?;
-                // If the limit is exceeded, the study stops before its next case.
+                // If the limit of written bytes is exceeded, the study stops before its next case.
                 self.context.meter().allows_to_write(bytes);
             }
             _ => (),

@@ -30,7 +30,7 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
 }
 
 /// Creates a case from a scene, or from a map with a scene and settings.
-/// Settings that the map lacks are taken from the values of the cell, or else from the options of the study.
+/// Settings that the map lacks are those of the cell, or else those in the options of the study.
 pub fn case(
     call: &Call,
     options: &StabilityOptions,

@@ -54,7 +54,7 @@ fn table_of(study: &Convergence, quantity: &str) -> String {
     table.to_string().trim_end().to_owned()
 }
 
-/// One line for each quantity except the positions; empty if there are no other quantities.
+/// Text with one line for each quantity except the positions; empty if there are no other quantities.
 fn other_orders(study: &Convergence) -> String {
     let of = |quantity: &str| {
         let ladders = study.ladders_with(quantity);

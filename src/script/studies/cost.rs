@@ -14,10 +14,10 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::simulation::{Recording, SimulationSettings};
 use crate::system::Scene;
 
-/// Memory for snapshots in the row with snapshots [bytes].
+/// Memory for snapshots [bytes] in the row that measures the cost of snapshots.
 const SNAPSHOTS: usize = 256_000_000;
 
-/// Names of the first two rows: the plain scene and its repetition. Their difference shows the reliability of the times.
+/// Names of the first two rows: the plain scene and its repetition. The difference of their times shows how reliable all times are.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
 /// Ratio of the times of the plain scene and its repetition, above which all ratios of the table are unreliable.

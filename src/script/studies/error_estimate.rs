@@ -46,7 +46,7 @@ pub struct ErrorEstimate {
 pub struct QuantityError {
     pub name: String,
     pub dimension: &'static str,
-    /// Largest value of the run, or the size of the scene for positions.
+    /// Scale of the quantity: its largest value in the run, or for positions the size of the scene.
     pub scale: f64,
     pub in_time: Option<DiscretisationError>,
     pub in_space: Option<DiscretisationError>,
@@ -417,7 +417,7 @@ fn run_companions(
     Ok(runs.collect())
 }
 
-/// Larger of two errors at each time, with the order and verdict of the run with the larger error.
+/// Larger of two errors at each time, with the order and verdict of the error that is larger over the whole run.
 fn largest_of_both(a: DiscretisationError, b: DiscretisationError) -> DiscretisationError {
     let pairs = a.over_time.iter().zip(&b.over_time);
     let over_time = pairs.map(|((time, a), (_, b))| (*time, larger(*a, *b))).collect();

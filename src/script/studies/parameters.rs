@@ -14,7 +14,7 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug)]
 pub struct StudyParameter {
-    /// Key of the value in a cell of the study.
+    /// Name of the parameter, which is the key of its value in each cell of the study.
     pub name: String,
     pub values: Array,
     pub labels: Vec<String>,

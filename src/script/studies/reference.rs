@@ -105,8 +105,8 @@ pub fn expect_finer_than_all_meshes(
     Err(at_key(call, "meshes", message, hint))
 }
 
-/// Rejects a reference whose steps are not finer than those of the compared runs. `is_of_a_mesh` is true if the reference is on a mesh of the study.
-/// Adaptive steps are not comparable.
+/// Rejects a reference with fixed steps that are not smaller than the fixed steps of the compared runs.
+/// Equal steps are allowed with an integrator of higher order, or on another mesh. The flag `is_of_a_mesh` is true for a mesh of the study.
 fn expect_finer_steps(
     call: &Call,
     plan: &ErrorStudyPlan,

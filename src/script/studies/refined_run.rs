@@ -22,7 +22,7 @@ const MOST_RUNS: usize = 12;
 /// Largest factor of refinement between two runs, for the steps and for the mesh.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Fraction of the tolerance for the error in time, and also for the error in space.
+/// Fraction of the tolerance that is allowed for the error in time, and again for the error in space.
 const PART: f64 = 0.5;
 
 pub struct RefinedRunRequest {
@@ -62,7 +62,7 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor of refinement of the steps or the mesh for the next run; 1 if their error is small enough.
+/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,
@@ -75,7 +75,7 @@ fn refinement_factor(
         (ErrorVerdict::Exact, _) => 1.0,
         _ if ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
         (ErrorVerdict::Converged, Some(order)) => {
-            // The factor is a power of two, so that all runs share times and knots.
+            // The factor of refinement is a power of two, so that all runs have times and knots in common.
             let halvings = (ln(power(ratio, 1.0 / order)) / ln(2.0)).ceil().max(1.0);
             power(2.0, halvings).min(most)
         }
@@ -123,7 +123,7 @@ impl RefinedRun {
             };
             match ran {
                 Ok(()) => (),
-                // A step that is too large may have no solution.
+                // The solution may not exist for a step that is too large.
                 Err(ScriptError::Failure(failure)) if may_refine => {
                     row.steps = 0;
                     row.verdict = failure.message;

@@ -45,7 +45,7 @@ impl MapColouring {
         }
     }
 
-    /// Name, and the powers of ten at the ends of the colour scale.
+    /// Name of the quantity, and the powers of ten at the ends of the colour scale.
     fn scale(self) -> (&'static str, (i32, i32)) {
         match self {
             Self::EnergyGrowth => ("energy growth", (-12, 0)),

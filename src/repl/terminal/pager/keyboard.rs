@@ -16,7 +16,7 @@ pub trait Keyboard {
     /// Fails if the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// Bytes that follow the escape character of a key; may be empty.
+    /// Bytes that follow the escape character of a key, such as an arrow key. There may be none.
     ///
     /// # Errors
     /// Fails if the terminal fails.
@@ -92,7 +92,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence, unless it is the first byte.
+                // A letter or a tilde ends an escape sequence, unless it is the first byte of the sequence.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -106,7 +106,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! On this system, single keys cannot be read. Texts are printed without pages unless a pager program is set.
+    //! Systems other than Unix: single keys cannot be read. Texts are printed without pages unless a pager program is set.
 
     use std::io;
 
@@ -115,13 +115,13 @@ mod of_system {
     pub struct KeyboardTerminal(());
 
     impl KeyboardTerminal {
-        /// Returns `None` on this system.
+        /// Returns `None`, because single keys can be read only on Unix.
         pub fn open() -> Option<Self> {
             None
         }
     }
 
-    /// Returns false on this system.
+    /// Returns false, because waiting keys can be detected only on Unix.
     pub fn has_pending_keys() -> bool {
         false
     }

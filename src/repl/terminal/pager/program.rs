@@ -9,8 +9,8 @@ use crate::repl::terminal::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Environment variable with default options for less.
-/// Options with which the pager less quits if the text fits on one screen, shows colours, and leaves the text on the screen.
+/// Environment variable with the default options of the pager less, and the options that withy sets.
+/// The options `FRX` make the pager less quit if the text fits on one screen, show colours, and leave the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
 /// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.
@@ -28,7 +28,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The program may quit before it has read the whole text, so the error is ignored.
+        // The pager may quit before it has read the whole text. The resulting write error is ignored.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

@@ -21,13 +21,13 @@ const JUMPS: &[&str] = &[
 /// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// Maximum depth of nested calls in the search.
+/// Maximum depth of nested calls of functions in the search.
 const DEEPEST: usize = 8;
 
 /// Maximum number of functions in the search, so that the search of recursive functions ends.
 const MOST: usize = 100;
 
-/// Position at which a function branches on an expression of its argument and of a variable that depends on a parameter.
+/// Position at which a function branches on an expression that contains its argument and a variable that depends on a parameter.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,
@@ -117,7 +117,7 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression with a jumping schedule whose jump times depend on a parameter.
+    /// First variable in an expression that contains a schedule with jumps at times that depend on a parameter.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -262,7 +262,7 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Searches a closure inside another function. The arguments of the closure are treated like those of the outer function.
+    /// Searches a closure inside another function. Arguments of the closure are treated like arguments of the outer function.
     fn within(
         &self,
         function: &FnPtr,

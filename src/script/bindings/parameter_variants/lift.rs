@@ -14,7 +14,7 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Hint for an error that occurs only for a perturbed parameter.
+/// Hint for an error that occurs only at the perturbed value of a parameter.
 const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
     allowed range, or use value_of(x) here, which has no derivatives";
 

@@ -12,7 +12,7 @@ use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
 /// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument.
-/// At the minimum distance, the relative error of the difference quotient is about 1e-5.
+/// At the minimum distance from a point of infinite slope, the relative error of the difference quotient is about 1e-5.
 const NEAR: f64 = 300.0;
 
 /// Arguments of a call: at the parameter values, and with a positive and a negative perturbation of one parameter.
@@ -66,20 +66,20 @@ impl Sides<'_> {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Reports a jump or kink if a function of the arguments changes its sign between the perturbations.
+    /// Reports a jump or kink if the function `what` of the arguments changes its sign between the perturbations.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
-    /// Reports an infinite slope if a function of the arguments varies with the parameter and is zero or close to zero.
+    /// Reports an infinite slope if the function `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
-    /// Reports an infinite slope if a vector varies with the parameter and is zero or close to zero.
+    /// Reports an infinite slope if the vector `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());

@@ -12,7 +12,7 @@ use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Default perturbation, as a fraction of the parameter.
-/// The relative error of the difference quotient is about the square of the fraction, plus the rounding error divided by the fraction.
+/// The relative error of a difference quotient is about the square of the relative perturbation, plus the rounding error divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
 /// Parameters of a scene. The unperturbed variant contains the given values.
@@ -104,7 +104,7 @@ impl ParameterSet {
         Rc::default()
     }
 
-    /// Returns false if there is no parameter set. Variants then need no handling.
+    /// Returns true if a parameter set has been created. Otherwise, values have no variants.
     pub fn is_any() -> bool {
         ANY.get()
     }

@@ -9,7 +9,7 @@ pub enum Lifting {
     Each,
     /// The call is evaluated once, with the unperturbed values of the parameters.
     AtValues,
-    /// The call is evaluated once, because its receiver contains the data of all variants. Arguments that depend on parameters are rejected.
+    /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are rejected.
     Once,
     /// The call is rejected, because the result would have no derivatives.
     Refused,
@@ -60,7 +60,7 @@ const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation together with its variants, and methods whose return value is the same in all variants, such as the time.
+/// Methods that advance a simulation with all its variants, and methods whose result is the same in all variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {

@@ -32,7 +32,7 @@ impl ForeignName {
     }
 }
 
-/// Hint for a call with the number of arguments that the function has in other languages.
+/// Hint for a call of `name` with the number of arguments that the function has in other languages.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

@@ -24,7 +24,7 @@ pub struct TokenWindow<'s> {
     here: usize,
     first: usize,
     place: Position,
-    /// Text between the position and the previous token, including comments.
+    /// Text between the error and the token before it, including comments.
     gap: String,
 }
 
@@ -63,7 +63,7 @@ impl<'s> TokenWindow<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// Token at the given offset from the position of the error; empty if it does not exist.
+    /// Token at an offset from the token with the error; empty if there is no such token.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
@@ -76,7 +76,7 @@ impl<'s> TokenWindow<'s> {
         self.here - self.first
     }
 
-    /// Returns true if no blank precedes the token at the given offset.
+    /// Returns true if no blank precedes the token at an offset from the token with the error.
     pub fn is_joined(&self, from_here: isize) -> bool {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
@@ -89,7 +89,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
 
-    /// Returns true if the token at the given offset starts a value: a number, text or name.
+    /// Returns true if the token at an offset from the token with the error starts a value: a number, text or name.
     pub fn is_value(&self, from_here: isize) -> bool {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }
@@ -98,7 +98,8 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Searches the statement for the first token that equals one of the words in `sought`, up to two tokens after the error. Returns its offset and text.
+    /// Searches the statement, up to two tokens after the error, for the first word in `sought`.
+    /// Returns the offset of the found word from the error, and the word.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

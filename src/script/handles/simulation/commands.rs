@@ -23,7 +23,8 @@ impl Commands {
         spoken.checked_sub(1).map_or(0.0, |last| own[last].1)
     }
 
-    /// Records the output after a time. Outputs for later times are dropped, because they were computed before a rewind.
+    /// Records the output of a controller after the time `time`.
+    /// Outputs for later times are dropped, because they were computed before a rewind.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

@@ -51,7 +51,7 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs to a time. Output printed by functions of the simulation is discarded, and their checks are ignored.
+    /// Runs the simulation to a time. Output printed by its functions is discarded, and their checks are ignored.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
         let checks = context.with_checks(|checks| checks.clone());
         let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
@@ -63,7 +63,7 @@ impl SimulationHandle {
         &self.0.start
     }
 
-    /// Returns true if script functions are called between steps.
+    /// Returns true if the simulation calls script functions between steps.
     pub fn has_callbacks(&self) -> bool {
         self.callbacks().next().is_some() || !self.0.events.borrow().all().is_empty()
     }
@@ -130,7 +130,7 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // A companion run changes outputs of controllers that it shares with this simulation. The call restores these outputs.
+        // A companion run changes controller outputs that it shares with this simulation. Access to this simulation restores them.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)

@@ -65,7 +65,7 @@ impl Revisit {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
-    /// Advances the copy to a row in the history of the original. Returns true if energies and momenta are equal.
+    /// Advances the copy to a row in the history of the original. Returns true if its energies and momenta equal those of the original.
     ///
     /// # Errors
     /// Fails if a step fails although it did not fail in the original run, or if the run is stopped.

@@ -63,7 +63,7 @@ impl ColumnReader {
         }
     }
 
-    /// Sets the outputs of the controllers to the values of this simulation before a time. Another simulation may have changed the shared cells.
+    /// Sets the outputs of the controllers in the scene to their values in this simulation before a time, because simulations share the scene.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.outputs.before(number, time));
@@ -95,7 +95,7 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Evaluates the functions of the columns for the last row, unless they have already been evaluated.
+    /// Evaluates the functions of user-defined columns for the last row of the history, unless they have already been evaluated.
     ///
     /// # Errors
     /// Fails if a function fails, or if it does not return a number.
@@ -233,7 +233,7 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs to a time. If functions fill columns, the run pauses at recorded steps. If functions control the simulation, it pauses before every step.
+    /// Runs the simulation to a time. It pauses at recorded steps if functions fill columns, and before every step if functions control it.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,
@@ -249,7 +249,7 @@ impl SimulationHandle {
         self.restore_after_error(stepped)
     }
 
-    /// After an error or interruption, restores the start of the step.
+    /// After an error or interruption, restores the state at the start of the step.
     fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }
@@ -258,7 +258,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // The number of substeps is not known in advance. Therefore the step is always completed.
+            // The number of substeps is not known in advance. Therefore the limit of steps cannot stop the run within a step.
             let mut watch = ProgressMonitor::new(context, f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

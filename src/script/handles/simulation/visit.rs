@@ -12,9 +12,9 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 pub enum Visited {
     /// All states were restored or computed again.
     All,
-    /// The repeated run differs from the original run. The value is the first time with a difference.
-    /// The difference may be due to a script function that changed the simulation during the original run.
-    /// The difference may also be due to a start different from the initial state of the scene.
+    /// The repeated run differs from the original run. The variant contains the first time with a difference.
+    /// A script function may have changed the simulation during the original run, so that the repeated run differs.
+    /// The original run may also have started from another state than the initial state of the scene.
     Diverged(f64),
 }
 

@@ -14,7 +14,7 @@ pub struct UnknownTopic {
     pub name: String,
     /// Most similar name with help; `None` if no name is similar enough.
     pub meant: Option<&'static str>,
-    /// Names with help that contain the word.
+    /// Names with help that contain `name` as a word or begin with it.
     pub related: Vec<&'static str>,
     pub mentions: Vec<&'static str>,
 }

@@ -49,7 +49,7 @@ impl FieldReader {
     /// Creates storage for the named fields in the given number of frames. Returns `None` if no named field is computed from states of the simulation.
     ///
     /// # Errors
-    /// Fails if an axis has a point without a tangent.
+    /// Fails if the axis of a beam has a point without a tangent.
     pub fn of(
         simulation: &Simulation,
         frames: usize,

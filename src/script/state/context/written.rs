@@ -8,7 +8,7 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::files::WrittenFile;
 use crate::script::state::settings::RunMode;
 
-/// Memory needed for each byte of a file, for the content and its parsed form.
+/// Memory that a read file needs for its content and its parsed form, as a multiple of its length.
 const TIMES_ITS_LENGTH: u64 = 4;
 
 /// File whose written bytes are counted. Writing fails as soon as the run must end.

@@ -13,7 +13,7 @@ pub enum CallOutcome {
     Returned(Dynamic),
     /// Reason of a failure: the function threw an error, exceeded its time, or a check failed.
     Failed(String),
-    /// Reason why the script seems to be wrong.
+    /// Reason why the script itself seems to be wrong.
     Wrong(String),
 }
 

@@ -170,7 +170,7 @@ impl RunFunction {
         Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// First name that the function does not read from its map. A function that passes its map on may read any name.
+    /// First name that the function does not read from its map of values. A function that passes its map on may read any name.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,
@@ -186,7 +186,7 @@ impl RunFunction {
     }
 }
 
-/// Returns true if the runs of a study can vary an input. Statements of imported files are run again only in workers.
+/// Returns true if the runs of a study can vary an input. Only workers run the statements of imported files again.
 fn is_varied_input(call: &Call, name: &str) -> bool {
     let sources = Sources::of(call.engine());
     let has_workers = || EngineConfig::of(call.engine(), call.context(), "").is_some();

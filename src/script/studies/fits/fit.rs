@@ -18,7 +18,7 @@ use crate::script::studies::plan::at_key;
 const DIGITS: usize = 7;
 const ERROR_DIGITS: usize = 2;
 
-/// Meaning of the function's return value.
+/// Interpretation of the values that the fitted function returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     Residuals,
@@ -62,7 +62,7 @@ pub struct Fit {
     /// Result, with weighted residuals.
     pub fitted: Fitted,
     pub residuals: Vec<f64>,
-    /// Meaning of the function's return value.
+    /// Interpretation of the values that the fitted function returns.
     pub compared: Compared,
     pub confidence: f64,
 }

@@ -19,7 +19,7 @@ const MOST_ROWS: usize = 100_000_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     pub kind: SampleKind,
-    /// Number of points; for a Saltelli design the number of blocks.
+    /// Number of points, or of blocks in a Saltelli design.
     pub count: usize,
     pub seed: u64,
 }
@@ -217,7 +217,8 @@ impl ParameterInput {
 }
 
 impl Spread {
-    /// Values of a parameter at sample points or on a grid. On the grid, the previous parameters repeat after `repeats` rows.
+    /// Values of a parameter at sample points or on a grid.
+    /// On a grid, `repeats` is the number of consecutive rows in which all earlier parameters are constant.
     fn values(self, points: Option<Vec<f64>>, repeats: &mut usize) -> (SweptValues, Vec<Portable>) {
         match self {
             Self::Distribution(distribution) => {

@@ -15,16 +15,16 @@ const MOST_CURVES: usize = 8;
 /// Maximum number of points in a scatter plot. If there are more points, a random subset is drawn.
 const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
-/// Cells per axis for binning points.
+/// Number of cells along each axis for averages of scattered points.
 const CELLS: usize = 20;
-/// Maximum number of columns in a scatter matrix.
+/// Maximum number of columns that a scatter matrix shows.
 pub const MOST_COLUMNS: usize = 6;
-/// Maximum number of distinct values with separate bins in a histogram. On average, each value must occur twice.
+/// Maximum number of distinct values that have separate bins in a histogram, if each value occurs at least twice on average.
 const MOST_VALUES: usize = 64;
 /// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
-/// Source of pictures of a sweep.
+/// Sweep and title from which pictures are drawn.
 pub struct Picture<'t> {
     pub table: &'t SweepTable,
     pub title: String,
@@ -56,7 +56,7 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
 }
 
 /// Random subset of at most `most` items, in order. All items have equal probability.
-/// The subset is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
+/// The random subset of items is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
 /// A regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
@@ -289,7 +289,7 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
             |(of, ends): (&&[f64], &[f64])| Class { from: ends[0], to: ends[1], count: of.len() };
         return values.iter().zip(ends.windows(2)).map(of).collect();
     }
-    // Sturges' rule (1926), with twice as many bins.
+    // The number of bins is twice that of Sturges' rule (1926).
     let count = (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
     let width = if high > low { (high - low) / count } else { 1.0 };
     let at = |class: usize| low + class as f64 * width;
