@@ -134,6 +134,7 @@ impl BodyPoint {
 
     /// Interpolates values of control points at the station.
     pub fn interpolate(&self, values: &[Vec2]) -> Vec2 {
-        self.weights().map(|(index, weight)| values[index] * weight).sum()
+        let points = &values[self.first..self.first + self.order];
+        points.iter().zip(self.shape()).fold(Vec2::zeros(), |sum, (point, by)| sum + point * *by)
     }
 }

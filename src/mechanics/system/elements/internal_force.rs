@@ -96,7 +96,12 @@ pub trait InternalForce {
     }
 
     /// State of the contact with an obstacle; `None` for other elements.
-    fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
+    fn contact(&self) -> Option<ContactState> {
+        None
+    }
+
+    /// Smallest gap of a contact at present, negative for a penetration [length]; `None` for other elements.
+    fn smallest_gap(&self, _bodies: &[Body]) -> Option<f64> {
         None
     }
 

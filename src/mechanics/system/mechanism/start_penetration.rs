@@ -54,7 +54,7 @@ impl System {
         let at =
             TrialState { bodies: &self.bodies, stage: Stage::End, increments: &[], weight: 1.0 };
         self.elements.subtract_from(at, &mut forces);
-        let is_obstacle = |one: &dyn InternalForce| one.contact(&self.bodies).is_some();
+        let is_obstacle = |one: &dyn InternalForce| one.contact().is_some();
         let others = self.elements.resistances().filter(|one| !is_obstacle(*one));
         others.for_each(|one| one.add_forces_at_start(&self.bodies, &rates, &mut forces));
         self.bodies.number_as(joined);

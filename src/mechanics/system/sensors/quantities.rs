@@ -161,7 +161,7 @@ pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
     quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
     quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
     quantity("force_y", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.y)),
-    quantity("gap", "length", Present, Index(|model, at| contact(model, at).gap)),
+    quantity("gap", "length", Present, Index(|model, at| contact_gap(model, at))),
 ];
 
 /// Column of obstacles with friction: the friction force on the bodies.
@@ -217,7 +217,11 @@ fn spring(model: &System, at: usize) -> [f64; 2] {
 }
 
 fn contact(model: &System, at: usize) -> ContactState {
-    internal_force(model, at).contact(model.bodies()).unwrap_or_default()
+    internal_force(model, at).contact().unwrap_or_default()
+}
+
+fn contact_gap(model: &System, at: usize) -> f64 {
+    internal_force(model, at).smallest_gap(model.bodies()).unwrap_or(f64::NAN)
 }
 
 fn load(model: &System, at: usize) -> LoadAccount {

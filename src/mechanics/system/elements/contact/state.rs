@@ -9,8 +9,6 @@ pub struct ContactState {
     pub force: Vec2,
     /// Friction force on the bodies along the surface, averaged over the last step and positive to the right of the normal [force].
     pub friction: f64,
-    /// Smallest gap at present; negative for a penetration [length].
-    pub gap: f64,
     /// Number of contact points with a negative gap.
     pub closed: usize,
 }

@@ -6,6 +6,7 @@
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
 use super::shape::{Bounds, CrossingPath, Foot, NearestSearch, Shape};
+use super::smallest_gap::GapSearch;
 use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
@@ -17,9 +18,6 @@ use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
 use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
-
-/// Relative accuracy of the smallest gap between open bodies. Pairs that would reduce the gap by less are not evaluated.
-const GAP_ACCURACY: f64 = 1e-3;
 
 /// Pair of shapes that can touch: the contact points of `shape` touch the axis of `target`.
 #[derive(Debug, Clone, Copy)]
@@ -57,10 +55,10 @@ pub(super) struct PairForces {
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
-    /// Smallest gap at present [length].
-    gap: f64,
-    /// Open pair with the smallest gap at the end of the last step, and the span of its foot.
-    closest: Option<(PairIndex, usize)>,
+    /// Lower bound of the distance between bodies whose start points are those of the shapes [length]. It is zero if bodies are near each other.
+    clearance: f64,
+    /// True if the shapes start at the start of the present step.
+    is_current: bool,
     watch: ContactWatch,
     last_rate: f64,
     rows: LocalRows,
@@ -77,8 +75,8 @@ impl PairForces {
             stage: (Stage::Midpoint, 1.0),
             last_force: Vec2::zeros(),
             dissipated: 0.0,
-            gap: 0.0,
-            closest: None,
+            clearance: 0.0,
+            is_current: false,
             watch: ContactWatch::default(),
             last_rate: 0.0,
             rows: LocalRows::default(),
@@ -89,17 +87,58 @@ impl PairForces {
         for shape in &mut self.shapes {
             shape.begin(bodies[shape.body].dynamics.control_points());
         }
+        self.is_current = true;
+        self.update_clearance();
     }
 
-    /// Sets the start configuration, and finds the pairs that touch in it.
+    fn update_clearance(&mut self) {
+        let distance = |&CandidatePair { shape, target, .. }: &CandidatePair| {
+            let [own, other] = [&self.shapes[shape], &self.shapes[target]];
+            let apart = own.start.bounds().squared_distance(&other.start.bounds()).sqrt();
+            apart - (own.radius + other.radius)
+        };
+        let distances = self.candidates.iter().map(distance);
+        self.clearance = distances.fold(f64::INFINITY, f64::min).max(0.0);
+    }
+
+    /// Returns true if no bodies can touch, because no control point is farther from its start point than half of the clearance.
+    /// The argument returns the position of a control point of a body.
+    fn is_clear(&self, position: impl Fn(usize, usize) -> Vec2) -> bool {
+        let is_near_start = |shape: &Shape| {
+            let moved = |(at, start): (usize, &Vec2)| position(shape.body, at) - start;
+            let squared = shape.start.points.iter().enumerate().map(moved);
+            let farthest = squared.map(|by| by.norm_squared()).fold(0.0, larger);
+            farthest * square(2.0 * shape.amplification()) < square(self.clearance)
+        };
+        self.clearance > 0.0 && self.pairs.is_empty() && self.shapes.iter().all(is_near_start)
+    }
+
+    fn is_clear_with(&self, bodies: &[Body], increments: &[f64]) -> bool {
+        self.is_clear(|body, at| {
+            let body = &bodies[body];
+            body.dynamics.control_points()[at] + body.vector_at(at, increments)
+        })
+    }
+
+    /// Sets the start configuration, and finds the pairs that touch in it, unless no bodies can touch.
     fn begin_configuration(&mut self, bodies: &[Body]) {
+        self.is_current = false;
+        if self.is_clear_with(bodies, &[]) {
+            return;
+        }
         self.set_configuration(bodies);
         self.pairs.iter_mut().for_each(|pair| pair.begin_configuration(&self.shapes));
         self.find_pairs();
     }
 
-    /// Moves all shapes to an iterate, and finds the pairs that touch in it.
+    /// Moves all shapes to an iterate, and finds the pairs that touch in it, unless no bodies can touch.
     fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
+        if self.is_clear_with(bodies, increments) {
+            return;
+        }
+        if !self.is_current {
+            self.set_configuration(bodies);
+        }
         for shape in &mut self.shapes {
             shape.move_by(bodies[shape.body].by_control_point(increments));
         }
@@ -130,6 +169,17 @@ impl PairForces {
                 }
             }
         }
+    }
+
+    /// Moves all shapes by the increments of the step that are stored in the bodies.
+    fn move_to_end(&mut self, bodies: &[Body]) {
+        if !self.is_current {
+            self.set_configuration(bodies);
+        }
+        for shape in &mut self.shapes {
+            shape.move_by(bodies[shape.body].moved().iter().copied());
+        }
+        self.prepare_pairs();
     }
 
     /// Prepares the bodies that are touched for searches of nearest points.
@@ -170,66 +220,6 @@ impl PairForces {
             self.shapes[shape].sites[site].touched.push(target);
         }
     }
-
-    /// Smallest gap in the configuration at the start of the step. It is not larger than the diagonal of the box around all bodies.
-    fn update_gap(&mut self) {
-        let accumulated = self.closed().map(|pair| pair.normal.gap.value);
-        let all = self.shapes.iter().map(|shape| shape.start.bounds());
-        let size = all.reduce(Bounds::joined).map_or(0.0, |all| all.diagonal());
-        self.gap = accumulated.fold(size, f64::min);
-        // The closest pair of the last step is evaluated first, because its gap excludes most of the other pairs.
-        if let Some((closest, _)) = self.closest {
-            self.reduce_gap(closest);
-        }
-        for at in 0..self.candidates.len() {
-            let CandidatePair { shape, target, .. } = self.candidates[at];
-            let (own, other) = (&self.shapes[shape], &self.shapes[target]);
-            let limit = self.gap_limit(own.radius + other.radius);
-            let apart = own.start.bounds().squared_distance(&other.start.bounds());
-            if self.gap <= 0.0 || apart >= square(limit) {
-                continue;
-            }
-            for site in 0..self.shapes[shape].sites.len() {
-                self.reduce_gap(PairIndex { shape, site, target });
-            }
-        }
-    }
-
-    /// Closest pair of a saved state; `None` if the state is not one of these bodies.
-    fn restored_closest(
-        &self,
-        next: &mut dyn FnMut() -> Option<f64>,
-    ) -> Option<(PairIndex, usize)> {
-        let (index, _) = PairIndex::restored(&self.shapes, &self.candidates, next)?;
-        let span = next()? as usize;
-        (span < self.shapes[index.target].spans()).then_some((index, span))
-    }
-
-    /// Distance between two axes above which the gap between the bodies is not smaller than the present smallest gap [length]. `reach` is the sum of the radii.
-    fn gap_limit(&self, reach: f64) -> f64 {
-        (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
-    }
-
-    /// Replaces the smallest gap by the gap of a pair if the latter is smaller.
-    fn reduce_gap(&mut self, index: PairIndex) {
-        let reach = index.reach(&self.shapes);
-        let limit = self.gap_limit(reach);
-        let own = &self.shapes[index.shape];
-        let position = index.place(&self.shapes).interpolate(&own.start.points);
-        if self.gap <= 0.0 || self.shapes[index.target].start.is_beyond(position, limit) {
-            return;
-        }
-        self.shapes[index.target].prepare_search();
-        let target = &self.shapes[index.target];
-        let is_same_target = |(closest, _): &(PairIndex, usize)| closest.target == index.target;
-        let hint = self.closest.filter(is_same_target).map_or(0, |(_, span)| span);
-        let search = NearestSearch { position, allowed: index.allowed(&self.shapes), limit, hint };
-        if let Some(foot) = target.nearest(&target.start, &search) {
-            let apart = position - foot.combine(0, &target.start.points);
-            self.gap = (apart.norm() - reach).max(0.0);
-            self.closest = Some((index, foot.span));
-        }
-    }
 }
 
 impl InternalForce for PairForces {
@@ -245,7 +235,6 @@ impl InternalForce for PairForces {
         }
         self.begin_configuration(bodies);
         self.pairs.iter_mut().for_each(|pair| pair.measure_gap(&self.shapes));
-        self.update_gap();
     }
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
@@ -312,10 +301,13 @@ impl InternalForce for PairForces {
 
     fn advance(&mut self, bodies: &[Body]) {
         let time = ContactTime::new(&self.rate_history, self.stage);
-        for shape in &mut self.shapes {
-            shape.move_by(bodies[shape.body].moved().iter().copied());
+        let is_clear = self.is_clear(|body, at| {
+            let [x, y, _] = bodies[body].moved()[at];
+            bodies[body].dynamics.control_points()[at] + Vec2::new(x, y)
+        });
+        if !is_clear {
+            self.move_to_end(bodies);
         }
-        self.prepare_pairs();
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
         let (mut force, mut rate) = (0.0, 0.0);
         let (mut on_first, mut lost) = (Vec2::zeros(), 0.0);
@@ -339,10 +331,13 @@ impl InternalForce for PairForces {
             self.watch.add([was_open, is_open], [self.last_rate, rate], (force, time.duration));
             self.last_rate = rate;
         }
-        self.shapes.iter_mut().for_each(Shape::end_step);
-        self.pairs.iter_mut().for_each(|pair| pair.end_step(&self.shapes));
-        self.remove_open_pairs();
-        self.update_gap();
+        if !is_clear {
+            self.shapes.iter_mut().for_each(Shape::end_step);
+            self.update_clearance();
+            self.pairs.iter_mut().for_each(|pair| pair.end_step(&self.shapes));
+            self.remove_open_pairs();
+        }
+        self.is_current = false;
         self.rate_history.end();
     }
 
@@ -354,12 +349,17 @@ impl InternalForce for PairForces {
         self.dissipated
     }
 
-    fn contact(&self, _bodies: &[Body]) -> Option<ContactState> {
+    fn contact(&self) -> Option<ContactState> {
         let closed = self.closed().count();
         let is_on_first = |pair: &&ContactPair| (pair.index.shape == 0) != (pair.index.target == 0);
         let on_first = self.pairs.iter().filter(is_on_first);
         let friction = on_first.map(ContactPair::friction_force).fold(0.0, |sum, of| sum + of);
-        Some(ContactState { force: self.last_force, friction, gap: self.gap, closed })
+        Some(ContactState { force: self.last_force, friction, closed })
+    }
+
+    fn smallest_gap(&self, bodies: &[Body]) -> Option<f64> {
+        let closed = self.closed().map(|pair| pair.normal.gap.value);
+        Some(GapSearch::new(&self.shapes, bodies).smallest(&self.candidates, closed))
     }
 
     fn penetrations(&self, _bodies: &[Body]) -> Vec<Penetration> {
@@ -377,7 +377,11 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
+    /// If the shapes do not start at the start of the step, no iterate came near enough for a contact.
+    fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
+        if !self.is_current || self.is_clear_with(bodies, increments) {
+            return false;
+        }
         self.candidates.iter().any(|&CandidatePair { shape, target, .. }| {
             let (own, other) = (&self.shapes[shape], &self.shapes[target]);
             let radius = own.radius + other.radius;
@@ -426,8 +430,8 @@ impl InternalForce for PairForces {
     fn save(&self, state: &mut Vec<f64>) {
         self.rate_history.save(state);
         self.watch.save(state);
-        let Self { last_rate, last_force, dissipated, gap, .. } = self;
-        state.extend([*last_rate, last_force.x, last_force.y, *dissipated, *gap]);
+        let Self { last_rate, last_force, dissipated, .. } = self;
+        state.extend([*last_rate, last_force.x, last_force.y, *dissipated]);
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
@@ -435,17 +439,12 @@ impl InternalForce for PairForces {
         self.watch.restore(next);
         self.last_rate = next();
         self.last_force = Vec2::new(next(), next());
-        (self.dissipated, self.gap) = (next(), next());
+        self.dissipated = next();
     }
 
     fn save_contacts(&self, contacts: &mut Vec<f64>) {
         contacts.push(self.pairs.len() as f64);
         self.pairs.iter().for_each(|pair| pair.save(contacts));
-        contacts.push(f64::from(u8::from(self.closest.is_some())));
-        if let Some((index, span)) = self.closest {
-            index.save(contacts);
-            contacts.push(span as f64);
-        }
     }
 
     fn restore_contacts(
@@ -460,8 +459,6 @@ impl InternalForce for PairForces {
             self.pairs.push(ContactPair::restored(&self.shapes, &self.candidates, next)?);
         }
         self.remove_open_pairs();
-        let has_closest = next()? != 0.0;
-        self.closest = if has_closest { Some(self.restored_closest(next)?) } else { None };
         Some(())
     }
 

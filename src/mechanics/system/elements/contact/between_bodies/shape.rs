@@ -291,17 +291,34 @@ impl Shape {
         self.axis.divide(&mut self.end);
     }
 
+    /// Configuration for given control points, prepared for searches of nearest points.
+    pub(super) fn configuration(&self, controls: &[Vec2]) -> Configuration {
+        let bounds = self.axis.bounds(controls);
+        let mut at = Configuration { points: controls.to_vec(), bounds, ..Default::default() };
+        self.axis.divide(&mut at);
+        at
+    }
+
+    /// Largest displacement of the axis for control points that move by at most one length.
+    pub(super) fn amplification(&self) -> f64 {
+        match &self.axis {
+            Axis::Point(_) => 1.0,
+            Axis::Curve(SampledCurve { growth, .. }) => 1.0 + 2.0 * growth,
+        }
+    }
+
+    /// Starts of the spans of the axis and its end, or the position of a disc.
+    pub(super) fn vertices<'c>(&self, at: &'c Configuration) -> impl Iterator<Item = Vec2> + 'c {
+        let last = match &self.axis {
+            Axis::Point(foot) => at.points[foot.values.first],
+            Axis::Curve(_) => at.samples[at.samples.len() - 1],
+        };
+        at.samples.iter().step_by(SAMPLES + 1).copied().chain(once(last))
+    }
+
     /// Box around the body at the start and at the end of the step.
     pub(super) fn swept_bounds(&self) -> Bounds {
         self.start.bounds.joined(self.end.bounds)
-    }
-
-    /// Number of spans of the axis; 1 for a disc.
-    pub(super) fn spans(&self) -> usize {
-        match &self.axis {
-            Axis::Point(_) => 1,
-            Axis::Curve(SampledCurve { spans, .. }) => spans.len(),
-        }
     }
 
     /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.

@@ -26,6 +26,8 @@ pub(super) struct TouchingBody {
     is_convex: bool,
     /// True if the hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,
+    /// True if the hull touches the obstacle at the start of the step or in an iterate. Otherwise, the points have no forces and are not updated.
+    is_active: bool,
     watch: ContactWatch,
     /// Mean rate of the most loaded gap in the last step [length/time].
     last_rate: f64,
@@ -37,7 +39,7 @@ impl TouchingBody {
         let is_convex = points.iter().all(is_positive);
         let body = points[0].place.body;
         let watch = ContactWatch::default();
-        Self { body, points, is_convex, is_far: false, watch, last_rate: 0.0 }
+        Self { body, points, is_convex, is_far: false, is_active: true, watch, last_rate: 0.0 }
     }
 
     /// Returns true if a line separates the control points from the obstacle.
@@ -53,7 +55,7 @@ impl TouchingBody {
 
     /// Returns true if a point passes through the obstacle in a step. Paths are straight, so only discs can be crossed.
     fn crosses(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
-        if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) {
+        if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) || !self.is_active {
             return false;
         }
         let controls = body.dynamics.control_points();
@@ -65,25 +67,56 @@ impl TouchingBody {
         !is_clear && self.points.iter().any(|point| point.crosses(surface, movement(point)))
     }
 
-    fn begin_movement(&mut self, surface: &Surface, body: &Body) {
+    fn begin(&mut self, surface: &Surface, body: &Body, rates: Option<&[f64]>) {
         let controls = body.dynamics.control_points();
         let is_closed = self.points.iter().any(ContactPoint::is_closed);
         self.is_far = !is_closed && self.is_separated(surface, |at| controls[at], controls.len());
-        self.points.iter_mut().for_each(|point| point.begin_movement(surface, body));
-    }
-
-    fn begin_step(&mut self, surface: &Surface, body: &Body, rates: &[f64]) {
-        self.begin_movement(surface, body);
-        for point in &mut self.points {
-            point.begin_step(surface, point.vector(body, rates));
+        // A point that has left the obstacle dissipates the energy of its friction in the next step.
+        let has_energy = |point: &ContactPoint| point.energy(surface) > 0.0;
+        match self.is_far && !(self.is_active && self.points.iter().any(has_energy)) {
+            true => self.deactivate(),
+            false => self.activate(surface, body, rates),
         }
     }
 
-    /// Returns true if no point can touch the obstacle in an iterate.
-    fn cannot_touch(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
+    /// Starts the increment at the present positions of the points. `rates` are the rates at the start of a step; `None` for an increment of zero duration.
+    fn activate(&mut self, surface: &Surface, body: &Body, rates: Option<&[f64]>) {
+        self.is_active = true;
+        for point in &mut self.points {
+            let was_closed = point.is_closed();
+            point.begin_movement(surface, body);
+            if let Some(rates) = rates {
+                point.begin_step();
+                if !was_closed {
+                    point.set_approach(surface, point.vector(body, rates));
+                }
+            }
+        }
+    }
+
+    fn deactivate(&mut self) {
+        if self.is_active {
+            self.points.iter_mut().for_each(ContactPoint::open);
+        }
+        self.is_active = false;
+    }
+
+    /// Prepares the points for an iterate. Returns false if no point can touch the obstacle.
+    fn follow(
+        &mut self,
+        surface: &Surface,
+        (body, increments): (&Body, &[f64]),
+        rates: Option<&[f64]>,
+    ) -> bool {
         let controls = body.dynamics.control_points();
         let position = |at: usize| controls[at] + body.vector_at(at, increments);
-        self.is_far && self.is_separated(surface, position, controls.len())
+        let is_separated = self.is_far && self.is_separated(surface, position, controls.len());
+        match (is_separated, self.is_active) {
+            (true, true) => self.points.iter_mut().for_each(ContactPoint::open),
+            (false, false) => self.activate(surface, body, rates),
+            _ => {}
+        }
+        !is_separated
     }
 }
 
@@ -92,9 +125,16 @@ pub(super) struct ObstacleForces {
     surface: Surface,
     bodies: Vec<TouchingBody>,
     rate_history: RateHistory,
+    /// Rates of all unknowns at the start of the step; empty in an increment of zero duration.
+    rates: Vec<f64>,
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
+}
+
+/// Rates at the start of a step; `None` in an increment of zero duration.
+fn step_rates(rates: &[f64]) -> Option<&[f64]> {
+    (!rates.is_empty()).then_some(rates)
 }
 
 impl ObstacleForces {
@@ -104,6 +144,7 @@ impl ObstacleForces {
             surface,
             bodies,
             rate_history: RateHistory::default(),
+            rates: Vec::new(),
             stage: (Stage::Midpoint, 1.0),
             last_force: Vec2::zeros(),
             dissipated: 0.0,
@@ -112,6 +153,18 @@ impl ObstacleForces {
 
     fn points(&self) -> impl Iterator<Item = &ContactPoint> {
         self.bodies.iter().flat_map(|body| &body.points)
+    }
+
+    /// Points of the bodies that can touch the obstacle in the present step.
+    fn active_points(&self) -> impl Iterator<Item = &ContactPoint> {
+        self.bodies.iter().filter(|body| body.is_active).flat_map(|body| &body.points)
+    }
+
+    fn begin_increment(&mut self, bodies: &[Body]) {
+        let rates = step_rates(&self.rates);
+        for own in &mut self.bodies {
+            own.begin(&self.surface, &bodies[own.body], rates);
+        }
     }
 
     fn points_mut(&mut self) -> impl Iterator<Item = &mut ContactPoint> {
@@ -142,26 +195,25 @@ impl InternalForce for ObstacleForces {
 
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
         self.rate_history.begin(interval.duration());
-        for own in &mut self.bodies {
-            own.begin_step(&self.surface, &bodies[own.body], rates);
-        }
+        self.rates.clear();
+        self.rates.extend_from_slice(rates);
+        self.begin_increment(bodies);
     }
 
     fn begin_movement(&mut self, bodies: &[Body]) {
         self.rate_history.begin(f64::INFINITY);
-        for own in &mut self.bodies {
-            own.begin_movement(&self.surface, &bodies[own.body]);
-        }
+        self.rates.clear();
+        self.begin_increment(bodies);
     }
 
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary {
         let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
         self.stage = (at.stage, at.weight);
         let mut summary = ForceSummary::default();
+        let rates = step_rates(&self.rates);
         for own in &mut self.bodies {
             let body = &at.bodies[own.body];
-            if own.cannot_touch(&self.surface, body, at.increments) {
-                own.points.iter_mut().for_each(ContactPoint::open);
+            if !own.follow(&self.surface, (body, at.increments), rates) {
                 continue;
             }
             for point in &mut own.points {
@@ -179,10 +231,10 @@ impl InternalForce for ObstacleForces {
         tangent: &mut BandedMatrix,
     ) {
         let time = ContactTime::new(&self.rate_history, (at.stage, at.weight));
+        let rates = step_rates(&self.rates);
         for own in &mut self.bodies {
             let body = &at.bodies[own.body];
-            if own.cannot_touch(&self.surface, body, at.increments) {
-                own.points.iter_mut().for_each(ContactPoint::open);
+            if !own.follow(&self.surface, (body, at.increments), rates) {
                 continue;
             }
             for point in &mut own.points {
@@ -197,18 +249,20 @@ impl InternalForce for ObstacleForces {
     }
 
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
-        self.points()
+        self.active_points()
             .for_each(|point| point.add_mismatch_force(&bodies[point.place.body], weight, out));
     }
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
-        self.points_mut().for_each(|point| point.correct(&bodies[point.place.body], correction));
+        for own in self.bodies.iter_mut().filter(|own| own.is_active) {
+            own.points.iter_mut().for_each(|point| point.correct(&bodies[own.body], correction));
+        }
     }
 
     /// The obstacle does not move, so it does no work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
-        for point in self.points() {
+        for point in self.active_points() {
             let angular_impulse = point.angular_impulse(&bodies[point.place.body], duration);
             sum += WorkAndImpulse::of(0.0, point.mean_force() * duration, angular_impulse);
         }
@@ -221,7 +275,8 @@ impl InternalForce for ObstacleForces {
         for own in &mut self.bodies {
             let was_open = !own.points.iter().any(ContactPoint::is_closed);
             let (mut force, mut rate) = (0.0, 0.0);
-            for point in &mut own.points {
+            let is_active = own.is_active;
+            for point in own.points.iter_mut().filter(|_| is_active) {
                 let body = &bodies[own.body];
                 self.last_force += point.mean_force();
                 self.dissipated += point.advance(&self.surface, time, body);
@@ -239,20 +294,23 @@ impl InternalForce for ObstacleForces {
     }
 
     fn stored(&self) -> f64 {
-        self.points().map(|point| point.energy(&self.surface)).sum()
+        self.active_points().map(|point| point.energy(&self.surface)).sum()
     }
 
     fn dissipated(&self) -> f64 {
         self.dissipated
     }
 
-    fn contact(&self, bodies: &[Body]) -> Option<ContactState> {
+    fn contact(&self) -> Option<ContactState> {
+        let closed = self.active_points().filter(|point| point.is_closed()).count();
+        let friction = self.active_points().map(ContactPoint::friction_force).sum();
+        Some(ContactState { force: self.last_force, friction, closed })
+    }
+
+    fn smallest_gap(&self, bodies: &[Body]) -> Option<f64> {
         let gap =
             |point: &ContactPoint| point.present_gap(&self.surface, &bodies[point.place.body]);
-        let gap = self.points().map(gap).fold(f64::INFINITY, f64::min);
-        let closed = self.points().filter(|point| point.is_closed()).count();
-        let friction = self.points().map(ContactPoint::friction_force).sum();
-        Some(ContactState { force: self.last_force, friction, gap, closed })
+        Some(self.points().map(gap).fold(f64::INFINITY, f64::min))
     }
 
     fn penetrations(&self, bodies: &[Body]) -> Vec<Penetration> {
@@ -339,6 +397,7 @@ impl InternalForce for ObstacleForces {
             own.points.iter_mut().for_each(|point| point.restore(next));
             own.watch.restore(next);
             own.last_rate = next();
+            own.is_active = true;
         }
         self.last_force = Vec2::new(next(), next());
         self.dissipated = next();

@@ -265,15 +265,17 @@ impl ContactPoint {
         }
     }
 
-    /// Prepares a step that starts with a velocity of the point. The velocity of an open contact is its approach speed.
-    pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
+    pub(super) fn begin_step(&mut self) {
         self.normal.tension.begin_step();
         if let Some(friction) = &mut self.friction {
             friction.begin_step();
         }
-        if !self.is_closed() {
-            self.normal.approach = surface.gradient(self.start).dot(&velocity).abs();
-        }
+    }
+
+    /// Sets the approach speed of a contact that was open before, for the velocity of the point at the start of the step.
+    pub(super) fn set_approach(&mut self, surface: &Surface, velocity: Vec2) {
+        let rate = surface.gradient(self.start).dot(&velocity);
+        (self.normal.approach, self.normal.last_rate) = (rate.abs(), rate);
     }
 
     /// Returns true if a straight movement leads through a disc.
@@ -287,7 +289,7 @@ impl ContactPoint {
     pub(super) fn open(&mut self) {
         self.normal.open();
         self.linearised = GapTrial::NONE;
-        self.applied[1] = Vec2::zeros();
+        self.applied = [Vec2::zeros(); 2];
         self.release_friction();
     }
 
