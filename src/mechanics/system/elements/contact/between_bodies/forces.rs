@@ -1,6 +1,6 @@
 //! Contact forces between the bodies of an element in a step.
 //!
-//! A pair of a contact point and a body is created in the first iterate in which it touches, and removed at the end of a step in which it opens.
+//! A pair of a contact point and a body is created in the first iterate with contact, and removed at the end of a step in which the contact opens.
 //! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
 //! Boxes around bodies and spans exclude bodies that are far from each other.
 
@@ -18,7 +18,7 @@ use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
 
-/// Relative accuracy of the smallest gap between open bodies. Pairs that would reduce the gap by less are not evaluated.
+/// Relative accuracy of the smallest gap between open bodies. Pairs that reduce the smallest gap by less are not evaluated.
 const GAP_ACCURACY: f64 = 1e-3;
 
 /// Pair of shapes that can touch: the contact points of `shape` touch the axis of `target`.
@@ -35,31 +35,27 @@ pub(super) struct CandidatePair {
 pub(super) struct FrictionOfPair {
     /// Coefficient of friction [-].
     pub(super) coefficient: f64,
-    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. Their sum is one.
+    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. The sum of the shares is one.
     pub(super) shares: [f64; 2],
 }
 
 impl CandidatePair {
-    /// Indices of the pair that contains the contact point `site` of `shape`.
     pub(super) fn at(&self, site: usize) -> PairIndex {
         PairIndex { shape: self.shape, site, target: self.target }
     }
 }
 
-/// Contact forces between bodies: the bodies, and all pairs that touch at present.
+/// Contact forces between the bodies of an element, with all pairs that touch at present.
 pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
     candidates: Vec<CandidatePair>,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
-    /// Stage of the last evaluation, and its weight.
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
-    /// Smallest gap at present [length].
     gap: f64,
-    /// Open pair with the smallest gap at the end of the last step, and the span of its foot.
     closest: Option<(PairIndex, usize)>,
     watch: ContactWatch,
     last_rate: f64,
@@ -91,14 +87,12 @@ impl PairForces {
         }
     }
 
-    /// Sets the start configuration, and finds the pairs that touch in it.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.set_configuration(bodies);
         self.pairs.iter_mut().for_each(|pair| pair.begin_configuration(&self.shapes));
         self.find_pairs();
     }
 
-    /// Moves all shapes to an iterate, and finds the pairs that touch in it.
     fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
         for shape in &mut self.shapes {
             shape.move_by(bodies[shape.body].by_control_point(increments));
@@ -106,7 +100,6 @@ impl PairForces {
         self.find_pairs();
     }
 
-    /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
         self.prepare_pairs();
         for candidate in &self.candidates {
@@ -132,12 +125,11 @@ impl PairForces {
         }
     }
 
-    /// Prepares the bodies that are touched for searches of nearest points.
     fn prepare_pairs(&mut self) {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
 
-    /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
+    /// Foot of a contact point that touches a body in the present iterate and did not touch this body before.
     fn touched_foot(&self, index: PairIndex) -> Option<Foot> {
         let PairIndex { shape, site, target } = index;
         let (own, other) = (&self.shapes[shape], &self.shapes[target]);
@@ -158,7 +150,7 @@ impl PairForces {
         self.pairs.iter().filter(|pair| pair.normal.is_closed())
     }
 
-    /// Removes the pairs that are open at the end of a step. The energy of their friction is dissipated.
+    /// Removes the pairs that are open at the end of a step. The elastic energy of their friction counts as dissipated.
     fn remove_open_pairs(&mut self) {
         let open = self.pairs.iter().filter(|pair| !pair.normal.is_closed());
         self.dissipated += open.map(ContactPair::energy).fold(0.0, |sum, energy| sum + energy);
@@ -171,7 +163,7 @@ impl PairForces {
         }
     }
 
-    /// Smallest gap in the configuration at the start of the step. It is not larger than the diagonal of the box around all bodies.
+    /// Computes the smallest gap at the start of the step. The smallest gap is at most the diagonal of the box around all bodies.
     fn update_gap(&mut self) {
         let accumulated = self.closed().map(|pair| pair.normal.gap.value);
         let all = self.shapes.iter().map(|shape| shape.start.bounds());
@@ -195,7 +187,7 @@ impl PairForces {
         }
     }
 
-    /// Closest pair of a saved state; `None` if the state is not one of these bodies.
+    /// Closest pair of a saved state; `None` if the saved indices do not fit the bodies.
     fn restored_closest(
         &self,
         next: &mut dyn FnMut() -> Option<f64>,
@@ -205,12 +197,11 @@ impl PairForces {
         (span < self.shapes[index.target].spans()).then_some((index, span))
     }
 
-    /// Distance between two axes above which the gap between the bodies is not smaller than the present smallest gap [length]. `reach` is the sum of the radii.
+    /// Distance between two axes above which their bodies cannot reduce the smallest gap [length]. `reach` is the sum of the radii of the bodies.
     fn gap_limit(&self, reach: f64) -> f64 {
         (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
     }
 
-    /// Replaces the smallest gap by the gap of a pair if the latter is smaller.
     fn reduce_gap(&mut self, index: PairIndex) {
         let reach = index.reach(&self.shapes);
         let limit = self.gap_limit(reach);
@@ -305,7 +296,6 @@ impl InternalForce for PairForces {
         pairs.iter_mut().for_each(|pair| pair.correct(shapes, bodies, correction));
     }
 
-    /// The forces on both bodies are opposite, so there is no exchange with the ground.
     fn exchange(&self, _bodies: &[Body], _duration: f64) -> WorkAndImpulse {
         WorkAndImpulse::default()
     }

@@ -1,7 +1,7 @@
 //! Contact forces of an obstacle in a step.
 //!
 //! `docs/theory.md`, section 9.7, derives the forces.
-//! The tension of each contact point is an independent unknown, as the section forces of beams are.
+//! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
 //! The number of iterations therefore does not depend on the stiffness.
 
@@ -18,7 +18,6 @@ use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
 
-/// Contact points of one body.
 pub(super) struct TouchingBody {
     body: usize,
     points: Vec<ContactPoint>,
@@ -27,7 +26,7 @@ pub(super) struct TouchingBody {
     /// True if the hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,
     watch: ContactWatch,
-    /// Mean rate of the most loaded gap in the last step [length/time].
+    /// Mean rate of the gap with the largest force in the last step [length/time].
     last_rate: f64,
 }
 
@@ -40,7 +39,6 @@ impl TouchingBody {
         Self { body, points, is_convex, is_far: false, watch, last_rate: 0.0 }
     }
 
-    /// Returns true if a line separates the control points from the obstacle.
     fn is_separated(
         &self,
         surface: &Surface,
@@ -79,7 +77,7 @@ impl TouchingBody {
         }
     }
 
-    /// Returns true if no point can touch the obstacle in an iterate.
+    /// Returns true if no point of the body can touch the obstacle in an iterate.
     fn cannot_touch(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
         let controls = body.dynamics.control_points();
         let position = |at: usize| controls[at] + body.vector_at(at, increments);
@@ -205,7 +203,6 @@ impl InternalForce for ObstacleForces {
         self.points_mut().for_each(|point| point.correct(&bodies[point.place.body], correction));
     }
 
-    /// The obstacle does not move, so it does no work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for point in self.points() {
