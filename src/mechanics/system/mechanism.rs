@@ -140,7 +140,7 @@ impl System {
         self.motion.time
     }
 
-    /// Energy that dampers returned in the last step [energy]. It is zero for methods without backward substeps.
+    /// Energy that dampers returned in the last step [energy]. The returned energy is zero for methods without backward substeps.
     pub fn returned(&self) -> f64 {
         self.step.returned
     }
@@ -164,7 +164,8 @@ impl System {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// Sets the number of threads for a large body or many bodies. Results do not change. Returns the largest number of threads in use.
+    /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
+    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }
@@ -177,18 +178,16 @@ impl System {
     /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the reason.
+    /// Returns the name of an element without a finite value, and the reason of the failure.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)
     }
 
-    /// Sets the event of a slider at which the next step must end; `None` for a regular step.
     pub(crate) fn set_target(&mut self, event: Option<SliderEvent>) {
         self.sliders.set_target(event);
     }
 
-    /// Releases a slider from its master.
     pub fn release_slider(&mut self, slider: usize) {
         self.sliders[slider].release();
         self.motion.accelerations.mark_unknown();

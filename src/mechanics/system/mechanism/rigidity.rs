@@ -11,13 +11,12 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
-/// With the largest ratio, the deformation is rigid to at least five digits.
+/// With this ratio, a suppressed deformation is zero to at least five digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution.
 const CORRECTIONS: usize = 4;
 
-/// Largest number of corrections that reduce suppressed strains to zero.
+/// Largest number of corrections that reduce the suppressed strains to zero.
 const MOST_CORRECTIONS: usize = 60;
 
 /// Energy of the suppressed strains at which the corrections end, as a fraction of the energy of the impulse [-].
@@ -30,7 +29,7 @@ pub(super) enum Deformation {
     All,
     /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
-    /// Deformations that steps of the given length resolve [time], without axial strain.
+    /// Deformations without axial strain that steps of the given length resolve [time].
     Inextensible(f64),
 }
 
