@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::{Outline, Warning};
 use crate::system::SystemError;
 
-/// Properties of the initial configuration: outlines of the beams, the lowest period of vibration (both cached), and warnings.
+/// Properties of the initial configuration: outlines of the beams and the lowest period of vibration (both cached), and warnings.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
@@ -26,7 +26,7 @@ impl InitialGeometry {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// Lowest period of vibration in the initial configuration [time]; `None` if there is no vibration.
+    /// Lowest period of vibration in the initial configuration [time]; `None` without vibration.
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

@@ -19,7 +19,8 @@ pub struct WorkCounts {
     pub newton_iterations: usize,
     /// Number of corrections in successful steps. Corrections reuse earlier factors of the matrix.
     pub corrections: usize,
-    /// Largest number of Newton iterations in one step. For variable steps, the iterations of the whole step and its two halves are added.
+    /// Largest number of Newton iterations in one step.
+    /// For variable steps, the iterations of the whole step and its two halves are added.
     pub newton_max: usize,
     /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,
@@ -51,7 +52,6 @@ impl StepTaken {
     }
 }
 
-/// Progress of a run: solver statistics, last step, arrivals and releases.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RunProgress {
     pub(super) counts: WorkCounts,

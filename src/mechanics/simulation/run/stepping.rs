@@ -1,4 +1,4 @@
-//! Steps of the time grid. Failed steps are halved. Steps end at arrivals of sliders and are recorded.
+//! Steps of the time grid. Failed steps are halved. Steps end at arrivals of sliders.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -123,7 +123,8 @@ impl Simulation {
         stepped
     }
 
-    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step. Returns true if this changes the equations of the step.
+    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step.
+    /// Returns true if the equations of the step change.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,
