@@ -1,4 +1,4 @@
-//! Largest section forces, strain residual and rotation over quadrature points. Several points are processed at once in vector lanes.
+//! Largest section forces, strain residual and rotation over quadrature points, computed in vector lanes.
 
 use pulp::Simd;
 

@@ -1,6 +1,6 @@
 //! Loops of a step over the spans of a beam, compiled for vector instructions.
 //!
-//! Several quadrature points are evaluated at once in vector lanes. Their results are added span by span, in the order of the beam.
+//! Several quadrature points are evaluated at once in vector lanes. The results are added span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -42,7 +42,6 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     }
 }
 
-/// Inputs for internal forces: section, collocation, increments, and the factor of the forces.
 #[derive(Clone, Copy)]
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
@@ -63,7 +62,6 @@ impl ForcesFrom<'_> {
     }
 }
 
-/// Adds the internal forces, computed from the present section forces.
 pub(super) struct ForceAssembly<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -163,7 +161,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     }
 }
 
-/// Adds the forces that would remove the strain residuals.
 pub(super) struct MismatchForces<'a> {
     pub(super) section: &'a Section,
     pub(super) weight: f64,
@@ -206,7 +203,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     }
 }
 
-/// Updates the section forces after an iteration has corrected the increments.
 #[derive(Clone, Copy)]
 pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,

@@ -62,7 +62,7 @@ impl CircularArc {
         self.radius * self.sweep().abs()
     }
 
-    /// Curvature `1 / r` [1/length], positive if the arc turns counter-clockwise.
+    /// Curvature of the arc, which is the inverse radius [1/length], positive if the arc turns counter-clockwise.
     pub(super) fn curvature(&self) -> f64 {
         self.sweep().signum() / self.radius
     }

@@ -104,7 +104,7 @@ impl SplineCurve {
         Ok((self.lengths[number] + within).min(self.lengths[number + 1]))
     }
 
-    /// Parameter [-] at `arc_length` [length], which must be in `[0, length]`.
+    /// Parameter of the curve [-] at `arc_length` [length], which must be in `[0, length]`.
     pub(super) fn parameter_at(&self, arc_length: f64) -> f64 {
         let behind = self.lengths.partition_point(|&length| length <= arc_length);
         if behind == self.lengths.len() {

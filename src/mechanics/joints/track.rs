@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Beams that meet end to end. A slider passes from one beam to the next. On a closed track it may circulate any number of times.
+/// Beams that meet end to end. A slider passes from one beam to the next. On a closed track, the number of rounds is not limited.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
     /// Name in messages.
     pub name: String,
-    /// Beams in the order of the track; at least one.
+    /// Beams in the order of the track; at least one beam.
     pub beams: Vec<TrackBeam>,
     /// Behaviour of the track after the last beam.
     pub end: TrackEnd,

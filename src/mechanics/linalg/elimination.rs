@@ -20,20 +20,20 @@ const LANES: usize = 4;
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// Smallest half-bandwidth for which a row has space for a panel and whole vectors after it.
+/// Smallest half-bandwidth for which a row has space for a panel and whole vectors after the panel.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
 /// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.
 const LARGEST_SQUARE: f64 = 64.0;
 
 /// Returns true if a multiplier is too small for a row exchange.
-/// Arguments: the multiplier, and the squared sizes of the pivot row and of the eliminated row.
+/// The arguments are the multiplier, and the squared sizes of the pivot row and of the eliminated row.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
 }
 
-/// Gaussian elimination with row exchanges. It replaces the entries of a banded matrix by its factors.
+/// Gaussian elimination with row exchanges, which replaces the entries of a banded matrix by its factors.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -56,7 +56,7 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Elimination of a matrix with a symmetric profile.
-/// For each index, the profile gives the last row with an entry in this column, which is also the last column with an entry in this row.
+/// The profile gives, for each index, the last row with an entry in this column, which is also the last column with an entry in this row.
 /// The values of the profile never decrease.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 

@@ -1,6 +1,6 @@
 //! Substitution with the factors of a banded matrix.
 //!
-//! Each sum adds the most recently computed value last. The processor can therefore evaluate the sums of several rows concurrently.
+//! Each sum adds the most recently computed value last, so that the processor can evaluate the sums of several rows concurrently.
 
 use pulp::{Simd, WithSimd};
 

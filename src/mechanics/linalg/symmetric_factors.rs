@@ -13,7 +13,7 @@ use super::{LinearError, SymmetricSparse};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
     /// Number of negative pivots.
-    /// The number of negative pivots equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
+    /// It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
     pub negative: usize,
     /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
     /// The elimination multiplies the rounding error of the matrix by the growth factor, which is at most 1 for a positive definite matrix.
@@ -53,7 +53,8 @@ impl SymmetricFactors {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. The right-hand sides must be followed in memory by as many zeros as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions.
+    /// The right-hand sides must be followed in memory by as many zeros as the half-bandwidth.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });

@@ -11,11 +11,11 @@ pub(in crate::beams) trait MassIntegral:
 {
     fn add(&mut self, product: f64, section: &Section);
 
-    /// Integral of the product of the functions, without the inertia per length [length].
+    /// Integral of the product of the two basis functions, without the inertia per length [length].
     fn length(self) -> f64;
 
     /// Integrals to which the inertia of each component is proportional.
-    /// The integrals are unweighted for every component, or weighted with mass and inertia.
+    /// The integrals are unweighted for every component, or weighted with mass and inertia per length.
     fn weights(self) -> Movement;
 
     fn shares(uniform: &Section) -> Movement;

@@ -35,7 +35,6 @@ impl<'a> SectionsOnAxis<'a> {
         Ok(along)
     }
 
-    /// Arc length from the start of a span to a parameter in the span [length].
     fn within(&self, span: &Span, xi: f64) -> f64 {
         let speed = |at: f64| {
             self.mesh.basis().evaluate_in(span, at).combine(1, self.control_points).norm()
