@@ -10,7 +10,7 @@ use crate::newton::NewtonError;
 
 /// Error from outside the solver. It is displayed unchanged, and can be downcast to its type.
 ///
-/// The type is not `Send`, because errors of script functions are not `Send`.
+/// This error is not `Send`, because errors of script functions are not `Send`.
 #[derive(Debug, Clone)]
 pub struct ExternalError(Rc<dyn Error>);
 

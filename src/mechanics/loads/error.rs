@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::elementary::rounded_to;
 
-/// Error of a script function. It is displayed unchanged, and can be downcast to its type.
+/// Error of a script function, which is displayed unchanged and can be downcast to its type.
 #[derive(Debug, Clone)]
 pub struct FunctionError(Rc<dyn Error>);
 
@@ -79,9 +79,9 @@ pub enum LoadError {
     Function(FunctionError),
     #[error("the schedule is {value} at t = {}, but it must be finite", rounded_to(6, *time))]
     NotFinite {
-        /// Time [time].
+        /// Time of the value [time].
         time: f64,
-        /// Value [-].
+        /// Value of the schedule [-].
         value: f64,
     },
 }

@@ -9,7 +9,7 @@ use crate::system::{StaticForces, System, UnknownKind};
 /// Static forces of a model, and the scale of their residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// Length that converts moments to forces, for loads that consist of moments only.
+    /// Length that converts moments to forces, for loads that consist of moments only [length].
     pub(super) length: f64,
     /// Function that returns false to stop the solution.
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
@@ -38,7 +38,7 @@ impl Balance<'_> {
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Rate of the viscous damping in the equations; zero for an equilibrium [1/time²].
+    /// Rate of the viscous damping in the equations [1/time²]; zero for an equilibrium.
     pub(super) rate: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues, which verifies that no mode is missing.
+//! Search for the lowest modes: choice of a shift, computation of pairs of eigenvalue and shape, and a count of eigenvalues as a check.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -26,7 +26,7 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of a squared frequency, below which the squared frequency counts as zero.
+/// Multiple of the rounding error of a squared frequency below which the squared frequency counts as zero.
 const ROUNDING: f64 = 64.0;
 
 /// Squared frequency that counts as zero, as a fraction of the shift.
@@ -75,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the result with the first shift is used. Its residuals show its accuracy.
+            // If the search with a better shift fails, the modes found with the first shift are used. Their residuals show their accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },
