@@ -83,9 +83,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
     /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`. Each part of a divided body has its own function.
     ///
-    /// The function of a part must use only the rows that belong to control points of this part.
-    /// A span with control points in two parts is passed to the functions of both parts.
-    /// Such a span is passed before the other spans of the later part, and after the other spans of the earlier part.
+    /// The function of a part in `tangents` must use only the rows of control points of this part.
+    /// A span with control points in two parts is passed to the function of the earlier part last, and to the function of the later part first.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -119,7 +118,7 @@ pub trait BodyDynamics: Send + Sync {
 
     /// Calls `tangent` with consecutive entries of each diagonal of `factor · M`, where `M` is the inertia matrix of the body.
     /// The arguments of `tangent` are the first control point of the rows, the offset of the columns, and three entries per control point.
-    /// The offset counts control points and is negative to the left of the main diagonal.
+    /// The offset of the columns counts control points, and is negative to the left of the main diagonal.
     fn each_inertia_diagonal(
         &self,
         factor: f64,

@@ -2,7 +2,7 @@
 //!
 //! A point force on a shear-flexible beam causes a jump of the tangent of its axis.
 //! A smooth mesh does not represent a part of the displacement under the point force.
-//! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights.
+//! The displacement missing under a point force is the same as in a string with the same basis functions, quadrature points and weights.
 //! Derivation: docs/theory.md, section 10.1.
 
 mod running;
@@ -27,9 +27,9 @@ pub struct MissedKink {
 
 /// Computes the part of a kink that is missing on the mesh (docs/theory.md, section 10.1).
 /// The mesh underestimates the displacement under a force across the beam.
-/// The missing displacement is the kink length times the force, divided by the shear stiffness.
+/// The displacement that is missing on the mesh is the kink length times the force, divided by the shear stiffness.
 ///
-/// The kink length is a polynomial of twice the degree on each span, and zero where the basis is only continuous.
+/// The kink length is a polynomial of twice the degree of the basis on each span, and zero at knots where the basis is only C⁰.
 /// Returns `None` if the kink length is not positive at a smooth point, for example with fewer quadrature points than the patch rule has.
 ///
 /// # Errors

@@ -65,7 +65,7 @@ impl Mesh {
     /// Creates a B-spline mesh with the patch rule, `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// Fails if no knot vector exists for the given numbers.
+    /// Fails if no knot vector exists for the given number of spans, degree and continuity.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
@@ -144,7 +144,7 @@ impl Mesh {
         self.basis.spans().len()
     }
 
-    /// Description such as `cubic B-splines C², 14 spans`.
+    /// Description of the mesh, such as `cubic B-splines C², 14 spans`.
     pub fn describe(&self) -> String {
         let degree = match self.basis.degree() {
             1 => "linear".to_owned(),

@@ -2,7 +2,7 @@
 //!
 //! The forces at quadrature points satisfy the balance of a step only with quadrature sums. Near the ends of a beam, their error is of first order.
 //! This module computes section forces that satisfy the balance with exact integrals, as weighted sums over the quadrature points.
-//! These section forces are projections of the exact section forces onto the derivatives of the basis functions.
+//! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
 //! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
 
 use super::sections::{Interpolation, Sections};

@@ -2,7 +2,7 @@
 //!
 //! The beam is cut at control points. A few spans have control points on both sides of a cut.
 //! The contributions of the spans at a cut are computed twice, because rounding depends on the order of additions.
-//! The first computation adds to the control points after the cut, the second computation to the control points before the cut.
+//! For a span at a cut, the first computation adds to the control points after the cut, the second computation to those before the cut.
 
 use std::ops::Range;
 

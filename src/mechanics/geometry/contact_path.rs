@@ -22,7 +22,7 @@ pub struct ContactPath {
     numbers: Vec<f64>,
 }
 
-/// Quantity of each basis function along a path. Rows are stored in this order.
+/// Quantity of each basis function along a path. The rows of the table of path quantities have the order of these variants.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -82,7 +82,7 @@ impl ContactPath {
     }
 
     /// Replaces the path by the path from `from` to `to`. The start must lie in the domain; the end may lie outside.
-    /// If a parameter is not finite, all values are NaN, and the functions are those of the span of `from`.
+    /// If a parameter is not finite, all values are NaN, and the basis functions are those of the span that contains `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
@@ -95,7 +95,7 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            // Common degrees are compile-time constants, for speed.
+            // Common polynomial degrees are compile-time constants, for speed.
             match self.line.basis.degree() {
                 1 => self.set_values::<2>(interval),
                 2 => self.set_values::<3>(interval),
@@ -144,8 +144,8 @@ impl ContactPath {
     }
 
     /// Derivatives of the divided differences with respect to the end of the path, for a fixed start. The derivatives sum to zero.
-    /// For a path of zero length, these derivatives are half the second derivatives of the basis functions.
-    /// These derivatives are accurate to rounding unless a first derivative of the basis jumps on the path.
+    /// For a path of zero length, the derivatives of the divided differences are half the second derivatives of the basis functions.
+    /// The derivatives of the divided differences are accurate to rounding unless a first derivative of the basis jumps on the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }

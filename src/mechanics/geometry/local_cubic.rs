@@ -3,8 +3,7 @@
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Largest angle [rad] between two chords that count as parallel.
-/// The constant is also the largest relative length of a sum of chords that counts as zero.
+/// Largest angle [rad] between two chords that count as parallel, and largest relative length of a sum of chords that counts as zero.
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
@@ -66,8 +65,8 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
 
 /// Returns two chords beyond an end of the curve, which continue the rotation of the last two chords.
 /// The NURBS Book uses the chord `2 near - far`, computed from the chord `near` at the end and the next chord `far`.
-/// This function first scales `far` to the length of `near`, which changes nothing for equally spaced points.
-/// Without this scaling, a curve through unequally spaced points could start backwards.
+/// The function `continued` first scales the chord `far` to the length of `near`, which changes nothing for equally spaced points.
+/// Without the scaling of chords, a curve through unequally spaced points could start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);

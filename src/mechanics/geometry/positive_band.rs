@@ -82,7 +82,7 @@ impl PositiveFactors {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);
         for (row, column) in self.columns.iter().enumerate().rev() {
-            // The diagonal entry is computed last, because it depends on the other entries of its row.
+            // The diagonal entry of a row of the inverse is computed last, because it depends on the other entries of the row.
             for away in (0..=width.min(size - 1 - row)).rev() {
                 let known = (row + 1..size).zip(&column[1..]);
                 let products = known.map(|(at, factor)| factor * inverse.get(at, row + away));

@@ -31,8 +31,8 @@ impl BalanceCoefficients {
 }
 
 /// Balance of a step, as equations for the increments and the constraint multipliers.
-/// The unknown is the deviation of the increments from a motion with constant velocity.
-/// Therefore, the rounding error of the final velocity is proportional to the change of velocity in the step, and momenta do not drift.
+/// The unknowns are the deviations of the increments from a motion with constant velocity.
+/// The rounding error of the final velocity is proportional to these deviations, so that momenta do not drift.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,

@@ -4,7 +4,7 @@ use super::{Integrator, Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
 /// Integrator that rejects a step if the state at its end violates a condition of the constraints.
-/// These conditions depend on the present forces, which are known only after the step. A rejected step is undone.
+/// The conditions of the constraints depend on the present forces, which are known only after the step. A rejected step is undone.
 pub(super) struct EndCheck {
     integrator: Box<dyn Integrator>,
 }

@@ -7,8 +7,7 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. A load has the start value of a linear function of time.
-    /// This linear function has the same mean over the step and the same change in the step as the load.
+    /// Start of the step. A load has the start value of the linear function of time with the same mean and the same change in the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -16,11 +15,10 @@ pub enum Stage {
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
-    /// This later strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value of this variant is the dissipation parameter `χ`.
     DampedMidpoint(f64),
-    /// End of the step. A load has the end value of a linear function of time.
-    /// This linear function has the same mean over the step and the same change in the step as the load.
+    /// End of the step. A load has the end value of the linear function of time with the same mean and the same change in the step.
     End,
 }
 
@@ -49,7 +47,7 @@ pub trait Forces {
     -> f64;
 
     /// Adds `weight` times the forces of a stage to `out`, with the section force unknowns eliminated.
-    /// Adds the derivatives of these forces with respect to the increments to the tangent.
+    /// Adds the derivatives of the forces with respect to the increments to the tangent.
     fn add_linearised_forces(
         &mut self,
         stage: Stage,

@@ -6,9 +6,9 @@ use crate::elementary::{atan, atan2, square, whole_power};
 impl Method {
     /// Phase error of an undamped linear vibration in one step [rad], for the phase `ω Δt` of the exact solution [rad].
     ///
-    /// For the energy–momentum and trapezoidal rules, the leading term is `(ω Δt)³/12`.
-    /// For fourth order, the leading term is `|Σ sᵢ⁵| (ω Δt)⁵/80` with the fractions `sᵢ` of the substeps.
-    /// For generalized-α, the leading term is `(11/24 - 3ρ/(2 (1 + ρ)²)) (ω Δt)³` (docs/theory.md, section 13.3).
+    /// For the energy–momentum and trapezoidal rules, the leading term of the phase error is `(ω Δt)³/12`.
+    /// For fourth order, the leading term of the phase error is `|Σ sᵢ⁵| (ω Δt)⁵/80` with the fractions `sᵢ` of the substeps.
+    /// For generalized-α, the leading term of the phase error is `(11/24 - 3ρ/(2 (1 + ρ)²)) (ω Δt)³` (docs/theory.md, section 13.3).
     pub fn phase_error(&self, angle: f64) -> f64 {
         let midpoint = |fraction: f64| 2.0 * atan(0.5 * fraction * angle);
         match *self {

@@ -83,7 +83,7 @@ pub struct MethodParameter {
 }
 
 impl MethodParameter {
-    /// Description of the range, such as `from 0 to 1`.
+    /// Description of the range of the parameter, such as `from 0 to 1`.
     pub fn range(&self) -> String {
         match self.most {
             f64::INFINITY => format!("{} or greater", self.least),
@@ -266,7 +266,7 @@ impl Method {
     }
 
     /// Creates the integrator, and allocates memory for a mechanism.
-    /// The state of the mechanism then includes the data that the method needs.
+    /// After this call, the state of the mechanism includes the data that the method needs.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

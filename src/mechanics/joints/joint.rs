@@ -23,7 +23,7 @@ impl Component {
     /// All components, in the order in which increments store them.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
-    /// Name in messages, such as `x`.
+    /// Name of the component in messages, such as `x`.
     pub fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -92,7 +92,7 @@ pub enum JointKind {
     /// Support, which fixes some components of a station and leaves the other components free.
     Support(Components),
     /// Inclined roller, which fixes the station across a unit vector that is not parallel to an axis.
-    /// The station of an inclined roller is free along this vector, and free to rotate.
+    /// The station of an inclined roller is free along the unit vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide, which is an inclined roller with fixed rotation.
     InclinedGuide(Vec2),

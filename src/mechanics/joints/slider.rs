@@ -6,7 +6,7 @@ use super::SlidingRule;
 use crate::beams::Station;
 
 /// Point that stays on the axis of a beam and slides along the axis, with or without friction.
-/// A slider with a side only pushes, and may leave the axis on that side.
+/// A slider with a given side can only push its master, and may leave the axis of the master on that side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name in messages and columns.

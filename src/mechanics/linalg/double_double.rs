@@ -4,7 +4,7 @@
 //! Products are split into two parts by fused multiply–add.
 //!
 //! IEEE 754 requires that a fused multiply–add operation rounds once.
-//! Therefore, hardware and software implementations of fused multiply–add give identical results.
+//! As a consequence of IEEE 754, hardware and software implementations of fused multiply–add give identical results.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;

@@ -2,7 +2,7 @@
 //!
 //! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes, the large terms cancel.
 //! With 16 digits, rounding would destroy the small stiffness of soft modes.
-//! With 32 digits, this stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
+//! With 32 digits, the stiffness of soft modes and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -6,8 +6,8 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
 /// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest entry [-].
-/// At this limit, elimination with the smaller diagonal entry loses half of the digits.
-/// Corrections with the same factors recover the lost digits.
+/// If the ratio of squared entries equals the limit, elimination with the smaller diagonal entry loses half of the digits.
+/// Corrections with the same factors recover the digits lost in the elimination.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.

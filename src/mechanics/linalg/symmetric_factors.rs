@@ -12,8 +12,7 @@ use super::{LinearError, SymmetricSparse};
 /// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots.
-    /// It equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
+    /// Number of negative pivots, equal to the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
     pub negative: usize,
     /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
     /// The elimination multiplies the rounding error of the matrix by the growth factor, which is at most 1 for a positive definite matrix.

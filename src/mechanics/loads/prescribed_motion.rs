@@ -37,7 +37,7 @@ pub struct MotionInStep {
 pub struct MotionAtStart {
     /// Rate just after the start of the motion [length/time, rad/time].
     pub rate: f64,
-    /// Derivative of the rate [length/time², rad/time²].
+    /// Derivative of the rate just after the start of the motion [length/time², rad/time²].
     pub acceleration: f64,
 }
 
@@ -181,7 +181,7 @@ impl PrescribedMotion {
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
     /// The time scale of the function is unknown. Therefore, the derivatives of a displacement are computed over several decreasing time spans.
-    /// Returns the derivatives of the two consecutive time spans with the smallest difference.
+    /// Returns the derivatives for the two consecutive time spans whose results differ least.
     ///
     /// # Errors
     /// Fails if the script function fails or a value is not finite just after the start.

@@ -17,7 +17,7 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// This norm is a billionth of the residual change that the perturbation of a parameter causes.
+/// The norm `FOLLOWED` is a billionth of the residual change that the perturbation of a parameter causes.
 const FOLLOWED: f64 = 1e-14;
 
 /// Ratio of two successive residuals above which rounding prevents a further reduction.
@@ -167,7 +167,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // If the residual is not finite, no corrections are made, because they might hide this error.
+            // If the residual is not finite, no corrections are made, because they might hide the invalid number.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });

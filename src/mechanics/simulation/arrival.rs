@@ -57,7 +57,7 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`.
+    /// Description of the arrival, such as `slider 'ring' bounced off the end of its beam at t = 1.5`.
     /// For sliders on tracks, the description contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.end.map_or_else(String::new, |end| format!("the {} of ", end.name()));

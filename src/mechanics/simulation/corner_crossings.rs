@@ -4,11 +4,11 @@ use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
 /// Branches of spring laws with sharp corners at the start, in the middle and at the end of a step.
-/// At the end, there are two results: one of the whole step, and one of the two half steps.
+/// The end of a step has two results: one of the whole step, and one of the two half steps.
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its branch within a step, the estimated error is increased.
-/// The increase is the difference between the rates of whole step and half steps, times the duration of the step.
+/// If a spring changes its branch within a step, the error is increased by the difference between the rates of whole step and half steps.
+/// For the increase of the error, this difference of the rates is multiplied by the duration of the step.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

@@ -89,7 +89,7 @@ impl StepDoubling {
     }
 
     /// Takes a whole step or one of the two half steps of [`step`](Self::step).
-    /// If this step fails, the model is restored to the start of the first of the three steps.
+    /// If the whole step or a half step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -9,7 +9,7 @@ use crate::system::{Scene, System, UnknownKind};
 const PART: f64 = 1e-3;
 
 /// Smallest distance `v²/g` that is a length scale, as a fraction of the largest distance of a body from the origin.
-/// The distance is computed from the start speed `v` and gravity `g`.
+/// The distance `v²/g` is computed from the start speed `v` and gravity `g`.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: the [size](Scene::size) of the scene.

@@ -179,7 +179,7 @@ impl History {
     /// Values of a column, each averaged with the value of the previous row.
     /// The first two values are not averaged, because quantities of a step, such as contact forces, have no value at the start.
     ///
-    /// The average removes oscillations from step to step. It approximates the value in the middle of the step.
+    /// The average removes oscillations from step to step, and approximates the value in the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
         for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {

@@ -13,8 +13,8 @@ const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
 ///
-/// The error of the method is the difference between a whole step and two half steps, with the same controller values in both.
-/// Then, the controllers are sampled in the middle of the step, and the second half step is repeated.
+/// The error of the method is the difference between a whole step and two half steps with the same controller values.
+/// The second half step is repeated with controller values that are sampled in the middle of the step.
 /// The difference between both results of the second half step is the error due to sampling.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].

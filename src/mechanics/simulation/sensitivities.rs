@@ -45,7 +45,7 @@ pub struct DerivativeCounts {
 }
 
 /// Derivatives of a run with respect to parameters, solved with the factorised matrix of each step.
-/// The right-hand side follows from the difference of two residuals, at a positive and a negative perturbation of the parameter.
+/// The right-hand side of the linear system follows from the residuals at a positive and a negative perturbation of the parameter.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
@@ -136,7 +136,7 @@ impl Sensitivities {
 
     /// Applies a release of the main run to the perturbed runs.
     /// Positions and rates are continuous at the release, and the time of the release does not depend on parameters.
-    /// Therefore, a release changes only the numbering of the derivatives of the state.
+    /// A release changes only the numbering of the derivatives of the state.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built again, although it was built before.

@@ -4,7 +4,7 @@
 //! Then, zeros are appended.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
 //! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
-//! The transform uses the sines of this crate, so that results are identical on all machines.
+//! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ const SIDE_LOBES: f64 = 5e-5;
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
 /// Half width of the main lobe of the window function, as a multiple of the frequency that has one period over all rows.
-/// Frequencies below this half width cannot be distinguished from the mean.
+/// Frequencies below the half width of the main lobe cannot be distinguished from the mean.
 const LOBE: f64 = 4.0;
 
 /// Vibration found in a column.

@@ -129,7 +129,7 @@ impl TimeGrid {
 
     /// Number of grid times up to `now`, at least `least`.
     fn points_up_to(&self, now: f64, least: u64) -> u64 {
-        // The search starts at an index slightly below the result.
+        // The search for the number of grid times starts slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = least.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

@@ -59,7 +59,7 @@ struct PathDirection {
 
 impl PathDirection {
     /// Returns true if the next step has nearly the same direction as this step.
-    /// In a different direction, the next step may have reached another branch of the path, for example near the buckling load of a column.
+    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a column.
     /// Smaller steps are needed if the next step has reached another branch.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
@@ -177,7 +177,7 @@ impl<'s> Continuation<'s> {
 
     /// Distance from the last point of the path to the turning point of the load factor.
     /// Returns `None` unless the path crosses the requested load factor before the turning point and again after it.
-    /// The solution is the equilibrium at which the path crosses the requested load factor for the first time.
+    /// The required equilibrium is the first point at which the path crosses the requested load factor.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];

@@ -28,7 +28,7 @@ const MOST_PASSES: usize = 400;
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.
-/// After more passes, the slider counts as having left its master.
+/// A slider that crosses the end of its master in more passes counts as having left its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {

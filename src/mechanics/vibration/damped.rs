@@ -13,7 +13,7 @@ use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
 /// Decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
-/// Slow overdamped vibrations decay at far larger rates than this limit.
+/// Slow overdamped vibrations decay at rates far above the limit `NOTHING`.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. It has a frequency unless it is overdamped.

@@ -3,7 +3,7 @@
 //!
 //! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
 //! The eigenvalues of a single shifted problem ([`Resolvent`]) are accurate only for magnitudes near the shift.
-//! Therefore, several shifted problems with increasing positive real shifts are solved.
+//! The search therefore solves several shifted problems with increasing positive real shifts.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -45,7 +45,7 @@ impl Quadratic {
         }
         if dampers.ncols() > dampers.nrows() {
             // The rounding error of the factorisation `Bᵀ = Q R` is small in comparison with every single row of `B`, even a small row.
-            // Small rows must be accurate, because nearly undamped modes depend on the squares of these rows.
+            // Small rows of `B` must be accurate, because nearly undamped modes depend on the squares of these rows.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }

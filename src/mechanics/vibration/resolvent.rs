@@ -30,7 +30,7 @@ const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// Due to this distance, the matrix of the inverse iteration is not singular.
+/// A shift at the distance `BESIDE` from the eigenvalue gives a matrix of the inverse iteration that is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Damping above which the force of a dashpot is an unknown. A larger matrix entry would reduce the accuracy of weakly damped modes.

@@ -30,7 +30,7 @@ const EQUAL: f64 = 1e-6;
 const ROUNDING: f64 = 64.0;
 
 /// Squared frequency that counts as zero, as a fraction of the shift.
-/// Rigid motions have squared frequencies below this limit because of rounding.
+/// Rigid motions have squared frequencies below the limit `HIDDEN` because of rounding.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero squared frequency.

@@ -1,4 +1,4 @@
-//! Sliding rule that conserves energy, both momenta and the closed gap.
+//! Sliding rule that conserves energy, linear and angular momentum, and the closed gap.
 
 use super::contact::{AXES, PathVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};

@@ -94,7 +94,7 @@ pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
     /// Control points of the master whose basis functions are nonzero on the path, and their increments in the step [length].
-    /// The control points are relative to the slave.
+    /// The control points are given relative to the slave.
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Displacement of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -142,7 +142,7 @@ impl Contact<'_> {
 
     /// Product of the contact force and the tangent of the master at the end of the step [force·length].
     /// The product is positive if the slave pushes outwards at an end of the master.
-    /// `outward` is the sign of the parameter change towards this end.
+    /// The argument `outward` is the sign of the parameter change towards this end of the master.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }

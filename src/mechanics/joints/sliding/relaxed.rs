@@ -7,8 +7,8 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law, which closes the gap on average over each step. A closed gap may open.
-/// Energy, linear and angular momentum are conserved.
-/// The law is that of Sibileau & Muñoz, equations 11 to 14.
+/// The relaxed law conserves energy, linear and angular momentum.
+/// The relaxed law is that of Sibileau & Muñoz, equations 11 to 14.
 ///
 /// For a large gap, a step may have no solution. The direction of sliding is undefined in a step without sliding.
 #[derive(Debug, Clone, Copy)]

@@ -183,7 +183,7 @@ impl Step {
                 let sine = [amplitude * sin(phase), -amplitude * cos(phase)];
                 self.mean_of_product(*others, wave, (sine, rate * half))
             }
-            // Identity: 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x
+            // The integral of a smooth pulse uses the identity 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x.
             Schedule::SmoothPulse { duration } if middle > 0.0 && middle < *duration => {
                 let mut sum = self.mean(*others, wave)?;
                 for (order, amplitude) in [(1.0, -1.5), (2.0, 0.6), (3.0, -0.1)] {

@@ -88,7 +88,7 @@ impl Simulation {
     fn dry_run_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
         if self.restore_step(steps.max(first)).is_err() {
-            // This restoration cannot fail, because the first snapshot is always kept.
+            // The restoration of the first snapshot cannot fail, because the first snapshot is always kept.
             let _: Result<(), SimulationError> = self.restore_step(first);
         }
     }

@@ -1,4 +1,4 @@
-//! Location of the events of sliders within a step, and execution of these events.
+//! Location and execution of the events of sliders within a step.
 //! Events are arrivals at the ends of masters, landings, take-offs and friction transitions.
 
 use super::Simulation;
@@ -24,7 +24,7 @@ const NEAR: f64 = 1e-10;
 /// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
-/// Number of halvings of a step in the check for a slider that leaves its end temporarily.
+/// Number of halvings of a step in the search for a temporary motion of a slider away from its end.
 const PROBES: i32 = 12;
 
 /// Number of impacts at the same end, within as many steps, after which the stop holds the slider.
@@ -390,7 +390,7 @@ impl Simulation {
 
     /// Starts kinks at ends with the present contact forces.
     /// If the previous impact was less than a step ago, the kinks start without load.
-    /// Contact forces between such impacts belong to vibrations that the steps do not resolve.
+    /// Contact forces between two impacts within a step belong to vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {

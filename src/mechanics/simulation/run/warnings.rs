@@ -17,7 +17,7 @@ use crate::system::{
 use crate::vibration::{Modes, VibrationError};
 
 /// Unresolved fraction of the kinetic energy above which a warning states that the steps are too long.
-/// A single vibration with 3.5 steps per period has this fraction. Its computed period is 20 % too long.
+/// A single vibration with 3.5 steps per period has an unresolved fraction of 0.2. Its computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
 /// Unresolved fraction of the kinetic energy above which a warning is given if the phase per step also exceeds [`HIDDEN_TURN`].
@@ -60,7 +60,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Ratio of the step size that resolves the motion of the scene to the mean step size above which a warning is given.
-/// Steps shorter by this ratio follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps that are shorter by `MUCH_SHORTER` follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 /// Largest number of sliders whose resolution is described.
@@ -219,7 +219,7 @@ impl Simulation {
     }
 
     /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies the velocity errors by -1.
-    /// In steps of different lengths, the position errors due to these velocity errors do not cancel.
+    /// In steps of different lengths, the position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {

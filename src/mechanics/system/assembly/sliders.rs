@@ -15,7 +15,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
-/// This limit is about the size of the rounding errors of velocities at a dead centre of a mechanism.
+/// The constant `SAME_VELOCITY` is about the size of the rounding errors of velocities at a dead centre of a mechanism.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {

@@ -9,7 +9,7 @@ use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
 /// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
-/// A damping law with a force of this size at zero rate, or with this small a driving force, still counts as dissipative.
+/// The limit applies to forces at zero rate, and to forces that add energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
@@ -33,7 +33,7 @@ impl From<f64> for DampingLaw {
     }
 }
 
-/// Range in which a damping law adds energy.
+/// Range of rates in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
     /// Point of the law at which the force adds energy: rate [length/time, rad/time] and force [force, force·length].

@@ -9,7 +9,7 @@ use crate::loads::{PrescribedMotion, Schedule};
 /// Type of a prescribed motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriveKind {
-    /// Prescribed x or y position of a station, as functions of time.
+    /// Prescribed x position, y position or both of a station, as functions of time.
     Move,
     /// Prescribed angle of a section relative to the ground, as a function of time.
     Motor,

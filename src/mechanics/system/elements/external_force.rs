@@ -69,7 +69,7 @@ pub trait ExternalForce {
         false
     }
 
-    /// Largest change of a schedule within a step that the steps have not resolved so far.
+    /// Largest change of the schedule that the steps so far have not resolved.
     fn missed_change(&self) -> Option<UnsampledChange> {
         None
     }
@@ -78,7 +78,7 @@ pub trait ExternalForce {
     /// Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds the tangent stiffness to the tangent.
+    /// Adds the tangent stiffness of the element to the tangent.
     /// The tangent stiffness is the negative derivative of the forces with respect to the increments.
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 

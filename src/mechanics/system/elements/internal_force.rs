@@ -24,7 +24,7 @@ pub struct SpringTrialState {
 /// Residuals use the present value of the force.
 /// Linearisations eliminate the force. Corrections update the force together with the increments.
 /// A force that is an unknown does not contain the rounding error of the configuration times the stiffness.
-/// Therefore, the number of iterations does not increase with the stiffness.
+/// With the force as an unknown, the number of iterations does not increase with the stiffness.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;

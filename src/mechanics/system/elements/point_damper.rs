@@ -1,7 +1,7 @@
 //! Damper along the line between two points whose distance may pass through zero.
 //!
 //! If two points pass each other within a step, the mean rate of their distance can be zero although they move.
-//! Therefore, the damper uses the rate along the mean connecting vector.
+//! The damper uses the rate along the mean connecting vector, which is correct also for points that pass each other.
 //! The damping force acts along the mean line, so that angular momentum is conserved.
 
 use super::damping_law::DampingLaw;

@@ -13,7 +13,7 @@ const SEGMENTS: usize = 32;
 const MOST_POINTS: usize = 20_000;
 
 /// Second test point of a segment, as a fraction of its length [-].
-/// At the middle alone, an oscillating function may match the polygon by chance.
+/// At the middle of a segment, an oscillating function may match the polygon by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
 /// Factor by which the allowed deviation is larger at the second test point than at the middle of a segment.

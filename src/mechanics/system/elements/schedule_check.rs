@@ -5,7 +5,7 @@ use crate::loads::{Schedule, StepMean};
 
 /// Relative difference between two quadrature rules for the mean of a schedule over a step, above which the step is too long.
 /// The difference is relative to the largest value of the schedule.
-/// For a jump of the schedule, the difference is at least a tenth of the jump. For a sine, 2.7 steps per period give this difference.
+/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it equals `LARGEST_MISS`.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.

@@ -279,7 +279,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
 }
 
 /// Elongation of least energy, at which the force of a table or its extrapolation changes from negative to positive.
-/// Without such an elongation, the function returns the abscissa of the first point.
+/// If the force does not change from negative to positive, the function returns the abscissa of the first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

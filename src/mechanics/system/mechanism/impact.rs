@@ -16,8 +16,8 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Ratio of two velocity responses to an impulse: with only the included deformations, and with all deformations.
-/// Below this ratio, the bodies are rigid in the direction of the impulse.
+/// Ratio of two velocity responses to an impulse below which the bodies are rigid in the direction of the impulse.
+/// The first response is computed with the included deformations only, the second response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
 /// Generalised forces of a unit impulse in one direction, with the resulting velocities.
@@ -213,7 +213,7 @@ impl System {
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
     /// Velocity differences below `negligible` are ignored [length/time].
-    /// Otherwise, the sign of the velocity difference would alternate from step to step.
+    /// Without this adjustment, the sign of the velocity difference would alternate from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -234,7 +234,7 @@ impl System {
     }
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
-    /// Without this impact, the violation of the velocity constraints would alternate in sign from step to step.
+    /// Without the impact at a jump, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
     /// Returns true if a prescribed rate jumps.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {

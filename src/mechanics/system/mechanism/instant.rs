@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Accelerations and forces at one time contain vibrations that the steps do not resolve. Means over two consecutive steps do not.
+//! Accelerations and forces at one time contain vibrations that the steps do not resolve, unlike means over two consecutive steps.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};

@@ -57,7 +57,7 @@ impl System {
     }
 
     /// Adds the internal forces with the section force unknowns eliminated, minus `load_factor` times the loads.
-    /// Also adds the derivatives of all added forces with respect to the displacements.
+    /// Adds the derivatives of all added forces with respect to the displacements to the tangent.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],

@@ -11,7 +11,7 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
-/// With this ratio, a suppressed deformation is zero to at least five digits.
+/// With the ratio `MOST`, a suppressed deformation is zero to at least five digits.
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;

@@ -4,7 +4,7 @@ use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
 /// Order of the unknowns in static and modal matrices. Without sliders and contact between bodies, it is the order in time steps.
-/// Otherwise the positions of the sliders are additional unknowns, and all unknowns are reordered for a small bandwidth.
+/// Positions of sliders are additional unknowns. With sliders or contact between bodies, all unknowns are reordered for a small bandwidth.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,

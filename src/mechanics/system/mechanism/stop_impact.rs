@@ -273,7 +273,7 @@ impl System {
     /// The speeds of these sliders are proportional to the square roots of the energies stored in their stops.
     ///
     /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
-    /// The returned energy is proportional to the square of this common factor.
+    /// The returned energy is proportional to the square of the common factor of the speeds.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -168,7 +168,7 @@ impl System {
 
     /// Impact law across the master for a slider that is in contact during an impact.
     /// A slider with too many events stays in contact.
-    /// Otherwise, two sliders could push each other off their masters alternately without end.
+    /// Without this rule, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {
@@ -178,7 +178,7 @@ impl System {
     }
 
     /// Starts the flight of sliders that an impact moves away from their masters.
-    /// The directions and laws are those of the given impulses.
+    /// The argument `laws` contains the directions and the laws of `impulses`.
     pub(super) fn separate_after_impact(
         &mut self,
         laws: impl Iterator<Item = (ImpactDirection, ImpactLaw)>,

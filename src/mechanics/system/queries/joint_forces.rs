@@ -2,7 +2,7 @@
 //!
 //! A joint connects two sets of nodes at one point. The forces of other joints within one set cancel in the sum over its nodes.
 //! The force of a joint on one set is the sum of the forces of joints and supports on all nodes of this set.
-//! If one set is the ground, the force on the ground is opposite to the force on the other set.
+//! If one set of nodes is the ground, the force on the ground is opposite to the force on the other set.
 //! Scenes reject redundant joints, so no other joint connects the two sets.
 
 use crate::geometry::Vec2;

@@ -54,7 +54,7 @@ impl System {
     }
 
     /// Present contact force of a slider [force], determined from the kink of its master, if the kink varies with the contact force.
-    /// Otherwise, the function returns the [`contact_force`](Self::contact_force) of the slider.
+    /// Without a kink, or with a constant kink, the function returns the [`contact_force`](Self::contact_force) of the slider.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
@@ -64,7 +64,8 @@ impl System {
         self.slider(slider).friction_force()
     }
 
-    /// Distance of a slave from the axis of its master, for a slider that only pushes [length]. The distance is positive on the side to which the slider can lift off, and zero in contact.
+    /// Distance of a slave from the axis of its master, for a slider that only pushes [length].
+    /// The distance is positive on the side to which the slider can lift off, and zero in contact.
     /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())

@@ -1,5 +1,5 @@
 //! Length scale of a scene without beams, and rounding error of the energy of a scene.
-//! Both quantities are independent of the location of the scene.
+//! Length scale and rounding error are independent of the location of the scene.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -62,7 +62,7 @@ impl Scene {
     }
 
     /// Rounding error of strain energies [energy].
-    /// For a scene with beams, it is the machine precision times the sum of `EA L + EI/L` over the beams.
+    /// For a scene with beams, the rounding error is the machine precision times the sum of `EA L + EI/L` over the beams.
     /// `L` is the length of a beam, `EA` its axial stiffness and `EI` its bending stiffness.
     /// For a scene without beams, the rounding error is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {

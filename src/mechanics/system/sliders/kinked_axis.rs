@@ -19,7 +19,7 @@ const FASTEST: f64 = 0.8;
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Therefore, kinks are kept constant near the ends of a master.
+/// Due to this limit, kinks are kept constant near the ends of a master.
 const BESIDE_END: f64 = 0.1;
 
 /// Largest speed at which a kink starts from an end of the master, as a fraction of the largest speed at which a kink varies.
@@ -219,7 +219,7 @@ impl KinkedAxis {
     }
 
     /// Derivative of the displacement [`offset`](Self::offset) with respect to the parameter of the master.
-    /// Also returns half the product of the displacement and its second derivative.
+    /// Returns half the product of the displacement and its second derivative as the second value.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

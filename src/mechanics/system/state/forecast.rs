@@ -7,7 +7,7 @@ use super::resolution::GuessErrors;
 /// Rates for the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
-    /// No step has been taken, so only the start rates are available.
+    /// Prediction from the start rates, because no step has been taken.
     #[default]
     Unknown,
     /// Prediction from the rates at the start of the step.

@@ -198,7 +198,7 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Linearises the friction law at the present iterate.
-    /// If the contact is stiff, the law is linearised at its intersection with the impedance of the body.
+    /// The law of a stiff contact is linearised at its intersection with the line that represents the impedance of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);

@@ -138,7 +138,7 @@ impl NormalForce {
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
     /// The damping coefficient is limited to its largest value in an impact that is governed by the contact.
-    /// Without the limit, a resting contact would be damped without bound.
+    /// Without a limit of the damping coefficient, a resting contact would be damped without bound.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);

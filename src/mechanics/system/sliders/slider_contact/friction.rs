@@ -7,8 +7,8 @@ use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
 
 /// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
-/// An impulse removes this remaining velocity.
-/// Without this tolerance, the step after the end of the slip could be too short for an accurate energy balance.
+/// An impulse removes the remaining velocity along the master at the end of a slip.
+/// Without a tolerance for the velocity, the step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.

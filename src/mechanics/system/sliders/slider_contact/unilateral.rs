@@ -8,7 +8,7 @@ use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
 /// Largest number of take-offs, landings and passages of the axis without a regular step between them.
-/// After this number of events, the slider stays in contact until the next step without an event.
+/// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
 /// Largest number of iterations of the search for the nearest point of the master.
@@ -128,7 +128,7 @@ impl SliderContact {
         }
     }
 
-    /// Records that the slave passed the axis of its master beyond an end. Then, the slave cannot land from the other side.
+    /// Records that the slave passed the axis of its master beyond an end, which excludes a landing from the other side.
     pub fn record_passage(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (false, contact.events + 1);

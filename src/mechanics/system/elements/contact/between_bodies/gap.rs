@@ -99,7 +99,7 @@ impl GapTrial {
     }
 
     /// Computes the change of the gap and the directions of the contact forces.
-    /// For `TangentScaled`, the work of these forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
+    /// For `TangentScaled`, the work of the contact forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
     /// For `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,

@@ -109,8 +109,8 @@ pub(super) struct ContactPair {
 
 impl ContactPair {
     /// Creates a pair with the gap in the configuration at the start of the step.
-    /// If the nearest point was not part of earlier searches, this gap can be negative.
-    /// A negative gap is then replaced by zero, so that the energy does not jump.
+    /// The gap of a new pair can be negative if the nearest point was not part of earlier searches.
+    /// A negative gap of a new pair is replaced by zero, so that the energy does not jump.
     pub(super) fn new(
         candidate: &CandidatePair,
         site: usize,

@@ -408,7 +408,7 @@ pub(super) struct CrossingPath {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestSearch {
     pub(super) position: Vec2,
-    /// Searched parts of the axis. The end of a part that does not end the axis is not a valid nearest point.
+    /// Searched parts of the axis. The end of a searched part is not a valid nearest point, unless it is an end of the axis.
     pub(super) allowed: AllowedParts,
     pub(super) limit: f64,
     pub(super) hint: usize,

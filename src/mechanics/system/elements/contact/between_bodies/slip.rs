@@ -6,8 +6,8 @@
 //! ```
 //!
 //! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies.
-//! With `ρ + ρ' = 1`, the slip is zero in a rigid rotation.
-//! The sum of all moments is zero, so that the angular momentum is conserved.
+//! With shares `ρ + ρ' = 1` of the friction arm, the slip is zero in a rigid rotation.
+//! The sum of the moments of friction is zero, so that the angular momentum is conserved.
 
 use super::gap::{GapMovement, GapTrial, LOCAL};
 use crate::geometry::{Vec2, larger, perpendicular};

@@ -262,7 +262,7 @@ impl ContactPoint {
         }
     }
 
-    /// Prepares a step that starts with a velocity of the contact point. The approach speed of an open contact follows from this velocity.
+    /// Prepares a step that starts with a given velocity of the contact point, which determines the approach speed of an open contact.
     pub(super) fn begin_step(&mut self, surface: &Surface, velocity: Vec2) {
         self.normal.tension.begin_step();
         if let Some(friction) = &mut self.friction {
