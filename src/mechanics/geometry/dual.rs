@@ -25,7 +25,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Variable with the given index. Its derivative is left out if there are fewer variables.
+    /// Variable with the given index. The derivative of a variable with a larger index than the number of variables is left out.
     pub fn variable(value: f64, at: usize) -> Self {
         let mut variable = Self::constant(value);
         variable.add_slope(at, 1.0);

@@ -32,7 +32,7 @@ impl BalanceCoefficients {
 
 /// Balance of a step, as equations for the increments and the constraint multipliers.
 /// The unknowns are the deviations of the increments from a motion with constant velocity.
-/// The rounding error of the final velocity is proportional to these deviations, so that momenta do not drift.
+/// The rounding error of the final velocity is proportional to the deviation from constant velocity, so that momenta do not drift.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,

@@ -10,7 +10,7 @@ const LARGEST_WORK: usize = 4;
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
 /// The order depends only on the unknowns that the blocks and the distant blocks couple.
-/// The delayed unknowns of a block follow the last unknown that the block touches. At this position in the order, the delayed unknowns have a pivot.
+/// The delayed unknowns of a block follow the last unknown that the block touches, because they have a pivot at this position.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,

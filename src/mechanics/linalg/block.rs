@@ -34,7 +34,7 @@ pub(super) struct BlockElimination<'a> {
 impl WithSimd for BlockElimination<'_> {
     type Output = Result<(), (usize, LinearError)>;
 
-    /// Loops in this function are compiled for the vector instructions of the processor.
+    /// Eliminates all blocks, in loops compiled for the vector instructions of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> Self::Output {
         let Self { blocks, band, places } = self;

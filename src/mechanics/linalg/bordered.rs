@@ -36,7 +36,7 @@ pub enum BorderUnit {
     /// Force.
     #[default]
     Force,
-    /// Unit other than force. The number converts this unit to a length.
+    /// Unit other than force, with the number that converts this unit to a length.
     Length(f64),
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A panel of columns is eliminated without row exchanges if all multipliers are small.
 //! The size of the multipliers depends only on the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2).
-//! The rows below the panel are then updated once for the whole panel, without additional nonzero entries.
+//! The rows below a panel are updated once for the whole panel, without additional nonzero entries.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
 //! In a matrix with a profile, entries outside the profile are skipped.
@@ -20,7 +20,7 @@ const LANES: usize = 4;
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// Smallest half-bandwidth for which a row has space for a panel and whole vectors after the panel.
+/// Smallest half-bandwidth at which the stored part of a row contains a panel and the whole vectors after the panel.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
 /// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.

@@ -15,7 +15,7 @@ use crate::elementary::square;
 const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
-/// Force rows, such as the equation of a frictionless contact, are preferred as pivot rows, as long as this choice loses at most four digits.
+/// Force rows, such as the equation of a frictionless contact, are preferred as pivot rows if this choice loses at most four digits.
 /// With force rows as pivot rows, a contact force of zero is computed without rounding error.
 const LENGTHS: f64 = 1e-4;
 

@@ -72,7 +72,7 @@ pub enum LoadError {
     },
     #[error("its rate is infinite at t = {time}, but must be finite")]
     InfiniteRate {
-        /// Time of the infinite rate [time].
+        /// Time at which the rate is infinite [time].
         time: f64,
     },
     #[error(transparent)]

@@ -61,7 +61,7 @@ pub enum Schedule {
     /// The caller sets the command at the start of the step.
     Sampled(Rc<Cell<f64>>),
     /// Command of a digital controller, constant until the next command.
-    /// The caller sets the command when it starts to act.
+    /// The caller sets the command of the controller when the command starts to act.
     DigitalController {
         /// Cell that contains the present command.
         value: Rc<Cell<f64>>,

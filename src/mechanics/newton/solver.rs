@@ -32,7 +32,7 @@ pub struct Tolerance {
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// Residual norm above which a converged solution is corrected once more with the last factors, to reach rounding [-].
+    /// Residual norm above which a converged solution is corrected one more time with the last factors, to reach rounding [-].
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,

@@ -7,8 +7,8 @@ use crate::system::{Along, Branch, System};
 /// The end of a step has two results: one of the whole step, and one of the two half steps.
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its branch within a step, the error is increased by the difference between the rates of whole step and half steps.
-/// For the increase of the error, this difference of the rates is multiplied by the duration of the step.
+/// If a spring changes its branch within a step, the difference of the rates of both results increases the error.
+/// The increase is the difference of the rates times the duration of the step.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

@@ -10,7 +10,7 @@ use crate::system::{Placement, System, SystemState};
 
 /// Takes two half steps and compares their result with the result of a whole step, which is discarded.
 ///
-/// For a method of order `p`, the error of the half steps is the difference of both results times `1/(2^p - 1)` (Richardson).
+/// For a method of order `p`, the error of the half steps is the difference of the two results times `1/(2^p - 1)` (Richardson).
 /// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
@@ -55,7 +55,7 @@ impl StepDoubling {
     }
 
     /// Takes a whole step, then two half steps over the same interval, and returns the error of the half steps.
-    /// If the buffer `between` is given, the state between the half steps is stored in it.
+    /// Stores the state between the half steps in the buffer `between`, if the buffer is given.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,

@@ -15,7 +15,7 @@ const SHARE: f64 = 4.0;
 ///
 /// The error of the method is the difference between a whole step and two half steps with the same controller values.
 /// The second half step is repeated with controller values that are sampled in the middle of the step.
-/// The difference between both results of the second half step is the error due to sampling.
+/// The difference between the two results of the second half step is the error due to sampling.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,

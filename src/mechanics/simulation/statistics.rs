@@ -1,6 +1,6 @@
 //! Statistics of a column over time: extremes, means, derivatives and crossings.
 //!
-//! Columns are interpolated linearly between rows. Integrals are exact for this interpolation.
+//! Columns are interpolated linearly between rows. Integrals are exact for linear interpolation.
 
 /// Time series of a quantity, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]

@@ -25,7 +25,7 @@ impl Trajectory {
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Stores a configuration, unless it is one of the configurations that the trajectory discards.
+    /// Stores every n-th configuration passed to the trajectory. The number n is doubled at the limit of stored values.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);

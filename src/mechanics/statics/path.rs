@@ -40,7 +40,7 @@ impl EquilibriumPath {
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
     }
 
-    /// Points of the path in order.
+    /// Points of the path of equilibria, in order.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }

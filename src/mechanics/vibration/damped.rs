@@ -16,7 +16,7 @@ use crate::system::{System, UnknownKind};
 /// Slow overdamped vibrations decay at rates far above the limit `NOTHING`.
 const NOTHING: f64 = 1e-40;
 
-/// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. It has a frequency unless it is overdamped.
+/// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. An overdamped vibration has no frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
     /// Decay rate `δ = -Re λ` of the vibration `exp(λ t)` [1/time]; negative if the vibration grows.

@@ -19,7 +19,7 @@ const LARGEST_RATIO: f64 = 1e6;
 const FARTHEST: f64 = 1e12;
 
 /// Largest displacement of an unrestrained mode at a damper that counts as zero.
-/// The limit is a fraction of the largest displacement of all modes at this damper.
+/// The limit of this displacement is a fraction of the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;

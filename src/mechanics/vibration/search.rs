@@ -75,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the modes found with the first shift are used. Their residuals show their accuracy.
+            // If the search with a better shift fails, the modes found with the first shift are used, with residuals that show their accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },

@@ -33,7 +33,7 @@ impl SplineString {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
                             // The exact motion is one at parameters above the parameter of the kink, and zero below.
-                            // The motion of the mesh is `there`, and the difference from one is `missing`.
+                            // The motion of the mesh is `there`. The difference between the exact motion and `there` is `missing`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -1,7 +1,7 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
 //! An error of the velocity across the master changes its sign from step to step, and has no effect on positions.
-//! The force that reverses this velocity error grows with the inverse of the step length. The friction limit excludes this force.
+//! The force that reverses the velocity error grows with the inverse of the step length. The friction limit excludes this force.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};

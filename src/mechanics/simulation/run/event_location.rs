@@ -228,7 +228,7 @@ impl Simulation {
         number: usize,
         mut after: (f64, f64),
     ) -> Result<ArrivalEstimate, StepError> {
-        // If the slider hardly moves in the whole step, it is held at the limit. Shorter steps would only show rounding errors.
+        // A slider that hardly moves in the whole step is held at the limit. Shorter steps would only show rounding errors.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -401,7 +401,7 @@ impl Simulation {
 
     /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
     /// The stop holds the slider after repeated impacts within few steps, and for an elastic contact that the next steps resolve.
-    /// The stop also holds the slider if a step from the limit would pass the limit, although the velocity of the slider does not point beyond it.
+    /// The stop also holds a slider that would pass the limit in a step from the limit, although its velocity does not point beyond the limit.
     fn stays_held(
         &mut self,
         limit: MasterLimit,
@@ -416,7 +416,7 @@ impl Simulation {
     }
 
     /// Returns true if a slider is held at a seam instead of passing the seam.
-    /// A slider is held if both sides of the seam return it at once, or if it oscillates about the seam within few steps.
+    /// A slider is held if both sides of the seam immediately return it to the seam, or if it oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
         let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)

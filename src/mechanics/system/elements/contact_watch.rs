@@ -27,7 +27,7 @@ pub struct ContactWatch {
     steps: f64,
     /// Rate of elongation at the beginning of the contact [length/time, rad/time].
     entry: f64,
-    /// Largest force so far in this contact [force, force·length].
+    /// Largest force of the present contact so far [force, force·length].
     force: f64,
     /// Time since the contact began [time].
     duration: f64,

@@ -108,7 +108,7 @@ pub trait InternalForce {
         Vec::new()
     }
 
-    /// Returns true if the straight path of a point in the step leads through this obstacle.
+    /// Returns true if the straight path of a point in the step leads through the obstacle.
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
         false
     }
@@ -127,7 +127,7 @@ pub trait InternalForce {
     }
 
     /// Damping force [force] and damping moment [force·length] at a section of a beam, computed from the given rates at the start of the step.
-    /// Returns `None` if the element does not damp this beam.
+    /// Returns `None` if the element does not damp the beam.
     fn transmitted(
         &self,
         _bodies: &[Body],

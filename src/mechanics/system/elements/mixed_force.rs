@@ -80,7 +80,7 @@ const MOST_TRIES: usize = 120;
 impl ForceTarget {
     /// Target force and slope at the intersection of an increasing law with a line of negative slope.
     /// The slope of the line is the impedance of all other objects of the scene.
-    /// Newton's method without this intersection would alternate between the segments at a corner of a stiff law.
+    /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,
         force: f64,

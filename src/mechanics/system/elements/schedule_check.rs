@@ -13,7 +13,7 @@ const LARGEST_MISS: f64 = 0.01;
 pub struct UnsampledChange {
     /// Middle of the step with the largest difference [time].
     pub time: f64,
-    /// Difference between both quadrature rules, as a fraction of the largest value of the schedule [-].
+    /// Difference between two quadrature rules for the mean, as a fraction of the largest value of the schedule [-].
     pub sampling_error: f64,
 }
 

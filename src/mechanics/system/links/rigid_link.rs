@@ -226,7 +226,7 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Difference between the velocity of the linked point and the velocity of the body at this point [length/time].
+    /// Difference between the velocity of the linked point and the velocity of the body at the place of this point [length/time].
     /// At the end of a step, the velocity difference is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {

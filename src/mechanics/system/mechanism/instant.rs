@@ -126,8 +126,8 @@ impl System {
         Ok(())
     }
 
-    /// Calls a function while the model stores the present forces of its rigid links.
-    /// At other times, the model stores the forces of the last step, which are zero before the first step.
+    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step.
+    /// Before the first step, the stored forces of rigid links are zero.
     ///
     /// # Errors
     /// Fails in the same cases as [`instant`](Self::instant), if the model has rigid links.

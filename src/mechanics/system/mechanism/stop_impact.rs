@@ -270,7 +270,7 @@ impl System {
     }
 
     /// Returns the stored energy of stops to the sliders that leave the stops.
-    /// The speeds of these sliders are proportional to the square roots of the energies stored in their stops.
+    /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
     /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
     /// The returned energy is proportional to the square of the common factor of the speeds.

@@ -168,7 +168,7 @@ impl System {
 
     /// Impact law across the master for a slider that is in contact during an impact.
     /// A slider with too many events stays in contact.
-    /// Without this rule, two sliders could push each other off their masters alternately without end.
+    /// Without the limit of events, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

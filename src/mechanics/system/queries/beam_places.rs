@@ -9,7 +9,7 @@ use crate::system::{Scene, System, SystemError};
 
 /// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
 /// A joint inside the beam has two positions with the same arc length.
-/// At such a joint, the first position belongs to the part before the joint, the second position to the part after it.
+/// At a joint inside the beam, the first position belongs to the part before the joint, the second position to the part after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,

@@ -11,7 +11,7 @@ use crate::system::errors::{TrackError, written};
 impl Scene {
     /// Adds a track along consecutive beams and returns its index.
     /// The direction of the track on each beam follows from the ends that touch.
-    /// If both directions of the first beam are possible, the track leads from the start to the end of this beam.
+    /// If the first beam can be passed in both directions, the track leads from the start to the end of this beam.
     ///
     /// # Errors
     /// Fails if the name is taken, or if a beam does not start at the end of the previous beam or is not joined to it.

@@ -31,7 +31,7 @@ pub enum ValueTime {
     Instant,
     /// Mean over the last step.
     StepMean,
-    /// Mean over the last step or value at its end, depending on the method of integration.
+    /// Mean over the last step, or value at the end of the last step, depending on the method of integration.
     MeanOfMethod,
     /// Mean over the last step, which the model accumulates on request.
     SummedMean,

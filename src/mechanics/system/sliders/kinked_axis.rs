@@ -19,7 +19,7 @@ const FASTEST: f64 = 0.8;
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Due to this limit, kinks are kept constant near the ends of a master.
+/// Due to the limit `BESIDE_END`, kinks are kept constant near the ends of a master.
 const BESIDE_END: f64 = 0.1;
 
 /// Largest speed at which a kink starts from an end of the master, as a fraction of the largest speed at which a kink varies.
@@ -104,7 +104,7 @@ impl KinkedAxis {
         self.is_frozen || length < least || self.speed.abs() > self.fastest
     }
 
-    /// Returns true if a kink that moves along the master with this speed [length/time] begins with the contact force.
+    /// Returns true if a kink begins with the contact force at the given speed along the master [length/time].
     /// At larger speeds, unresolved waves near the end would determine the load of the kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest

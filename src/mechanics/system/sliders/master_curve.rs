@@ -32,7 +32,7 @@ impl MasterEnd {
         }
     }
 
-    /// Sign of the rate of the parameter for a motion towards this end [-].
+    /// Sign of the rate of the parameter for a motion towards this end of the master [-].
     pub(in crate::system) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,

@@ -40,7 +40,7 @@ impl IncrementPrediction {
     }
 
     /// Selects the better of two predictions by comparison with the increments of a step, in the norm of the diagonal inertia.
-    /// Returns the errors of both predictions.
+    /// Returns the errors of the prediction from start rates and of the prediction from mean rates.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
@@ -64,7 +64,7 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors at selected degrees of freedom, computed before the selection is updated.
+    /// Prediction errors at the given degrees of freedom, computed before the type of prediction is selected.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

@@ -10,7 +10,7 @@ const LONGEST_PATH: f64 = 1e3;
 pub struct DiscPath {
     /// Vector from the centre of the disc to the point at the start [length].
     pub start: Vec2,
-    /// Displacement of the point relative to the centre [length].
+    /// Displacement of the point relative to the centre of the disc [length].
     pub movement: Vec2,
     /// Radius of the disc plus radius of the body around the point [length].
     pub radius: f64,

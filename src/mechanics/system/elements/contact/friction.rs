@@ -187,7 +187,7 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Compares the friction force with its law.
-    /// Returns the relative difference; zero if the rounding error of the increments explains the difference.
+    /// Returns the relative difference; zero if rounding of the increments explains the difference between friction force and law.
     pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);

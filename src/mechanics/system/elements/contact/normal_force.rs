@@ -180,7 +180,7 @@ impl NormalForce {
     }
 
     /// Compares the tension with its target.
-    /// Returns the relative difference; zero if the rounding error of the increments explains the difference.
+    /// Returns the relative difference; zero if rounding of the increments explains the difference between tension and target.
     pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
         let stiffness = larger(target.stiffness, self.stiffness(law));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());

@@ -12,7 +12,7 @@ impl SpringDamper {
     }
 
     /// Returns true if the force is zero in a segment of the law.
-    /// The size of the saved state depends on this flag, so that the flag does not change when the spring is released.
+    /// The size of the saved state depends on this result, so that the result must not change when the spring is released.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)

@@ -1,11 +1,11 @@
 //! Change of the gap between a point and a moving curve in a step, and the directions of the contact force.
 //!
 //! ```text
-//! xₖ: contact point, cₖ(ξ): curve; index k = 0 for the start and k = 1 for the end of the step
-//! ξ₀, ξ₁: parameters of the nearest point of the curve at the start and at the end of the step
-//! aₖ = xₖ - cₖ(ξ₀)      bₖ = xₖ - cₖ(ξ₁)      ℓ₀ = |a₀|      ℓ₁ = |b₁|
-//! A₀ = |b₀|² - ℓ₀² ≥ 0     A₁ = |a₁|² - ℓ₁² ≥ 0     θ = A₀/(A₀ + A₁)
-//! force on c(ξ₀):  -F θ (a₀ + a₁)/(ℓ₀ + ℓ₁)      force on c(ξ₁):  -F (1 - θ) (b₀ + b₁)/(ℓ₀ + ℓ₁)
+//! contact point xₖ and curve cₖ(ξ) at the start (k = 0) and at the end (k = 1) of the step
+//! parameters ξ₀ and ξ₁ of the nearest point of the curve at the start and at the end of the step
+//! vectors between point and curve: aₖ = xₖ - cₖ(ξ₀) and bₖ = xₖ - cₖ(ξ₁); distances: ℓ₀ = |a₀| and ℓ₁ = |b₁|
+//! share θ of the force at c(ξ₀): θ = A₀/(A₀ + A₁) with A₀ = |b₀|² - ℓ₀² ≥ 0 and A₁ = |a₁|² - ℓ₁² ≥ 0
+//! force on c(ξ₀): -F θ (a₀ + a₁)/(ℓ₀ + ℓ₁); force on c(ξ₁): -F (1 - θ) (b₀ + b₁)/(ℓ₀ + ℓ₁)
 //! ```
 //!
 //! The force on the point is minus the sum of the forces on the curve. The work of all forces is `F (ℓ₁ - ℓ₀)`, at any step size.

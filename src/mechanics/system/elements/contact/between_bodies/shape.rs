@@ -13,7 +13,7 @@ const SAMPLES: usize = 4;
 /// Largest number of iterations of the search for the nearest point.
 const MOST_ITERATIONS: usize = 60;
 
-/// Largest cosine of the angle between the axis and the line to the nearest point for which this line is perpendicular to the axis.
+/// Largest cosine of the angle between the axis and the line to the nearest point for which this line counts as perpendicular to the axis.
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Relative rounding error of distances.
@@ -104,7 +104,7 @@ pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
     /// Quadrature weight [length]; 1 for a point.
     pub(super) weight: f64,
-    /// Parts of the axis of the same beam that the contact point can touch, without the parts close to it along the axis.
+    /// Parts of the axis of the same beam that the contact point can touch, without the parts close to the point along the axis.
     pub(super) allowed: AllowedParts,
     /// Indices of the bodies that the point touches at present.
     pub(super) touched: Vec<usize>,
@@ -514,7 +514,7 @@ impl SpanSearch<'_> {
 /// Returns true if the origin passes between two points that move along straight lines.
 fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
     let (da, db) = (a_end - a, b_end - b);
-    // Twice the area of the triangle with corners at the origin and at both points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
+    // Twice the area of the triangle with corners at the origin and at the two points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
     let (c0, c1, c2) = (cross(a, b), cross(da, b) + cross(a, db), cross(da, db));
     let root = (c1 * c1 - 4.0 * c2 * c0).sqrt();
     if root.is_nan() {

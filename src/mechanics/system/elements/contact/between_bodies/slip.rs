@@ -1,8 +1,8 @@
 //! Slip of a contact point along the axis of another body, and the directions of the friction force.
 //!
 //! ```text
-//! nₖ: force on the contact point from c(ξₖ) for a unit normal force      J: turn by a right angle      ρ, ρ': shares of the arm
-//! Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω')      A = Σₖ nₖ·dₖ      dₖ: mean vector from c(ξₖ) to the point
+//! force nₖ on the contact point from c(ξₖ) for a unit normal force, turn J by a right angle, shares ρ and ρ' of the arm
+//! slip Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω') with A = Σₖ nₖ·dₖ and the mean vector dₖ from c(ξₖ) to the point
 //! ```
 //!
 //! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies.
@@ -19,9 +19,9 @@ pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
 /// Rotations of both bodies in an iterate, and the shares of the arm of the friction force that act on the bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotations {
-    /// Rotations of the body of the point and of the other body [rad].
+    /// Rotations of the body of the contact point and of the other body [rad].
     pub(super) turned: [f64; 2],
-    /// Shares of the arm [-]. The sum of the shares is one.
+    /// Shares of the arm of the friction force [-]. The sum of the shares is one.
     pub(super) shares: [f64; 2],
 }
 

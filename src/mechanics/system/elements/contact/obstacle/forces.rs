@@ -3,7 +3,7 @@
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
-//! Due to this intersection, the number of iterations does not depend on the stiffness of the contact.
+//! Due to the intersection of both laws, the number of iterations does not depend on the stiffness of the contact.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
