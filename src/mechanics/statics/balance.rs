@@ -86,7 +86,7 @@ impl Equations for UnderLoad<'_> {
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     pub(super) normal: &'a [f64],
-    /// Distance of the plane from the last equilibrium, in the metric of the path.
+    /// Distance of the plane from the last equilibrium, in the norm of displacements and rotations.
     pub(super) distance: f64,
     pub(super) forces: &'a mut [f64],
 }

@@ -19,7 +19,7 @@ pub struct PathPoint {
     pub state: SystemState,
 }
 
-/// Equilibria in order, starting with the unloaded scene.
+/// Sequence of equilibria that starts with the unloaded scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EquilibriumPath {
     points: Vec<PathPoint>,
@@ -64,7 +64,7 @@ impl EquilibriumPath {
 
 /// Extremum of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
-    /// Distance of the extremum from the first equilibrium, in the metric of the path.
+    /// Distance of the extremum from the first equilibrium, in the norm of displacements and rotations.
     pub(super) distance: f64,
     pub(super) load_factor: f64,
 }

@@ -9,7 +9,7 @@ use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
 /// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
-/// The limit applies to forces at zero rate, and to forces that add energy.
+/// The limit `ROUNDING` applies to forces at zero rate, and to forces that add energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
@@ -96,7 +96,7 @@ impl DampingLaw {
         }
     }
 
-    /// Returns true if the damping force is not zero at all rates.
+    /// Returns true if the law has a nonzero force at some rate.
     pub fn is_active(&self) -> bool {
         *self != Self::Linear(0.0)
     }

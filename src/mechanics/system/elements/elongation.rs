@@ -57,7 +57,7 @@ pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
     shares: Vec<CoordinateShare>,
-    /// Elongation in the initial configuration on the meshes [length, rad].
+    /// Elongation in the initial configuration of the meshed bodies [length, rad].
     initial: f64,
     growth: Coordinate,
     movements: Vec<f64>,
@@ -130,7 +130,7 @@ impl Elongation {
         self.initial + self.growth.value
     }
 
-    /// Elongation in the initial configuration on the meshes [length, rad].
+    /// Elongation in the initial configuration of the meshed bodies [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }
