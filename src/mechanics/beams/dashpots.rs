@@ -158,7 +158,6 @@ impl Dashpots {
         }
     }
 
-    /// Discards the rates of the last steps after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
@@ -215,7 +214,6 @@ impl Dashpots {
         }
     }
 
-    /// Updates the dashpot forces after a correction of the increments.
     pub(crate) fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];

@@ -6,7 +6,6 @@ use super::present_rates::{DashpotRates, RateMismatch};
 use super::{Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Dashpot for the rates of axial and shear strain.
 #[derive(Debug, Clone)]
 pub(super) struct ForceDashpot {
     functions: Functions,

@@ -5,7 +5,6 @@ use pulp::Simd;
 use super::dynamics::ForceSummary;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 
-/// Values of [`ForceSummary`], one for each lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ForceMaxima<T> {
     pub(super) strain_mismatch: T,

@@ -31,7 +31,6 @@ pub(super) struct ForcePoints<const N: usize> {
     linearised_stress: f64,
 }
 
-/// Configuration of an iterate, with the values needed to correct the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,

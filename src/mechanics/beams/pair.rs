@@ -66,7 +66,6 @@ impl<T: Number> Pair<T> {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector `J a = (-a2, a1)`: the vector `a` rotated by 90° counter-clockwise.
     #[inline(always)]
     pub(super) fn perpendicular(self) -> Self {
         Self { x: -self.y, y: self.x }

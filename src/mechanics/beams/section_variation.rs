@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::{BeamError, Section, Solid};
 use crate::geometry::{GaussRule, larger};
 
-/// Largest number of positions at which a taper is defined.
 const MOST_PLACES: usize = 10_000;
 
 /// Number of Gauss points in each linear piece of a taper.

@@ -33,7 +33,6 @@ enum PathQuantity {
     Change,
 }
 
-/// Number of rows in the table of path quantities.
 const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 
 #[derive(Debug)]

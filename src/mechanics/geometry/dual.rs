@@ -13,7 +13,6 @@ pub(crate) struct Dual<const SLOPES: usize> {
     pub slopes: [f64; SLOPES],
 }
 
-/// Planar vector with the derivatives of its components.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DualVector<const SLOPES: usize> {
     pub x: Dual<SLOPES>,

@@ -2,7 +2,6 @@
 
 use super::{Curve, GeometryError, Vec2};
 
-/// Number of initial samples of a curve.
 const SAMPLES: usize = 512;
 
 /// Number of bisections after which the parameter is accurate to rounding.

@@ -4,7 +4,6 @@ use super::GeometryError;
 use crate::elementary::cos;
 use std::f64::consts::PI;
 
-/// Largest number of points of a rule.
 const MOST_POINTS: usize = 64;
 
 /// Gauss–Legendre rule with `n` points, exact for polynomials up to degree `2n - 1`.

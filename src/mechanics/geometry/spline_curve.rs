@@ -137,7 +137,6 @@ impl SplineCurve {
     }
 }
 
-/// Returns the control points after `xi` has been inserted once as a knot.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

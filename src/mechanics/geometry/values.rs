@@ -26,7 +26,6 @@ impl BasisValues {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }
 
-    /// A single function with the value one everywhere.
     pub(crate) fn constant(index: usize) -> Self {
         let mut values = Self::zeros(index, 0);
         values.rows[0][0] = 1.0;
@@ -71,7 +70,6 @@ fn combine(order: usize, derivatives: &[f64], points: &[Vec2]) -> Vec2 {
     derivatives.iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
 }
 
-/// Largest order of the derivatives in [`LowDerivatives`].
 pub(super) const LOW_ORDERS: usize = 3;
 
 #[derive(Debug, Clone, Copy)]

@@ -103,7 +103,6 @@ impl SharedFactorStepper {
     }
 }
 
-/// Solves a step of all companions from the solution and factors of the leader.
 fn step_companions(
     solver: &mut StepSolver,
     companions: &mut [&mut dyn Mechanism],

@@ -100,7 +100,6 @@ pub enum EndAction {
 }
 
 impl EndAction {
-    /// Returns true if a stop at the end prevents the slider from leaving its master.
     pub(crate) fn has_stop(self) -> bool {
         matches!(self, Self::Bounce | Self::Contact)
     }

@@ -48,7 +48,6 @@ impl Track {
 }
 
 impl TrackDirection {
-    /// Opposite direction along the beam.
     pub(crate) fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,

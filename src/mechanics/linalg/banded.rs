@@ -124,7 +124,6 @@ impl BandedMatrix {
         Ok(self.factors())
     }
 
-    /// Factors that [`factorise`](Self::factorise) has computed.
     pub(crate) fn factors(&self) -> BandedLu<'_> {
         BandedLu { factors: self.storage.factors() }
     }

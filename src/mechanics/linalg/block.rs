@@ -12,10 +12,8 @@ use super::{BandedMatrix, BorderUnit, LinearError};
 /// Number of unknowns of a block outside the band, which equals the number of unknowns of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
-/// Number of values in a vector instruction.
 const LANES: usize = 4;
 
-/// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
 const LARGEST_FILL: f64 = 100.0;
@@ -34,7 +32,6 @@ pub(super) struct BlockElimination<'a> {
 impl WithSimd for BlockElimination<'_> {
     type Output = Result<(), (usize, LinearError)>;
 
-    /// Eliminates all blocks, in loops compiled for the vector instructions of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> Self::Output {
         let Self { blocks, band, places } = self;

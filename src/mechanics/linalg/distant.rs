@@ -7,7 +7,6 @@ pub(super) struct DistantBlocks {
     unknowns: Vec<usize>,
     /// End of the unknowns of each block in the list `unknowns`.
     ends: Vec<usize>,
-    /// Entries of all blocks, row by row.
     entries: Vec<f64>,
 }
 
@@ -29,7 +28,6 @@ impl DistantBlocks {
         self.entries.extend(entries);
     }
 
-    /// Unknowns of each block.
     pub(super) fn groups(&self) -> impl Iterator<Item = &[usize]> {
         let starts = std::iter::once(&0).chain(&self.ends);
         starts.zip(&self.ends).map(|(&start, &end)| &self.unknowns[start..end])

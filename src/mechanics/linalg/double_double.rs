@@ -17,14 +17,12 @@ pub(super) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Exact product `a b`.
     #[inline(always)]
     pub(super) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
 
-    /// Sum `self + other`.
     #[inline(always)]
     pub(super) fn plus(self, other: Self) -> Self {
         let sum = self.high + other.high;
@@ -47,7 +45,6 @@ impl DoubleDouble {
         Self::renormalised(high, self.low.mul_add(other.high, low))
     }
 
-    /// Inverse `1/self`.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;

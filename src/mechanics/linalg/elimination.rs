@@ -13,7 +13,6 @@ use pulp::{Simd, WithSimd};
 use super::storage::ActiveRows;
 use super::{LinearError, fixed_band};
 
-/// Number of values in a vector instruction.
 const LANES: usize = 4;
 
 /// Number of columns that are eliminated together. It equals the vector length, so that panels read and write aligned vectors.
@@ -33,7 +32,6 @@ pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
 }
 
-/// Gaussian elimination with row exchanges, which replaces the entries of a banded matrix by its factors.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -80,7 +78,6 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`, panel by panel.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,

@@ -77,7 +77,6 @@ impl ProfileMatrix {
 }
 
 impl ProfileLu<'_> {
-    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         Arch::new().dispatch(ProfileSubstitution { factors: self.factors, ends: self.ends, x });
     }

@@ -80,7 +80,6 @@ impl Storage {
         self.end_with_the_identity();
     }
 
-    /// Index of the diagonal entry among the stored entries of a row.
     #[inline(always)]
     pub(super) fn centre(&self) -> usize {
         self.reach + PANEL - 1

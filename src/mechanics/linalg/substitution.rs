@@ -8,7 +8,6 @@ use super::elimination::PANEL;
 use super::fixed_band;
 use super::storage::Factors;
 
-/// Forward and backward substitution, which replace a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],

@@ -24,7 +24,6 @@ pub struct Pivots {
 pub struct SymmetricFactors {
     size: usize,
     reach: usize,
-    /// Columns of `L` below the diagonal.
     multipliers: Vec<f64>,
     inverse_pivots: Vec<f64>,
     pivots: Pivots,
@@ -42,7 +41,6 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// Number of negative pivots, and growth factor of the elimination.
     pub(crate) fn pivots(&self) -> Pivots {
         self.pivots
     }
@@ -93,7 +91,6 @@ impl WithSimd for SymmetricElimination<'_> {
     }
 }
 
-/// Number of values in a vector instruction.
 const LANES: usize = MARGIN + 1;
 
 impl SymmetricElimination<'_> {

@@ -15,7 +15,6 @@ use crate::threads::both;
 /// Smallest number of rows for elimination from both ends. For shorter bands, a second thread saves little time.
 const FEWEST_ROWS: usize = 6000;
 
-/// Memory for the elimination from both ends.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
     cut: BandCut,
@@ -199,7 +198,6 @@ impl TwoEnded {
 }
 
 impl TwoEndedLu<'_> {
-    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Self { cut, threads, upper, lower, middle, right, reversed: turned } = self;
         let (cut, upper, lower) = (*cut, *upper, *lower);

@@ -24,7 +24,6 @@ pub struct ExtraColumn {
     pub dimension: &'static str,
 }
 
-/// Standard columns, in their order.
 pub(super) const FIXED: &[Column] = &[
     of_run("t", "time", |row| row.measures.time),
     fixed("kinetic", "energy", |row| row.measures.energy.kinetic),

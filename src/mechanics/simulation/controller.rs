@@ -39,7 +39,6 @@ pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
     pub(super) error: Option<f64>,
-    /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
 }
 

@@ -93,7 +93,6 @@ impl History {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
-    /// Reserves memory for `rows` further rows.
     pub(crate) fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());

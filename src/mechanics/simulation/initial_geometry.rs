@@ -10,7 +10,6 @@ use crate::system::SystemError;
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
     lowest_period: OnceCell<Option<f64>>,
-    /// Warnings about bodies that start inside an obstacle.
     pub(super) warnings: Vec<Warning>,
 }
 

@@ -5,7 +5,6 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
-/// Number of points per span for spline degrees above one.
 const POINTS_A_SPAN: usize = 8;
 
 fn pieces(degree: usize) -> usize {

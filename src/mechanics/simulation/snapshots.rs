@@ -106,7 +106,6 @@ impl Snapshots {
         (last.steps() >= unbroken).then_some(last)
     }
 
-    /// Removes the snapshots of steps after step number `steps`.
     pub(super) fn truncate(&mut self, steps: usize) {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }

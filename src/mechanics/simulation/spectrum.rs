@@ -24,7 +24,6 @@ const PADDING: usize = 4;
 /// Largest height of a maximum that may be a side lobe of the window function, as a fraction of the largest maximum.
 const SIDE_LOBES: f64 = 5e-5;
 
-/// Coefficients of the Blackman–Harris window function.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
 /// Half width of the main lobe of the window function, as a multiple of the frequency that has one period over all rows.

@@ -5,7 +5,6 @@ use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::System;
 
-/// Integrator of a run, with the optional derivatives of the run.
 pub(super) struct Stepper {
     pub(super) integrator: Box<dyn Integrator>,
     pub(super) sensitivities: Option<Box<Sensitivities>>,

@@ -8,7 +8,6 @@ const SAME: f64 = 1e-9;
 /// Largest difference of two times that count as equal, as a multiple of their rounding error.
 const ROUNDINGS: f64 = 4.0;
 
-/// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
 /// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.

@@ -11,7 +11,6 @@ pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length that converts moments to forces, for loads that consist of moments only [length].
     pub(super) length: f64,
-    /// Function that returns false to stop the solution.
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 

@@ -19,7 +19,6 @@ const EASIER: f64 = 0.2;
 /// Factor by which the damping rate is multiplied after a pass that failed or had too large displacements.
 const HARDER: f64 = 4.0;
 
-/// Largest number of attempts at the first pass.
 const MOST_FIRST_PASSES: usize = 60;
 
 const MOST_PASSES: usize = 400;

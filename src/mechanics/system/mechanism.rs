@@ -154,7 +154,6 @@ impl System {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
-    /// Returns true if forces of rigid links are among the unknowns.
     pub(crate) fn has_rigid_links(&self) -> bool {
         self.links.count() > 0
     }
@@ -170,7 +169,6 @@ impl System {
         self.bodies.divide(threads)
     }
 
-    /// Sets the time without changing the state of motion.
     pub(crate) fn set_time(&mut self, time: f64) {
         self.motion.time = time;
     }

@@ -11,7 +11,6 @@ use rayon_core::{ThreadPool, ThreadPoolBuilder};
 /// The tasks of a step follow each other immediately. Waking a thread takes as long as many of these tasks.
 const POLLING_TIME: Duration = Duration::from_micros(300);
 
-/// Number of times that tasks were distributed to the pool.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
 /// Pool with one thread for each additional processor core, created at its first use.

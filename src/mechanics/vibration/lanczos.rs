@@ -25,7 +25,6 @@ const SHRUNK: f64 = 1e-4;
 /// Remaining component in the basis above which a vector is orthogonalised again, as a fraction of the length of the vector.
 const TRACE: f64 = 1e-8;
 
-/// Tolerance of the scalar products of basis vectors.
 const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;

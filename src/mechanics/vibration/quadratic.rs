@@ -18,8 +18,7 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
 const FARTHEST: f64 = 1e12;
 
-/// Largest displacement of an unrestrained mode at a damper that counts as zero.
-/// The limit of this displacement is a fraction of the largest displacement of all modes at the damper.
+/// Displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -28,7 +27,6 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
-/// Damped vibration problem in the basis of the undamped modes.
 pub(super) struct Quadratic {
     /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,

@@ -5,7 +5,6 @@ use std::fmt::Debug;
 use crate::beams::Section;
 use crate::beams::dynamics::Movement;
 
-/// Integral of a product of two basis functions along a beam.
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {

@@ -3,7 +3,6 @@
 use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
-/// Number of Gauss points for the arc length within one span.
 const POINTS: usize = 8;
 
 pub(in crate::beams) struct SectionsOnAxis<'a> {

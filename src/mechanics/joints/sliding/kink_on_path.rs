@@ -15,7 +15,6 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub arm: DualVector<SLOPES>,
 }
 
-/// Units of the equations of a contact on a master with a kink.
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 

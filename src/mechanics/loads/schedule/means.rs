@@ -250,7 +250,6 @@ fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
 /// Function `p(x) Re(amplitude exp(i turn x))` on [-1, 1], with a polynomial `p`.
 #[derive(Clone, Copy)]
 struct Wave {
-    /// Coefficients of `p`.
     polynomial: [f64; MOST_DEGREE + 1],
     degree: usize,
     amplitude: [f64; 2],

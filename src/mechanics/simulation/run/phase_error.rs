@@ -114,6 +114,5 @@ struct PhaseSum {
     unresolved: f64,
     /// Kinetic energies [energy].
     kinetic: f64,
-    /// Number of steps.
     steps: f64,
 }

@@ -56,7 +56,6 @@ impl Simulation {
         }
     }
 
-    /// Executes the releases that are due at the present time, before the next step.
     pub(super) fn execute_due_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger

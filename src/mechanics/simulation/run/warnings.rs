@@ -63,7 +63,6 @@ const MANY_STEPS: usize = 5000;
 /// Steps that are shorter by `MUCH_SHORTER` follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
-/// Largest number of sliders whose resolution is described.
 const SLIDERS: usize = 6;
 
 impl Simulation {
@@ -177,7 +176,6 @@ impl Simulation {
         }
     }
 
-    /// Adds a warning for each drive that starts with a speed at a beam at rest.
     pub(super) fn warn_of_start_impacts(&mut self) {
         let impacts = self.model.start_impacts(NEGLIGIBLE_STRAIN * self.scene.fastest_wave());
         for StartImpact { drive, beam, component, rate } in impacts {

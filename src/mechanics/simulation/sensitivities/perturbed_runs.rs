@@ -50,7 +50,6 @@ impl PerturbedRuns {
         Ok(())
     }
 
-    /// Computes the derivative of the state from the difference between the states of both perturbed runs.
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;
         for (run, state) in runs.iter().zip(states.iter_mut()) {

@@ -106,7 +106,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C0 mesh represents the kink at its nodes, so no compliance is missing at the nodes, and the kink could not pass a node.
+        // A C0 mesh represents kinks at its nodes without missing compliance, but a kink cannot pass a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);

@@ -115,7 +115,6 @@ enum Action {
     Follower(Vec<Follower>),
 }
 
-/// Load of a model, with its values in the current step.
 struct AppliedLoad {
     name: String,
     schedule: Schedule,

@@ -6,10 +6,8 @@ use crate::geometry::larger;
 /// Allowed deviation of the table from the sampled function, as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-7;
 
-/// Initial number of segments of a sampled function.
 const SEGMENTS: usize = 32;
 
-/// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
 /// Second test point of a segment, as a fraction of its length [-].

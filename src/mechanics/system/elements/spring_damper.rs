@@ -36,7 +36,6 @@ pub struct SpringDamper {
     offset: f64,
     ranges: [Option<LawRange>; 2],
     law_text: Option<String>,
-    /// Damping law `d(q̇)`.
     damping: DampingLaw,
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,

@@ -6,7 +6,6 @@ use unicode_normalization::is_nfc;
 
 use super::SystemError;
 
-/// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
 /// Initial characters with which spreadsheets recognise formulas. A name must not begin with such a character.

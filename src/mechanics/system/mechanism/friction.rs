@@ -82,7 +82,6 @@ impl System {
         self.stop_along(&[slider]).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Starts the slip of a slider in the direction of the force along its master.
     pub(crate) fn start_slip(&mut self, slider: usize) {
         self.sliders[slider].slip();
         self.motion.accelerations.mark_unknown();

@@ -22,7 +22,6 @@ const MOST_CORRECTIONS: usize = 60;
 /// Energy of the suppressed strains at which the corrections end, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations that an impact includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
@@ -142,7 +141,6 @@ impl Rigidity {
     }
 }
 
-/// Largest ratio of weighted stiffness to inertia over the degrees of freedom.
 fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResistance>) -> f64 {
     let mut resistance = vec![0.0; inertia.len()];
     for StrainResistance { degrees, strain, weight, .. } in resistances {

@@ -101,7 +101,6 @@ impl System {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
-    /// Returns true if a slider reached or left a seam at the present time.
     pub(crate) fn is_at_seam_event(&self, slider: usize) -> bool {
         self.sliders[slider].crossed_seam_at(self.motion.time)
     }

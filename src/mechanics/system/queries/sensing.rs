@@ -114,7 +114,6 @@ impl Located {
 }
 
 impl System {
-    /// Enables the means over a step that the sensors need.
     pub(crate) fn enable_means_for(&mut self, sensors: &[Sensor]) {
         for sensor in sensors.iter().filter(|sensor| sensor.is_summed()) {
             match sensor.source {

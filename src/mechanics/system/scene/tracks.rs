@@ -69,7 +69,6 @@ impl Scene {
         before.map(length).sum::<f64>() + own
     }
 
-    /// Returns true if a slider is on a closed track.
     pub(crate) fn is_on_closed_track(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
         track.is_some_and(|track| track.end == TrackEnd::Closed)

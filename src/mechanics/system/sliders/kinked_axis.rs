@@ -181,7 +181,7 @@ impl KinkedAxis {
 
     /// Removes the force of a stop, which acts along the tangent of the axis, from the contact force.
     ///
-    /// Within rounding of the end, the axis may be compliant. The contact force is then kept, because positions determine it.
+    /// The axis at a slider within rounding of an end may be compliant. Its contact force is kept, because positions determine this force.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);

@@ -65,7 +65,6 @@ impl SliderState {
         }
     }
 
-    /// Returns true if the slave is on the axis of its master.
     pub(in crate::system) fn has_contact(self) -> bool {
         match self {
             Self::Sliding | Self::Held(_) => true,
@@ -104,7 +103,6 @@ pub enum SliderEvent {
     TakeOff(usize),
 }
 
-/// Number of different events of a slider.
 const EVENTS: usize = 6;
 
 impl SliderEvent {

@@ -70,7 +70,6 @@ pub struct SliderContact {
     start_path: ContactPath,
     path: ContactPath,
     before: Vec<Vec2>,
-    /// Index of the first control point in the field `before`.
     before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],

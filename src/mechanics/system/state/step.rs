@@ -18,7 +18,6 @@ pub struct StepMeasures {
     pub jumps: bool,
     /// Energy that dampers returned in the last backward substep [energy].
     pub returned: f64,
-    /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
     pub inertia_solver: Option<Box<InertiaSolver>>,
     pub present: Option<Box<PresentForces>>,

@@ -15,7 +15,6 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 /// Damping factor at which a sticking contact is critically damped. Larger damping factors are reduced to this value.
 const MOST_DAMPING: f64 = 2.0;
 
-/// Law of friction in a step.
 #[derive(Debug, Clone, Copy)]
 struct FrictionLaw {
     /// Stiffness along the surface [force/length].
@@ -30,7 +29,6 @@ struct FrictionLaw {
     share: f64,
 }
 
-/// Friction force in an iterate, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 struct FrictionTarget {
     by_slip: ForceTarget,

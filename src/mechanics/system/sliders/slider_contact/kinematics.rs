@@ -6,7 +6,6 @@ use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl SliderContact {
-    /// Control points of the master and their basis functions at the slider.
     fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }

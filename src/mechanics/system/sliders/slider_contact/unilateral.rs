@@ -11,7 +11,6 @@ use crate::system::sliders::master_curve::END_TOLERANCE;
 /// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
-/// Largest number of iterations of the search for the nearest point of the master.
 const MOST_ITERATIONS: usize = 64;
 
 /// Largest change of the parameter in an iteration of the search, as a fraction of the parameter range.
@@ -193,7 +192,6 @@ impl SliderContact {
         [sum(path.end()), sum(path.slope()), sum(path.change()) * 2.0]
     }
 
-    /// Finds the nearest point of the master for a slider in flight, after the given increments of the bodies.
     pub(super) fn follow_master(&mut self, bodies: &[Body], increments: &[f64]) {
         if !self.is_separated() {
             return;

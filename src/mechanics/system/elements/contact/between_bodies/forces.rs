@@ -30,7 +30,6 @@ pub(super) struct CandidatePair {
     pub(super) friction: Option<FrictionOfPair>,
 }
 
-/// Friction of a pair of shapes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionOfPair {
     /// Coefficient of friction [-].

@@ -29,7 +29,6 @@ const SAME_FOOT: f64 = 1e-14;
 /// Derivatives with respect to the local coordinates.
 pub(super) type Slope = [f64; LOCAL];
 
-/// Contact point and curve at the start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapStart {
     /// Vector from the nearest point of the curve to the contact point [length].
@@ -53,7 +52,6 @@ pub(super) struct GapMovement {
 }
 
 impl GapMovement {
-    /// Zero displacement of a contact point with the given foot.
     pub(super) fn none(foot: Foot) -> Self {
         let [moved, tangents] = [[Vec2::zeros(); 3]; 2];
         Self { foot, moved, slid: Vec2::zeros(), increment: 0.0, tangents }

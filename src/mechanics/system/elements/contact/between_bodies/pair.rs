@@ -83,7 +83,6 @@ pub(super) struct LocalRows {
     columns: Vec<[f64; WITH_ROTATIONS]>,
 }
 
-/// Friction of a contact between two bodies.
 #[derive(Debug, Clone)]
 struct PairFriction {
     /// Shares of the arm of the friction force that act on the body of the point and on the other body [-].
@@ -91,7 +90,6 @@ struct PairFriction {
     force: PointFriction<WITH_ROTATIONS>,
 }
 
-/// Contact of a point with another body.
 #[derive(Debug, Clone)]
 pub(super) struct ContactPair {
     pub(super) index: PairIndex,
@@ -542,13 +540,11 @@ impl ContactPair {
         -(self.applied[0] + self.applied[1])
     }
 
-    /// Elastic tension and damping coefficient of the contact at the start of the step.
     fn tension_at_start(&self) -> (ForceTarget, f64) {
         let tension = self.normal.elastic(&self.law, Stage::End, 0.0);
         (tension, self.normal.damping(&self.law, tension, self.normal.mass).0)
     }
 
-    /// Damping coefficient of the contact, and the rate of the gap for a relative velocity.
     pub(super) fn damped_rate(&self, velocity: Vec2) -> (f64, f64) {
         (self.tension_at_start().1, self.normal_at_start().dot(&velocity))
     }

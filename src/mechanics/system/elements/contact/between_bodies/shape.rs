@@ -10,7 +10,6 @@ use crate::system::elements::contact::DiscPath;
 /// Number of intervals between the samples of a span in the search for the nearest point.
 const SAMPLES: usize = 4;
 
-/// Largest number of iterations of the search for the nearest point.
 const MOST_ITERATIONS: usize = 60;
 
 /// Largest cosine of the angle between the axis and the line to the nearest point for which this line counts as perpendicular to the axis.
@@ -19,7 +18,6 @@ const PERPENDICULAR: f64 = 1e-6;
 /// Relative rounding error of distances.
 const ROUNDING: f64 = 1e-12;
 
-/// Axis-aligned box.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     low: Vec2,
@@ -50,7 +48,6 @@ impl Bounds {
         (self.high - self.low).norm()
     }
 
-    /// Box enlarged by a fraction of its size on each side.
     fn grown(self, fraction: f64) -> Self {
         let by = (self.high - self.low) * fraction;
         Self { low: self.low - by, high: self.high + by }
@@ -94,11 +91,9 @@ impl Foot {
 /// Parts of an axis that a contact point can touch, as intervals of the parameter. Infinite bounds extend to the ends of the axis.
 pub(super) type AllowedParts = [(f64, f64); 2];
 
-/// All points of an axis.
 pub(super) const WHOLE_AXIS: AllowedParts =
     [(f64::NEG_INFINITY, f64::INFINITY), (f64::INFINITY, f64::NEG_INFINITY)];
 
-/// Contact point of a body.
 #[derive(Debug, Clone)]
 pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
@@ -115,7 +110,6 @@ pub(super) struct ContactSite {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
-    /// Box around the body.
     bounds: Bounds,
     /// Boxes around the spans; empty until needed.
     spans: Vec<Bounds>,
@@ -134,7 +128,6 @@ impl Configuration {
     }
 }
 
-/// Axis of a body: a curve, or a single point.
 #[derive(Debug, Clone)]
 enum Axis {
     Curve(SampledCurve),
@@ -169,7 +162,6 @@ fn sample(low: f64, high: f64, at: usize) -> f64 {
     low + (high - low) * (at as f64 / SAMPLES as f64)
 }
 
-/// Body in contact.
 #[derive(Debug, Clone)]
 pub(super) struct Shape {
     pub(super) body: usize,
@@ -394,7 +386,6 @@ impl Shape {
     }
 }
 
-/// Straight path of a contact point in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CrossingPath {
     pub(super) from: Vec2,
@@ -404,7 +395,6 @@ pub(super) struct CrossingPath {
     pub(super) radius: f64,
 }
 
-/// Search for the nearest point of an axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestSearch {
     pub(super) position: Vec2,
@@ -445,7 +435,6 @@ impl Axis {
     }
 }
 
-/// Search for the point of one span that is nearest to a position.
 struct SpanSearch<'a> {
     basis: &'a Basis,
     span: &'a Span,

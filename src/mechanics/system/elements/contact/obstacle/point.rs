@@ -16,7 +16,6 @@ use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::ForceTarget;
 
-/// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface {
     pub(super) shape: ObstacleShape,
@@ -561,7 +560,6 @@ impl ContactPoint {
     }
 }
 
-/// Closed contact at the start of a step.
 pub(super) struct ClosedContact {
     /// Gradient of the gap [-].
     pub(super) gradient: Vec2,
