@@ -81,7 +81,8 @@ pub trait BodyDynamics: Send + Sync {
     ) -> ForceSummary;
 
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
-    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`. Each part of a divided body has its own function.
+    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`.
+    /// Each part of a divided body has its own function in `tangents`.
     ///
     /// The function of a part in `tangents` must use only the rows of control points of this part.
     /// A span with control points in two parts is passed to the function of the earlier part last, and to the function of the later part first.

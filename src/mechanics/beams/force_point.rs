@@ -91,7 +91,8 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // The strain is stored because a strain computed from the configuration has rounding errors. The stored initial strain is exactly zero.
+        // The strain is stored because a strain computed from the configuration has rounding errors.
+        // The stored initial strain is exactly zero.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

@@ -1,4 +1,5 @@
-//! Quadrature points for the axial and shear strain in vector lanes. The section force is an independent unknown (docs/theory.md, section 11).
+//! Quadrature points for the axial and shear strain in vector lanes.
+//! The section force is an independent unknown (docs/theory.md, section 11).
 //!
 //! Each quadrature point stores the derivative of its position and its rotation, and updates them by increments.
 //! Due to the updates by increments, the rounding errors of strains do not depend on the distance of a beam from the origin.

@@ -1,4 +1,5 @@
-//! Inertia matrix of a beam, stored by diagonals. In a product, each diagonal multiplies the rates of all control points as one long vector.
+//! Inertia matrix of a beam, stored by diagonals.
+//! In a product, each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 

@@ -1,6 +1,7 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The forces at quadrature points satisfy the balance of a step only with quadrature sums. Near the ends of a beam, their error is of first order.
+//! The forces at quadrature points satisfy the balance of a step only with quadrature sums.
+//! Near the ends of a beam, the error of the forces at quadrature points is of first order.
 //! This module computes section forces that satisfy the balance with exact integrals, as weighted sums over the quadrature points.
 //! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
 //! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.

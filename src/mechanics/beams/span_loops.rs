@@ -14,7 +14,8 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Operation that is repeated for all spans. Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
+/// Operation that is repeated for all spans.
+/// Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 

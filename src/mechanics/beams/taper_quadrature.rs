@@ -21,7 +21,8 @@ impl TaperQuadrature {
     /// Relative error above which a mesh is too coarse.
     pub const TOLERANCE: f64 = 5e-3;
 
-    /// Computes the quadrature errors for the sections of a beam. Positions along the beam are converted to the same fractions of the parameter.
+    /// Computes the quadrature errors for the sections of a beam.
+    /// Positions along the beam are converted to the same fractions of the parameter.
     /// The conversion of positions to parameters is exact for spans of equal length.
     ///
     /// # Errors

@@ -9,7 +9,8 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
 /// The divided differences of the basis functions are accurate for paths of any length, including zero, and across breaks.
 ///
-/// Every accessor returns one value for each basis function that is nonzero somewhere on the path. Parameters and results are dimensionless.
+/// Every accessor returns one value for each basis function that is nonzero somewhere on the path.
+/// Parameters and results are dimensionless.
 /// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
 /// Outside the domain, the polynomials of the first and the last span are extended.
 #[derive(Debug, Clone)]

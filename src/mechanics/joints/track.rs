@@ -56,7 +56,8 @@ impl TrackDirection {
     }
 
     /// Converts an arc length along the track to an arc length along the beam, or vice versa [length].
-    /// The arc length along the track starts where the track enters the beam. The arc length along the beam starts at the start of the beam.
+    /// The arc length along the track starts where the track enters the beam.
+    /// The arc length along the beam starts at the start of the beam.
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,

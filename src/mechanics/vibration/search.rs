@@ -130,7 +130,8 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs with the same eigenvalue as the last requested pair may be missing. All pairs with smaller frequencies must have been found.
+        // Pairs with the same eigenvalue as the last requested pair may be missing.
+        // All pairs with smaller frequencies than the last requested pair must have been found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

@@ -203,7 +203,8 @@ impl Simulation {
     }
 
     /// Warnings about damped beams.
-    /// The steps may not resolve the motion of a damped beam, although they resolve the motion of the whole scene. `dt` is the step size [time].
+    /// The steps may not resolve the motion of a damped beam, although they resolve the motion of the whole scene.
+    /// `dt` is the step size [time].
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -216,7 +217,8 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies the velocity errors by -1.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors.
+    /// Each step multiplies the velocity errors by -1.
     /// In steps of different lengths, the position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();

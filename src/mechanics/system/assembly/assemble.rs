@@ -18,7 +18,8 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// Strains are differences of coordinates, which may be much larger than a span. The rounding error is therefore larger than the machine precision.
+/// Strains are differences of coordinates, which may be much larger than a span.
+/// The rounding error of strains is therefore larger than the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene with the meshes of the beams, from which the model is built.

@@ -77,7 +77,8 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        // Elements at a point, such as drag, couple the components of the point. Consecutive numbers keep the bandwidth of the tangent small.
+        // Elements at a point, such as drag, couple the components of the point.
+        // Consecutive numbers keep the bandwidth of the tangent small.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));

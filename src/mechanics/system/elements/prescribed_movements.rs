@@ -361,7 +361,8 @@ impl PrescribedMovements {
         self.present.iter_mut().for_each(|present| present.reaction.end_step());
     }
 
-    /// Impulse and work of the drives in an impact. The work is the reaction impulse times the mean of the rates before and after the impact.
+    /// Impulse and work of the drives in an impact.
+    /// The work of a drive in an impact is the reaction impulse times the mean of the rates before and after the impact.
     pub fn impact_exchange(
         &mut self,
         bodies: &[Body],

@@ -1,6 +1,7 @@
 //! Stiffness, inertia and damping matrices of the present configuration.
 //!
-//! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no stiffness.
+//! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy.
+//! Loads of fixed direction have no stiffness.
 //! The stiffness of follower loads is neglected.
 
 use super::{StaticOrder, System};

@@ -196,7 +196,8 @@ impl PairForces {
         (span < self.shapes[index.target].spans()).then_some((index, span))
     }
 
-    /// Distance between two axes above which their bodies cannot reduce the smallest gap [length]. `reach` is the sum of the radii of the bodies.
+    /// Distance between two axes above which their bodies cannot reduce the smallest gap [length].
+    /// `reach` is the sum of the radii of the bodies.
     fn gap_limit(&self, reach: f64) -> f64 {
         (1.0 - GAP_ACCURACY) * self.gap.max(0.0) + reach
     }

@@ -223,7 +223,8 @@ impl Shape {
         (self.masses, self.rotary_inertias) = inertias.map(<(f64, f64)>::from).unzip();
     }
 
-    /// Inverse of the effective mass at a combination of control points [1/mass]. A massless point of a rigid body has the whole mass of the body.
+    /// Inverse of the effective mass at a combination of control points [1/mass].
+    /// A massless point of a rigid body has the whole mass of the body.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
