@@ -37,7 +37,7 @@ struct PresentMotion {
     step_curvature: MotionCurvature,
     /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.
     check: Option<ScheduleCheck>,
-    /// Reaction [force, force·length]. A moment is conjugate to the angle.
+    /// Reaction of the drive [force, force·length]. A reaction moment is conjugate to the angle of the section.
     reaction: StepMean<f64>,
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].

@@ -34,7 +34,7 @@ pub struct Impulses {
     /// Residual of the balance, with additional space for contact equations.
     residual: Vec<f64>,
     /// Impulses since the end of the last step [force·time, force·length·time].
-    /// Impulses on control points are followed by impulses of inclined rollers.
+    /// The impulses on control points are stored first, followed by the impulses of inclined rollers.
     present: Vec<f64>,
     means: Vec<f64>,
 }
