@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Limit for the derivative of the axis with respect to its parameter, as a fraction of the mean length. Smaller derivatives count as zero.
+/// Smallest nonzero derivative of the axis with respect to its parameter, as a fraction of the mean length. Smaller derivatives count as zero.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]
@@ -23,7 +23,6 @@ impl<const N: usize> AxisPoint<N> {
     pub(super) const EMPTY: Self = Self { shape: [0.0; N], slope: [0.0; N], weight: 0.0 };
 }
 
-/// Consecutive quadrature points of the axis, one in each vector lane.
 #[derive(Debug, Clone)]
 pub(super) struct AxisPoints<const N: usize> {
     pub(super) shape: [Lanes; N],
@@ -64,7 +63,6 @@ impl<const N: usize> AxisPoints<N> {
     }
 }
 
-/// Increments of the control points of several spans, one span in each vector lane.
 pub(super) struct Windows<'a, const N: usize>([&'a [Movement; N]; LANES]);
 
 impl<const N: usize> Windows<'_, N> {

@@ -13,7 +13,7 @@ use super::sections::SectionsOnAxis;
 use super::{BeamError, Mesh, RotationIncrement, Section, SectionPlace, SectionVariation};
 use crate::geometry::{Vec2, larger};
 
-/// Relaxation times of a Kelvin–Voigt material, by which the viscous section forces are proportional to strain rates [time].
+/// Relaxation times of a Kelvin–Voigt material. A viscous section force is relaxation time times stiffness times strain rate.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Relaxation {
     /// Relaxation time of axial deformation [time].
@@ -31,7 +31,7 @@ impl Relaxation {
     /// Checks that all relaxation times are finite and not negative.
     ///
     /// # Errors
-    /// Returns name and value of the first invalid relaxation time.
+    /// Returns the name and the value of the first invalid relaxation time.
     pub fn validated(&self) -> Result<(), (&'static str, f64)> {
         let times = [("axial", self.axial), ("shear", self.shear), ("bending", self.bending)];
         match times.into_iter().find(|(_, time)| !(time.is_finite() && *time >= 0.0)) {
@@ -41,11 +41,12 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rate of a quantity in a step: `by_change` times its change in the step, minus `by_last` times its rate in the previous step.
+/// Rule for the rate of a quantity in a step.
+/// The rate is `by_change` times the change of the quantity in the step, minus `by_last` times its rate in the previous step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
     /// Fraction of the step at which the directions of forces are evaluated [-].
-    /// Position and rotation are interpolated linearly between the start and the end of the step.
+    /// Positions and rotations are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
     /// Factor of the change of the quantity in the step [1/time].
     pub by_change: f64,
@@ -157,7 +158,6 @@ impl Dashpots {
         }
     }
 
-    /// Discards the rates of the last steps. Called after a jump of the rates.
     pub(crate) fn clear_rate_history(&mut self) {
         self.resolution = RateResolution::default();
     }
@@ -184,7 +184,7 @@ impl Dashpots {
     }
 
     /// Calls `give` with the dashpot forces on control points after elimination of the dashpot unknowns.
-    /// Calls `tangent` with the first control point of each span and the derivatives of the forces, row by row.
+    /// Calls `tangent` with the first control point of each span and the derivatives of the dashpot forces, row by row.
     pub fn add_linearised_forces(
         &mut self,
         at: RateCollocation,
@@ -206,7 +206,7 @@ impl Dashpots {
     }
 
     /// Calls `give` with the force corrections on control points that satisfy the damping laws.
-    /// The directions of the corrections are those of the last linearisation.
+    /// The directions of the force corrections are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -214,7 +214,6 @@ impl Dashpots {
         }
     }
 
-    /// Updates the dashpot forces after a correction of the increments.
     pub(crate) fn correct(&mut self, correction: &[Movement]) {
         for SpanDashpots { first, forces, moments } in &mut self.spans {
             let correction = &correction[*first..*first + self.order];
@@ -223,7 +222,7 @@ impl Dashpots {
         }
     }
 
-    /// Ends a step of the given duration [time] with the given increments. The duration is infinite for an increment without damping.
+    /// Ends a step of the given duration [time] with the given increments. The duration of an increment without damping is infinite.
     /// Returns the energy that the dashpots dissipate [energy].
     pub fn advance(
         &mut self,
@@ -294,7 +293,7 @@ impl Dashpots {
         (force, moment)
     }
 
-    /// Appends the present state to `state`.
+    /// Appends the present state of the dashpots to `state`.
     pub fn save(&self, state: &mut Vec<f64>) {
         self.resolution.save(state);
         for span in &self.spans {
@@ -303,7 +302,7 @@ impl Dashpots {
         }
     }
 
-    /// Restores the state from numbers in the order of [`save`](Self::save).
+    /// Restores the state of the dashpots from numbers in the order of [`save`](Self::save).
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.resolution.restore(next);
         for span in &mut self.spans {

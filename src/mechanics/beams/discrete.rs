@@ -24,7 +24,7 @@ use crate::geometry::Vec2;
 /// Beam on a basis that has `N` nonzero functions per span.
 #[derive(Debug, Clone)]
 struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
-    /// Section at all points; for a tapered beam the mean section.
+    /// Section at all points of a uniform beam; for a tapered beam the mean section.
     section: Section,
     control_points: Vec<Vec2>,
     remainders: Vec<Vec2>,

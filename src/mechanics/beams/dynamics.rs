@@ -6,7 +6,7 @@ use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Increment of a control point, rate of a control point, or force on it. The components are x, y and rotation [length, length, rad].
+/// Increment of a control point, rate of a control point, or force on it, with the components x, y and rotation [length, length, rad].
 pub type Movement = [f64; 3];
 
 /// Fractions of a step, from start (0) to end (1), at which internal forces are evaluated.
@@ -23,8 +23,8 @@ pub struct Collocation {
 /// Largest forces, rotation and strain residual in an evaluation of the internal forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceSummary {
-    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
-    /// Residuals of curvatures are multiplied by a length.
+    /// Largest strain residual: strain of the configuration minus the strain that belongs to the section force [-].
+    /// Residuals of curvatures are multiplied by a length to make them dimensionless.
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
@@ -35,7 +35,7 @@ pub struct ForceSummary {
 }
 
 impl ForceSummary {
-    /// Replaces each value by the larger of the values in both summaries.
+    /// Replaces each value of the summary by the larger of the values in both summaries.
     pub fn join(&mut self, other: &Self) {
         self.strain_mismatch = larger(self.strain_mismatch, other.strain_mismatch);
         self.force = larger(self.force, other.force);
@@ -71,7 +71,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Prepares a step. Iterations start with the section forces of the last step.
     fn begin_step(&mut self);
 
-    /// Adds `weight` times the internal forces on control points. They are computed from the present section forces.
+    /// Adds `weight` times the internal forces on control points, computed from the present section forces.
     fn add_forces(
         &mut self,
         at: Collocation,
@@ -81,10 +81,11 @@ pub trait BodyDynamics: Send + Sync {
     ) -> ForceSummary;
 
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
-    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`. Each part of a divided body has its own function.
+    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`.
+    /// Each part of a divided body has its own function in `tangents`.
     ///
-    /// The function of a part must use only the rows that belong to control points of this part.
-    /// A span with control points in two parts is passed to the functions of both parts: before the other spans of the later part, and after the other spans of the earlier part.
+    /// The function of a part in `tangents` must use only the rows of control points of this part.
+    /// A span with control points in two parts is passed to the function of the earlier part last, and to the function of the later part first.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -94,7 +95,7 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the forces that would remove the present strain residuals.
+    /// Adds `weight` times the force corrections that would remove the present strain residuals.
     /// The derivatives of the strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
@@ -107,8 +108,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.
     fn add_inertia(&self, factor: f64, rates: &[Movement], forces: &mut [Movement]);
 
-    /// Calls `tangent` with consecutive entries of each row of `factor · M`.
-    /// The arguments are the control point of the row, the first control point of the columns, and three entries per column.
+    /// Calls `tangent` with consecutive entries of each row of `factor · M`, where `M` is the inertia matrix of the body.
+    /// The arguments of `tangent` are the control point of the row, the first control point of the columns, and three entries per column.
     fn add_inertia_tangent(
         &self,
         factor: f64,
@@ -116,9 +117,9 @@ pub trait BodyDynamics: Send + Sync {
         tangent: &mut dyn FnMut(usize, usize, &[Movement]),
     );
 
-    /// Calls `tangent` with consecutive entries of each diagonal of `factor · M`.
-    /// The arguments are the first control point of the rows, the offset of the columns, and three entries per control point.
-    /// The offset counts control points and is negative to the left of the main diagonal.
+    /// Calls `tangent` with consecutive entries of each diagonal of `factor · M`, where `M` is the inertia matrix of the body.
+    /// The arguments of `tangent` are the first control point of the rows, the offset of the columns, and three entries per control point.
+    /// The offset of the columns counts control points, and is negative to the left of the main diagonal.
     fn each_inertia_diagonal(
         &self,
         factor: f64,
@@ -130,11 +131,11 @@ pub trait BodyDynamics: Send + Sync {
     fn for_each_static_span(&self, take: &mut dyn FnMut(&SpanStiffness));
 
     /// Section and initial length of the axis of a beam [length]; `None` for particles and rigid bodies.
-    /// For a tapered beam, the mean section is returned.
+    /// The section of a tapered beam is its mean section.
     fn extent(&self) -> Option<(Section, f64)>;
 
     /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
-    /// The list contains one normal for each quadrature point of the axial and shear strain.
+    /// The list contains one section normal for each quadrature point of the axial and shear strain.
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].
@@ -152,9 +153,9 @@ pub trait BodyDynamics: Send + Sync {
     /// Mass assigned to each control point: the integral of its basis function times the mass per length, without point masses [mass].
     fn lumped_masses(&self) -> Vec<f64>;
 
-    /// Appends the present state to `state`.
+    /// Appends the present state of the body to `state`.
     fn save(&self, state: &mut Vec<f64>);
 
-    /// Restores the state from numbers in the order of [`save`](Self::save).
+    /// Restores the state of the body from numbers in the order of [`save`](Self::save).
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 }

@@ -6,7 +6,6 @@ use super::present_rates::{DashpotRates, RateMismatch};
 use super::{Rotation, RotationIncrement};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Dashpot for the rates of axial and shear strain.
 #[derive(Debug, Clone)]
 pub(super) struct ForceDashpot {
     functions: Functions,
@@ -156,7 +155,7 @@ impl ForceDashpot {
         self.mismatch = wanted - self.force;
         self.distribute((now.rotation, now.gradient), wanted, first, give);
 
-        // Derivatives of the force and of its moment. The geometric terms contain the force of the present iterate.
+        // Derivatives of the dashpot force and of its moment. The geometric terms contain the dashpot force of the present iterate.
         let (end, share) = (now.end_rotation, at.fraction);
         let resist = |strain: Vec2| now.rotation.to_space(now.resistance.component_mul(&strain));
         let (a1, a2) = (resist(end.to_section(Vec2::x())), resist(end.to_section(Vec2::y())));

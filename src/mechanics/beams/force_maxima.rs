@@ -1,11 +1,10 @@
-//! Largest section forces, strain residual and rotation over quadrature points. Several points are processed at once in vector lanes.
+//! Largest section forces, strain residual and rotation over quadrature points, computed in vector lanes.
 
 use pulp::Simd;
 
 use super::dynamics::ForceSummary;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 
-/// Values of [`ForceSummary`], one for each lane.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ForceMaxima<T> {
     pub(super) strain_mismatch: T,

@@ -1,13 +1,12 @@
 //! Quadrature point for the axial and shear strain `Γ`, with its state between two steps and its static tangent stiffness.
 //!
-//! The quadrature point is evaluated within a step by [`force_points`](super::force_points).
+//! The module [`force_points`](super::force_points) evaluates the quadrature point within a step.
 
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
 use super::{Rotation, Section};
 use crate::geometry::{Vec2, cross, larger, perpendicular};
 
-/// Largest difference of two strains that are equal within rounding.
 const SAME_STRAIN: f64 = 64.0 * f64::EPSILON;
 
 #[derive(Debug, Clone)]
@@ -39,8 +38,7 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain to the static stiffness of the span.
-    /// Adds also the rows of the geometric stiffness if the section force is nonzero.
+    /// Adds the rows of axial and shear strain to the static stiffness of the span, and the rows of the geometric stiffness for a nonzero force.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -77,7 +75,6 @@ impl<const N: usize> ForcePoint<N> {
         (force, self.axis.weight * cross(self.gradient, force))
     }
 
-    /// Axial and shear strain energies [energy].
     pub(super) fn strain_energies(&self, section: &Section) -> [f64; 2] {
         let energies = self.strain.component_mul(&force_of(section, self.strain));
         [0.5 * self.axis.weight * energies.x, 0.5 * self.axis.weight * energies.y]
@@ -94,7 +91,8 @@ impl<const N: usize> ForcePoint<N> {
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
-        // The strain is stored because a strain computed from the configuration has rounding errors. The stored initial strain is exactly zero.
+        // The strain is stored because a strain computed from the configuration has rounding errors.
+        // The stored initial strain is exactly zero.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

@@ -1,7 +1,8 @@
-//! Quadrature points for the axial and shear strain in vector lanes. The section force is an independent unknown (docs/theory.md, section 11).
+//! Quadrature points for the axial and shear strain in vector lanes.
+//! The section force is an independent unknown (docs/theory.md, section 11).
 //!
-//! Each point stores the derivative of its position and its rotation, and updates them by increments.
-//! With updates by increments, the rounding errors of strains do not depend on the distance from the origin.
+//! Each quadrature point stores the derivative of its position and its rotation, and updates them by increments.
+//! Due to the updates by increments, the rounding errors of strains do not depend on the distance of a beam from the origin.
 
 use pulp::Simd;
 
@@ -31,7 +32,6 @@ pub(super) struct ForcePoints<const N: usize> {
     linearised_stress: f64,
 }
 
-/// Configuration of an iterate, with the values needed to correct the section force.
 #[derive(Debug, Clone, Copy)]
 struct StrainKinematics<T> {
     end_rotation: Rotation<T>,
@@ -161,7 +161,6 @@ impl<const N: usize> ForcePoints<N> {
         resultant.torque.put(part, gradient.cross(force) * weight);
     }
 
-    /// Adds the forces of the point in a lane to the forces on the control points of its span.
     #[inline(always)]
     pub(super) fn distribute(
         &self,
@@ -226,7 +225,7 @@ impl<const N: usize> ForcePoints<N> {
         let condensed = force_in_space(rotation, stiffness, collocated_strain);
         self.apply_weights(part, weight, (gradient, condensed), resultant);
 
-        // Derivatives of the force and of its moment. The geometric terms contain the section force of the present iterate.
+        // Derivatives of the section force and of its moment. The geometric terms contain the section force of the present iterate.
         let (end, force) = (now.end_rotation, self.force.get(part));
         let (e1, e2) = (Pair::first_axis(tau), Pair::second_axis(tau));
         let a1 = force_in_space(rotation, stiffness, end.to_section(e1)) * sigma;

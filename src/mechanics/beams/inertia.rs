@@ -1,4 +1,5 @@
-//! Inertia matrix of a beam, stored by diagonals. In a product, each diagonal multiplies the rates of all control points as one long vector.
+//! Inertia matrix of a beam, stored by diagonals.
+//! In a product, each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 
@@ -8,7 +9,7 @@ use super::Section;
 use super::dynamics::Movement;
 use super::sections::MassIntegral;
 
-/// Number of control points whose rows are processed together. The rows of these points stay in the cache while all diagonals are processed.
+/// Number of control points whose rows are processed together. The rows stay in the cache while all diagonals are processed.
 const ROWS_PER_PASS: usize = 16;
 
 /// Inertia matrix of a beam with `N` nonzero basis functions per span, for displacements and rotations.
@@ -40,7 +41,7 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         sums
     }
 
-    /// Adds `factor · M · rates` to the forces on a range of control points.
+    /// Adds `factor · M · rates` to the forces on a range of control points, where `M` is the inertia matrix.
     pub(super) fn add_product(
         &self,
         points: Range<usize>,

@@ -1,7 +1,8 @@
 //! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
 //!
-//! A point force on a shear-flexible beam causes a jump of the tangent of its axis. A smooth mesh does not represent a part of the displacement under the force.
-//! The missing displacement is the same as in a string with the same basis functions, quadrature points and weights.
+//! A point force on a shear-flexible beam causes a jump of the tangent of its axis.
+//! A smooth mesh does not represent a part of the displacement under the point force.
+//! The displacement missing under a point force is the same as in a string with the same basis functions, quadrature points and weights.
 //! Derivation: docs/theory.md, section 10.1.
 
 mod running;
@@ -11,26 +12,28 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Largest length that is attributed to rounding, as a fraction of a span.
+/// Largest kink length that is attributed to rounding, as a fraction of a span.
 const ROUNDING: f64 = 1e-11;
 
 /// Part of the kink under a point force that the mesh does not represent.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
-    /// Kink length as a function of the position of the kink [length]: the compliance that is missing on the mesh, times the shear stiffness.
+    /// Kink length as a function of the position of the kink [length].
+    /// The kink length is the compliance that is missing on the mesh, times the shear stiffness.
     pub length: PiecewisePolynomial,
     /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
     pub inertia: f64,
 }
 
 /// Computes the part of a kink that is missing on the mesh (docs/theory.md, section 10.1).
-/// The mesh underestimates the displacement under a force across the beam. The missing displacement is the kink length times the force, divided by the shear stiffness.
+/// The mesh underestimates the displacement under a force across the beam.
+/// The displacement that is missing on the mesh is the kink length times the force, divided by the shear stiffness.
 ///
-/// The kink length is a polynomial of twice the degree on each span, and zero where the basis is only continuous.
+/// The kink length is a polynomial of twice the degree of the basis on each span, and zero at knots where the basis is only C⁰.
 /// Returns `None` if the kink length is not positive at a smooth point, for example with fewer quadrature points than the patch rule has.
 ///
 /// # Errors
-/// Fails if the mesh has no quadrature, or the axis has a point without a tangent.
+/// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.
 pub fn unresolved_kink(
     mesh: &Mesh,
     control_points: &[Vec2],

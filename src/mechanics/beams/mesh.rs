@@ -15,7 +15,7 @@ pub enum Quadrature {
     /// The patch rule avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
-    /// Fixed number of Gauss points per span. Too many points cause locking, too few leave zero-energy modes.
+    /// Fixed number of Gauss points per span. Too many points cause locking. Too few points leave zero-energy modes.
     Points(usize),
 }
 
@@ -32,15 +32,14 @@ pub struct Mesh {
 /// Numbers of quadrature points of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PointCounts {
-    /// Quadrature points for the axial and shear strain `Γ`. The section force at each point is an unknown that is eliminated.
+    /// Number of quadrature points for the axial and shear strain `Γ`. The section force at each point is an unknown that is eliminated.
     pub force: usize,
-    /// Quadrature points for the bending strain `κ`.
+    /// Number of quadrature points for the bending strain `κ`.
     pub moment: usize,
-    /// Quadrature points for the mass matrix, which is integrated once.
+    /// Number of quadrature points for the mass matrix, which is integrated once.
     pub inertia: usize,
 }
 
-/// Span of the mesh with its quadrature points and weights for axial and shear strain, and the number of points for the curvature.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct QuadratureSpan {
     pub(super) span: Span,
@@ -63,10 +62,10 @@ impl TryFrom<(Basis, Quadrature)> for Mesh {
 }
 
 impl Mesh {
-    /// Creates a B-spline mesh with the patch rule. It has `spans` equal spans and continuity C^`continuity` at interior knots.
+    /// Creates a B-spline mesh with the patch rule, `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
-    /// Fails if no knot vector exists for the given numbers.
+    /// Fails if no knot vector exists for the given number of spans, degree and continuity.
     pub fn bspline(spans: usize, degree: usize, continuity: usize) -> Result<Self, GeometryError> {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
@@ -109,7 +108,7 @@ impl Mesh {
     /// Returns the mesh with the continuity reduced to C⁰ at the given parameters [-].
     ///
     /// # Errors
-    /// Fails if a parameter lies outside the domain.
+    /// Fails if a parameter lies outside the domain of the basis.
     pub fn with_breaks(&self, places: &[f64]) -> Result<Self, GeometryError> {
         let broken =
             places.iter().try_fold(self.basis.clone(), |basis, &xi| basis.with_break(xi))?;
@@ -119,7 +118,7 @@ impl Mesh {
     /// Returns a mesh with about `ratio` times as many spans: see [`Basis::with_span_ratio`].
     ///
     /// # Errors
-    /// Fails if the mesh has too many or too short spans.
+    /// Fails if the resulting mesh has too many or too short spans.
     pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, GeometryError> {
         let basis = self.basis.with_span_ratio(ratio)?;
         Ok(Self { basis, quadrature: self.quadrature, is_automatic: false })
@@ -145,7 +144,7 @@ impl Mesh {
         self.basis.spans().len()
     }
 
-    /// Description such as `cubic B-splines C², 14 spans`.
+    /// Description of the mesh, such as `cubic B-splines C², 14 spans`.
     pub fn describe(&self) -> String {
         let degree = match self.basis.degree() {
             1 => "linear".to_owned(),
@@ -196,13 +195,13 @@ impl Mesh {
     }
 
     /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions.
-    /// A positive result means that the mesh locks. If the result is negative, each missing point leaves two zero-energy modes.
+    /// For a positive difference, the mesh locks. For a negative difference, each missing point leaves two zero-energy modes.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
     }
 
-    /// Spans with their quadrature points for `Γ` and `κ`.
+    /// Spans of the mesh with their quadrature points for the strains `Γ` and `κ`.
     ///
     /// # Errors
     /// Fails if the lengths of smoothly joined spans differ so much that no patch rule exists.
@@ -227,7 +226,7 @@ impl Mesh {
         b.first < a.first + self.basis.degree()
     }
 
-    /// Points and weights for `Γ` on each span of a smooth run.
+    /// Quadrature points and weights for the strain `Γ` on each span of a smooth run.
     fn force_rules(&self, run: &[Span]) -> Result<RunRule, BeamError> {
         match self.quadrature {
             Quadrature::Patch => {

@@ -1,4 +1,4 @@
-//! Beam theory: planar Simo–Reissner beams on any basis. The initial configuration is free of stress. Numbering, joints and loads belong to `system`.
+//! Beam theory: planar Simo–Reissner beams on any basis, with a stress-free initial configuration.
 //!
 //! References: J. C. Simo & L. Vu-Quoc, ASME J. Appl. Mech. 53 (1986) 849–863; E. Reissner, ZAMP 23 (1972) 795–804.
 

@@ -1,7 +1,7 @@
-//! Quadrature points for the curvature in vector lanes. The moment is an independent unknown (docs/theory.md, section 11).
+//! Quadrature points for the curvature in vector lanes. The bending moment is an independent unknown (docs/theory.md, section 11).
 //!
-//! A moment computed from increments would have the rounding error of the increments times the bending stiffness.
-//! In a stiff beam, the rounding error of such a moment exceeds the forces in the balance.
+//! A bending moment computed from increments would have the rounding error of the increments times the bending stiffness.
+//! In a stiff beam, the rounding error of such a bending moment exceeds the forces in the balance.
 
 use pulp::Simd;
 
@@ -215,7 +215,7 @@ impl<const N: usize> MomentPoints<N> {
         weighted_moment.put(part, w * moment);
     }
 
-    /// Corrects the moments after a correction of the increments (docs/theory.md, section 11).
+    /// Corrects the bending moments after a correction of the increments (docs/theory.md, section 11).
     #[inline(always)]
     pub(super) fn correct_moments<V: Simd>(
         &mut self,

@@ -46,13 +46,11 @@ impl<T> Planar<T> for Pair<T> {
 }
 
 impl<T: Number> Pair<T> {
-    /// First unit vector, with components of the same number type as `like`.
     #[inline(always)]
     pub(super) fn first_axis(like: T) -> Self {
         Self { x: like.same(1.0), y: like.same(0.0) }
     }
 
-    /// Second unit vector, with components of the same number type as `like`.
     #[inline(always)]
     pub(super) fn second_axis(like: T) -> Self {
         Self { x: like.same(0.0), y: like.same(1.0) }
@@ -63,13 +61,11 @@ impl<T: Number> Pair<T> {
         self.x * other.x + self.y * other.y
     }
 
-    /// Cross product `a × b = a1 b2 - a2 b1`.
     #[inline(always)]
     pub(super) fn cross(self, other: Self) -> T {
         self.x * other.y - self.y * other.x
     }
 
-    /// Vector `J a = (-a2, a1)`: `a` rotated by 90° counter-clockwise.
     #[inline(always)]
     pub(super) fn perpendicular(self) -> Self {
         Self { x: -self.y, y: self.x }

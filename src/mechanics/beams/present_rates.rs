@@ -14,8 +14,8 @@ pub(super) struct DashpotRates<'a> {
 }
 
 /// Squared errors of a rate in a step, multiplied by the damping coefficient [energy/time].
-/// The field `off` is computed from the difference between the rate at the start of the step and the interpolated mean rates of two steps.
-/// The field `apart` is computed from the difference between the mean rates of this step and the previous step.
+/// The field `off` follows from the difference between the rate at the start of the step and the interpolated mean rates of two steps.
+/// The field `apart` follows from the difference between the mean rates of this step and the previous step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -39,7 +39,7 @@ impl RateMismatch {
 const KEPT: f64 = 0.8;
 
 /// Largest deviation of the rate at the start of a step that counts as resolved, as a fraction of the change of the mean rates.
-/// Vibrations have smaller deviations if their frequency `ω` and the step length `h` satisfy `ω h < 2`.
+/// Vibrations have smaller deviations if their angular frequency `ω` and the step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 /// Measure of the accuracy with which the recent steps resolve the dashpot rates.
@@ -54,7 +54,7 @@ impl RateResolution {
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
         // A substep of the fourth-order method runs backwards in time.
-        // If the middles of a forward and a backward substep coincide, no interpolation between them exists.
+        // If the middles of a forward and a backward substep coincide, no interpolation between the two middles exists.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }

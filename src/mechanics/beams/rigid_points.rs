@@ -8,7 +8,8 @@ use super::span_stiffness::SpanStiffness;
 use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Body without elasticity: a particle, or the centre of mass of a rigid body followed by its points. Rigid links connect the points to the centre.
+/// Body without elasticity: a particle, or the centre of mass of a rigid body followed by its other points.
+/// Rigid links connect the points of a rigid body to its centre of mass.
 #[derive(Debug, Clone)]
 pub struct RigidPoints {
     positions: Vec<Vec2>,
@@ -23,7 +24,7 @@ impl RigidPoints {
         Self { positions: vec![position], remainders: vec![Vec2::zeros()], rotation: None }
     }
 
-    /// Creates a rigid body. `positions` contains its centre of mass, then its other points [length]; `angle` is its angle [rad].
+    /// Creates a rigid body at an angle [rad]. `positions` contains its centre of mass, followed by its other points [length].
     pub fn rigid(positions: Vec<Vec2>, angle: f64) -> Self {
         let remainders = vec![Vec2::zeros(); positions.len()];
         Self { positions, remainders, rotation: Some(Rotation::by(angle)) }

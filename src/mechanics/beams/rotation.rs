@@ -1,4 +1,4 @@
-//! Section rotations, stored as cosine and sine. Increments update them without trigonometric functions.
+//! Section rotations, stored as cosine and sine, and updated without trigonometric functions.
 
 use super::pair::Planar;
 use super::simd::Number;
@@ -9,7 +9,7 @@ use crate::elementary::{atan, sin_cos, tan};
 pub enum RotationIncrement {
     /// Tangent-scaled increment `Δω` of the angle `Δθ = 2 atan(Δω/2)`, which conserving methods require.
     TangentScaled,
-    /// Increment of the angle: `Δθ = Δω`.
+    /// Increment `Δω` of the angle: `Δθ = Δω`.
     Angle,
 }
 
@@ -39,7 +39,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Derivatives `dΔθ/dΔω` and `d²Δθ/dΔω²`, computed without trigonometric functions.
+    /// Derivatives `dΔθ/dΔω` and `d²Δθ/dΔω²` of the angle `Δθ` with respect to the increment `Δω`.
     #[inline(always)]
     pub fn rates<T: Number>(self, increment: T) -> (T, T) {
         let one = increment.same(1.0);
@@ -53,7 +53,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Angle `Δθ` of an increment `Δω` [rad].
+    /// Rotation angle `Δθ` of an increment `Δω` [rad].
     pub fn angle(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * atan(0.5 * increment),
@@ -61,7 +61,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Increment of an angle `Δθ` [rad].
+    /// Rotation increment `Δω` of an angle `Δθ` [rad].
     pub(crate) fn of_angle(self, angle: f64) -> f64 {
         match self {
             Self::TangentScaled => 2.0 * tan(0.5 * angle),
@@ -76,7 +76,7 @@ impl RotationIncrement {
         }
     }
 
-    /// Derivative `dΔθ/dΔω` [-].
+    /// Derivative `dΔθ/dΔω` of the angle `Δθ` with respect to the increment `Δω` [-].
     #[inline(always)]
     pub fn rate<T: Number>(self, increment: T) -> T {
         self.rates(increment).0

@@ -139,7 +139,6 @@ impl Section {
         }
     }
 
-    /// Combines each property of two sections by the function `of`.
     pub(super) fn each(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             axial_stiffness: of(self.axial_stiffness, other.axial_stiffness),
@@ -165,7 +164,7 @@ impl Solid {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 
-    /// Interpolates all dimensions and constants linearly between two solids of the same type.
+    /// Interpolates all dimensions and constants linearly between two solids with the same type of shape.
     pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         let shape = match (self.shape, other.shape) {

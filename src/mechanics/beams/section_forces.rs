@@ -1,16 +1,17 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The forces at quadrature points satisfy the balance of a step only with quadrature sums. Near the ends their error is of first order.
+//! The forces at quadrature points satisfy the balance of a step only with quadrature sums.
+//! Near the ends of a beam, the error of the forces at quadrature points is of first order.
 //! This module computes section forces that satisfy the balance with exact integrals, as weighted sums over the quadrature points.
-//! These forces are projections of the exact forces onto the derivatives of the basis functions.
-//! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own value.
+//! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
+//! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Weight that counts as zero, as a fraction of the largest weight.
+/// Largest weight that counts as zero, as a fraction of the largest weight of a position.
 const NO_WEIGHT: f64 = 1e-14;
 
 /// Section forces and strains at a cross section.
@@ -27,11 +28,11 @@ pub struct SectionForces {
     pub shear: f64,
     /// Bending moment `M`, positive counter-clockwise [force·length].
     pub moment: f64,
-    /// Axial strain `Γ1` [-]. Without damping it is `N/EA`.
+    /// Axial strain `Γ1` [-], which is `N/EA` without damping.
     pub axial_strain: f64,
-    /// Shear strain `Γ2` [-]. Without damping it is `Q/GA`.
+    /// Shear strain `Γ2` [-], which is `Q/GA` without damping.
     pub shear_strain: f64,
-    /// Bending strain `κ`, the change of the curvature since the start [1/length]. Without damping it is `M/EI`.
+    /// Bending strain `κ` [1/length]: change of the curvature since the start, which is `M/EI` without damping.
     pub curvature: f64,
 }
 
@@ -59,7 +60,8 @@ impl SectionForces {
         }
     }
 
-    /// Strain energy per initial length, `(N Γ1 + Q Γ2 + M κ)/2` [energy/length]. The section forces must not contain a viscous part.
+    /// Strain energy per initial length, `(N Γ1 + Q Γ2 + M κ)/2` [energy/length].
+    /// The section forces must not contain viscous forces.
     pub fn strain_energy(&self) -> f64 {
         let Self { axial, shear, moment, axial_strain, shear_strain, curvature, .. } = *self;
         0.5 * (axial * axial_strain + shear * shear_strain + moment * curvature)
@@ -109,7 +111,7 @@ pub(super) struct ForceShare {
     pub(super) of_couple: f64,
 }
 
-/// Weight of a quadrature point for the curvature `κ` in the moment at a position.
+/// Weight of a quadrature point for the curvature `κ` in the bending moment at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,
@@ -166,7 +168,7 @@ impl SectionPoints {
         Ok(Self { runs, most: (mesh.basis().degree() + 1).next_multiple_of(2) })
     }
 
-    /// Position at a parameter of the mesh. Where two runs of smoothly joined spans meet, the position belongs to the run that starts there.
+    /// Position at a parameter of the mesh. Where two runs of smoothly joined spans meet, the position belongs to the second run.
     ///
     /// # Errors
     /// Fails in the same cases as [`of`](Self::of).

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::{BeamError, Section, Solid};
 use crate::geometry::{GaussRule, larger};
 
-/// Largest number of positions at which a taper is defined.
 const MOST_PLACES: usize = 10_000;
 
 /// Number of Gauss points in each linear piece of a taper.
@@ -17,7 +16,8 @@ const POINTS: usize = 3;
 pub enum SectionVariation {
     /// Uniform section.
     Uniform(Section),
-    /// Stiffness and inertia that vary linearly between positions. Positions are fractions of the length [-] and increase from 0 to 1.
+    /// Stiffness and inertia that vary linearly between positions.
+    /// Positions are fractions of the length of the beam [-] and increase from 0 to 1.
     Numbers(Vec<(f64, Section)>),
     /// Dimensions and material that vary linearly between positions, for solids with the same type of shape.
     Dimensions(Vec<(f64, Solid)>),
@@ -65,7 +65,7 @@ impl SectionVariation {
         Ok(self)
     }
 
-    /// Section at a fraction of the length, from 0 to 1 [-].
+    /// Section at a fraction of the length of the beam, from 0 to 1 [-].
     pub fn at(&self, part: f64) -> Section {
         match self {
             Self::Uniform(section) => *section,
@@ -81,7 +81,7 @@ impl SectionVariation {
         }
     }
 
-    /// Mean section over the length. For a uniform beam it is the section itself.
+    /// Mean section over the length of the beam. The mean section of a uniform beam is its section.
     pub fn mean(&self) -> Section {
         if let Self::Uniform(section) = self {
             return *section;
@@ -107,7 +107,7 @@ impl SectionVariation {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }
 
-    /// Positions at which a taper is defined, as fractions of the length [-]; empty for a uniform beam.
+    /// Positions at which a taper is defined, as fractions of the length of the beam [-]; empty for a uniform beam.
     pub fn places(&self) -> Vec<f64> {
         match self {
             Self::Uniform(_) => Vec::new(),

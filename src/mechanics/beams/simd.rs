@@ -17,7 +17,6 @@ pub(super) const LANES: usize = 4;
 #[repr(align(32))]
 pub(super) struct Lanes([f64; LANES]);
 
-/// Subset of the lanes that one instruction processes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LaneChunk<V> {
     simd: V,
@@ -79,7 +78,7 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Value of the same type with the given number in all lanes.
+    /// Value of the same type as `self` with the given number in all lanes.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;

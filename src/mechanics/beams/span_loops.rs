@@ -1,6 +1,6 @@
 //! Loops of a step over the spans of a beam, compiled for vector instructions.
 //!
-//! Several quadrature points are evaluated at once in vector lanes. Their results are added span by span, in the order of the beam.
+//! Several quadrature points are evaluated at once in vector lanes. The results are added span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -14,7 +14,8 @@ use super::simd::{LANES, LaneChunk, Lanes};
 use super::span_points::{SpanGroup, window_mut};
 use super::{RotationIncrement, Section};
 
-/// Operation that is repeated for all spans. Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
+/// Operation that is repeated for all spans.
+/// Each operation is a separate type, so that the compiler uses vector instructions in the whole loop.
 pub(super) trait SpanLoop<const N: usize, S> {
     fn at<V: Simd>(&mut self, simd: V, group: &mut SpanGroup<N, S>);
 
@@ -42,7 +43,6 @@ impl<const N: usize, S, W: SpanLoop<N, S>> WithSimd for LoopRange<'_, N, S, W> {
     }
 }
 
-/// Inputs for internal forces: section, collocation, increments, and the factor of the forces.
 #[derive(Clone, Copy)]
 pub(super) struct SpanInputs<'a> {
     pub(super) section: &'a Section,
@@ -63,7 +63,6 @@ impl ForcesFrom<'_> {
     }
 }
 
-/// Adds the internal forces, computed from the present section forces.
 pub(super) struct ForceAssembly<'a> {
     pub(super) iterate: SpanInputs<'a>,
     pub(super) forces: ForcesFrom<'a>,
@@ -163,7 +162,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for Linearisation<'_> {
     }
 }
 
-/// Adds the forces that would remove the strain residuals.
 pub(super) struct MismatchForces<'a> {
     pub(super) section: &'a Section,
     pub(super) weight: f64,
@@ -206,7 +204,6 @@ impl<const N: usize, S: Sections> SpanLoop<N, S> for MismatchForces<'_> {
     }
 }
 
-/// Updates the section forces after an iteration has corrected the increments.
 #[derive(Clone, Copy)]
 pub(super) struct ForceCorrection<'a> {
     pub(super) section: &'a Section,

@@ -1,8 +1,8 @@
-//! Division of the spans of a beam into parts that threads process concurrently. Results are identical to those of one thread.
+//! Division of the spans of a beam into parts that threads process concurrently, without an effect on the results.
 //!
 //! The beam is cut at control points. A few spans have control points on both sides of a cut.
-//! The contributions of these spans are computed twice, because rounding depends on the order of additions.
-//! The first computation adds to the control points after the cut, the second to the control points before the cut.
+//! The contributions of the spans at a cut are computed twice, because rounding depends on the order of additions.
+//! For a span at a cut, the first computation adds to the control points after the cut, the second computation to those before the cut.
 
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ pub(super) struct SpanPartition {
 }
 
 impl SpanPartition {
-    /// Returns a partition into at most `most` parts. Each part is large enough to justify a thread.
+    /// Returns a partition into at most `most` parts, each of which is large enough to justify a thread.
     pub(super) fn worthwhile<const N: usize, S: Sections>(
         groups: &[SpanGroup<N, S>],
         most: usize,
@@ -47,7 +47,6 @@ impl SpanPartition {
         Self::new(groups, most.min(MOST_PARTS).min(count_spans(groups) / SMALLEST_PART))
     }
 
-    /// Returns a partition into `count` parts of similar size.
     fn new<const N: usize, S: Sections>(groups: &[SpanGroup<N, S>], count: usize) -> Self {
         let cut = |part: usize| {
             let behind = part * groups.len() / count;

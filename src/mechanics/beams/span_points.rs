@@ -41,7 +41,7 @@ pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) sections: S,
 }
 
-/// Increments of `N` consecutive control points, starting with `first`.
+/// Increments of `N` consecutive control points, starting with control point `first`.
 #[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
@@ -154,7 +154,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Quadrature points of a span for the strain `Γ`, with their sections.
     pub(super) fn force_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -166,7 +165,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// Quadrature points of a span for the curvature `κ`, with their sections.
     pub(super) fn moment_points_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -178,7 +176,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         })
     }
 
-    /// Quadrature point of a span for the strain `Γ`, with its section.
     pub(super) fn force_point_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -189,7 +186,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         (self.force_point(index), self.sections.of_force(uniform, index))
     }
 
-    /// Quadrature point of a span for the curvature `κ`, with its section.
     pub(super) fn moment_point_of<'a>(
         &'a self,
         uniform: &'a Section,
@@ -250,7 +246,7 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Appends the section normals at the quadrature points for `Γ`, span by span.
+    /// Appends the section normals at the quadrature points for the strain `Γ`, span by span.
     pub(super) fn write_normals(&self, normals: &mut Vec<Vec2>) {
         let count = self.spans[self.spans.len() - 1].force_points.end;
         normals.extend((0..count).map(|index| self.force_point(index).normal()));

@@ -14,13 +14,14 @@ pub enum StrainKind {
     Bending,
 }
 
-/// Static stiffness of one span of a beam. Each row has an entry for each component (x, y, rotation) of each control point of the span.
+/// Static stiffness of one span of a beam.
+/// Each row has an entry for each component (x, y, rotation) of each control point of the span.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
     /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, stored one after the other.
-    /// Units of the rows: [1/length]; shear by rotation [-]; curvature by rotation [1/length].
+    /// The entries of a row have the unit [1/length], except derivatives of the shear strain with respect to rotations [-].
     pub strains: Vec<f64>,
     /// Stiffness for each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
@@ -28,7 +29,7 @@ pub struct SpanStiffness {
     pub kinds: Vec<StrainKind>,
     /// Pairs of rows `p` and `q` of the geometric stiffness, stored one after the other [force; force·length for rotations, -].
     pub twists: Vec<f64>,
-    /// For each pair of rows, the fraction of its section force that may be due to rounding [-].
+    /// Fraction of the section force of each pair of rows that may be due to rounding [-].
     pub rounding_fractions: Vec<f64>,
 }
 

@@ -21,11 +21,11 @@ pub enum BodyIndex {
 pub struct Station {
     /// Body of the station.
     pub body: BodyIndex,
-    /// Arc length from the start of the beam in the initial configuration [length]; zero on particles and rigid bodies.
+    /// Arc length of the station from the start of the beam in the initial configuration [length]; zero on particles and rigid bodies.
     pub arc_length: f64,
 }
 
-/// Position on a body of a model, with the basis functions that are nonzero there.
+/// Position on a body of a model, with the basis functions that are nonzero at this position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPoint {
     /// Index of the body in the model: beams, then particles, then rigid bodies.
@@ -60,7 +60,7 @@ impl Station {
         self.body == other.body && apart <= ROUNDING_OF_PLACES * length
     }
 
-    /// Index of the beam of the station; `None` on other bodies.
+    /// Index of the beam of the station; `None` for stations of other bodies.
     pub fn beam(&self) -> Option<usize> {
         match self.body {
             BodyIndex::Beam(beam) => Some(beam),
@@ -68,7 +68,7 @@ impl Station {
         }
     }
 
-    /// Returns true if the body has a rotation at the station, that is, if it is not a particle.
+    /// Returns true if the body of the station has a rotation. A particle has no rotation.
     pub fn turns(&self) -> bool {
         !matches!(self.body, BodyIndex::Particle(_))
     }
@@ -89,8 +89,8 @@ impl BodyPoint {
         Self::of_point(body, 0, 0.0)
     }
 
-    /// Position of a point of a rigid body.
-    /// The argument `point` is the index of its control point (0 is the centre of mass). The initial angle of the body is `angle` [rad].
+    /// Position of a point of a rigid body whose initial angle is `angle` [rad].
+    /// The argument `point` is the index of the control point of the point (0 is the centre of mass).
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;
@@ -115,12 +115,12 @@ impl BodyPoint {
         Ok(Self { body, first: values.first + skipped, shape, order: here.len(), tangent_angle })
     }
 
-    /// Values of the nonzero basis functions [-].
+    /// Values of the basis functions that are nonzero at this position [-].
     pub fn shape(&self) -> &[f64] {
         &self.shape[..self.order]
     }
 
-    /// Pairs of a control point and its basis function.
+    /// Pairs of a control point and the value of its basis function at this position.
     pub fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.first..).zip(self.shape().iter().copied())
     }

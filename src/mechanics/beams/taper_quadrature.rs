@@ -9,19 +9,20 @@ const POINTS: usize = 8;
 /// Relative errors of integrals along a beam that are computed by the quadrature of its mesh [-].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TaperQuadrature {
-    /// Error of the mass, `∫ ρA`.
+    /// Relative error of the mass `∫ ρA ds` of the beam.
     pub mass: f64,
-    /// Error of `∫ 1/EA`, the axial compliance of the beam under end forces.
+    /// Relative error of `∫ 1/EA ds`, the axial compliance of the beam under end forces.
     pub stretching: f64,
-    /// Error of `∫ 1/EI`, the rotation of the ends under moments.
+    /// Relative error of `∫ 1/EI ds`, the rotation of the ends under unit moments.
     pub bending: f64,
 }
 
 impl TaperQuadrature {
-    /// Error above which a mesh is too coarse.
+    /// Relative error above which a mesh is too coarse.
     pub const TOLERANCE: f64 = 5e-3;
 
-    /// Computes the quadrature errors for the sections of a beam. Positions along the beam are converted to the same fractions of the parameter.
+    /// Computes the quadrature errors for the sections of a beam.
+    /// Positions along the beam are converted to the same fractions of the parameter.
     /// The conversion of positions to parameters is exact for spans of equal length.
     ///
     /// # Errors
@@ -62,12 +63,12 @@ impl TaperQuadrature {
         Ok(Self { mass: off(0), stretching: off(1), bending: off(2) })
     }
 
-    /// Returns true if one of the errors is too large.
+    /// Returns true if one of the quadrature errors is too large.
     pub fn is_coarse(&self) -> bool {
         self.largest() >= Self::TOLERANCE
     }
 
-    /// Largest of the three errors.
+    /// Largest of the three quadrature errors.
     pub fn largest(&self) -> f64 {
         larger(self.mass, larger(self.stretching, self.bending))
     }

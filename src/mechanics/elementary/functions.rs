@@ -16,7 +16,7 @@ pub fn cos(angle: f64) -> f64 {
     libm::cos(angle)
 }
 
-/// Sine and cosine of an angle [rad]. The results equal [`sin`] and [`cos`], but one call is faster than two.
+/// Sine and cosine of an angle [rad], equal to [`sin`] and [`cos`]. One call is faster than two.
 #[inline]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     libm::sincos(angle)

@@ -1,7 +1,7 @@
 //! Elementary functions with identical results on every machine.
 //!
 //! The functions of the standard library call the C library of the machine, or another library at compile time.
-//! The last bit of their results may differ between machines and versions.
+//! The last bit of the results of library functions may differ between machines and versions.
 //! The functions of this module use additions, multiplications, divisions and square roots only, which IEEE 754 defines exactly.
 //! All other code uses this module; `clippy.toml` rejects the functions of the standard library.
 //! Decimal rounding for messages is in `digits`.

@@ -6,9 +6,9 @@ pub fn square(x: f64) -> f64 {
     x * x
 }
 
-/// Integer power, computed by repeated squaring from the lowest bit of the exponent. For a negative exponent `-n` the result is `1/xⁿ`.
+/// Integer power, computed by repeated squaring from the lowest bit of the exponent. A negative exponent `-n` gives `1/xⁿ`.
 ///
-/// The order of multiplications is fixed, which also fixes every rounding error. For `f64::powi` the compiler chooses the order.
+/// The order of multiplications is fixed, which also fixes every rounding error. For `f64::powi`, the compiler chooses the order.
 #[inline]
 pub fn whole_power(x: f64, exponent: i32) -> f64 {
     let (mut power, mut squares, mut left) = (1.0, x, exponent.unsigned_abs());
@@ -25,7 +25,7 @@ pub fn whole_power(x: f64, exponent: i32) -> f64 {
     if exponent < 0 { 1.0 / power } else { power }
 }
 
-/// Power with any exponent. It is exact if an integer power of an integer has at most 53 bits. Undefined powers are NaN.
+/// Power with any exponent; NaN if the power is undefined. Integer powers of integers are exact if they have at most 53 bits.
 #[inline]
 pub fn power(x: f64, exponent: f64) -> f64 {
     libm::pow(x, exponent)

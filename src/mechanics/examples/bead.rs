@@ -1,4 +1,4 @@
-//! A bead that slides down a clamped beam and leaves it at its end.
+//! A bead that slides down a clamped beam and leaves the beam at its end.
 use std::error::Error;
 
 use withy_mechanics::beams::{Mesh, Section};

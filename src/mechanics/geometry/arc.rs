@@ -62,7 +62,7 @@ impl CircularArc {
         self.radius * self.sweep().abs()
     }
 
-    /// Curvature `1 / r` [1/length], positive if the arc turns counter-clockwise.
+    /// Curvature of the arc, which is the inverse radius [1/length], positive if the arc turns counter-clockwise.
     pub(super) fn curvature(&self) -> f64 {
         self.sweep().signum() / self.radius
     }
@@ -70,7 +70,7 @@ impl CircularArc {
     pub(super) fn derivative(&self, xi: f64, order: usize) -> Result<Vec2, GeometryError> {
         check_inside(xi, 0.0, 1.0)?;
         let outward = unit((1.0 - xi) * self.from_angle + xi * self.to_angle);
-        // Each derivative rotates the vector by +90° and multiplies it by the angle of the arc.
+        // Each derivative of the arc rotates the vector by +90° and multiplies it by the angle of the arc.
         let turned = match order % 4 {
             0 => outward,
             1 => perpendicular(outward),

@@ -3,7 +3,7 @@
 use super::GaussRule;
 use std::sync::LazyLock;
 
-/// Largest number of successive halvings of an interval. Only curves with cusps reach it.
+/// Largest number of successive halvings of an interval. Only curves with cusps need this number.
 const DEPTH: usize = 48;
 
 /// Largest number of iterations. Newton's method needs about five, and bisection alone about 60.

@@ -45,7 +45,7 @@ impl Basis {
         }
     }
 
-    /// Intervals between the breaks, in order. On each interval the functions are polynomials.
+    /// Intervals between the breaks, in order. The basis functions are polynomials on each interval.
     pub fn spans(&self) -> Vec<Span> {
         match self {
             Self::BSpline(knots) => knots.spans(),
@@ -53,7 +53,7 @@ impl Basis {
         }
     }
 
-    /// Ends of the spans, in order, including the ends of the domain [-].
+    /// Parameters at which spans begin or end, in order, including the ends of the domain [-].
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.breaks(),
@@ -61,7 +61,7 @@ impl Basis {
         }
     }
 
-    /// Span that contains the parameter `xi` [-]. At a break, the span on the right is returned.
+    /// Span that contains the parameter `xi` [-]; at a break, the span on the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -79,7 +79,7 @@ impl Basis {
         }
     }
 
-    /// Nonzero functions at `xi` and their derivatives. At interior breaks they are the limits from the right.
+    /// Nonzero basis functions at `xi` and their derivatives; at interior breaks, the limits from the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -87,8 +87,8 @@ impl Basis {
         Ok(self.evaluate_in(&self.span_at(xi)?, xi))
     }
 
-    /// Functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
-    /// At the ends of the span, the values are one-sided limits.
+    /// Basis functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
+    /// At the ends of the span, the values of the basis functions are one-sided limits.
     ///
     /// # Panics
     /// May panic if the span does not belong to this basis.
@@ -122,7 +122,7 @@ impl Basis {
         low
     }
 
-    /// Smallest number of continuous derivatives at any interior break. For a single polynomial the degree is returned.
+    /// Smallest number of continuous derivatives at any interior break; the degree for a single polynomial.
     pub fn continuity(&self) -> usize {
         let breaks = self.breaks();
         match self {
@@ -137,7 +137,7 @@ impl Basis {
     }
 
     /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements.
-    /// The parameters increase strictly and include the ends of the domain.
+    /// The interpolation parameters increase strictly and include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -150,7 +150,7 @@ impl Basis {
     /// The spans between kept breaks have the same relative lengths as in this basis.
     ///
     /// # Errors
-    /// Fails if the basis has too many or too short spans.
+    /// Fails if the resulting basis has too many or too short spans.
     pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, GeometryError> {
         let breaks = self.breaks();
         let knots = match self {
@@ -178,13 +178,14 @@ impl Basis {
         Ok(Self::BSpline(KnotVector::new(knots.degree(), scaled)?))
     }
 
-    /// Returns the basis with continuity C⁰ at `xi`. The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
+    /// Returns the basis with continuity C⁰ at `xi`.
+    /// The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
     ///
-    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead.
-    /// The basis is not changed at the ends of the domain, or where it is C⁰ already.
+    /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead of `xi`.
+    /// The basis is not changed at the ends of the domain, or where it is already C⁰.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or NaN, or there are too many spans.
+    /// Fails if `xi` is outside the domain or NaN, or if the basis would have too many spans.
     pub(crate) fn with_break(&self, xi: f64) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;

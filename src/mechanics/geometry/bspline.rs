@@ -3,7 +3,7 @@
 use super::values::BasisValues;
 use super::{KnotVector, Span};
 
-/// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span their polynomials are extended.
+/// Nonzero B-splines on `span` of `knots` at `xi`, with all derivatives. Outside the span, their polynomials are extended.
 ///
 /// The functions and their derivatives follow from the splines of one degree less (The NURBS Book, equations 2.5 and 2.7).
 pub(super) fn evaluate(knots: &KnotVector, span: &Span, xi: f64) -> BasisValues {

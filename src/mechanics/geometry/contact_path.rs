@@ -7,11 +7,12 @@ use super::values::{FunctionRow, LOW_ORDERS, LowDerivatives};
 use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 
 /// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
-/// The divided differences of the functions are accurate for paths of any length, including zero, and across breaks.
+/// The divided differences of the basis functions are accurate for paths of any length, including zero, and across breaks.
 ///
-/// Every accessor returns one value for each function that is nonzero somewhere on the path. Parameters and results are dimensionless.
+/// Every accessor returns one value for each basis function that is nonzero somewhere on the path.
+/// Parameters and results are dimensionless.
 /// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
-/// Outside the domain, the polynomials of the end spans are extended.
+/// Outside the domain, the polynomials of the first and the last span are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
     line: Arc<PathSupport>,
@@ -22,7 +23,7 @@ pub struct ContactPath {
     numbers: Vec<f64>,
 }
 
-/// Quantity of each function along a path. Rows are stored in this order.
+/// Quantity of each basis function along a path. The rows of the table of path quantities have the order of these variants.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -33,7 +34,6 @@ enum PathQuantity {
     Change,
 }
 
-/// Number of rows in the table of path quantities.
 const QUANTITIES: usize = PathQuantity::Change as usize + 1;
 
 #[derive(Debug)]
@@ -45,7 +45,6 @@ struct PathSupport {
     rule: Vec<(f64, f64)>,
 }
 
-/// Start and end of a path, and the indices of their spans.
 #[derive(Debug, Clone, Copy)]
 struct PathInterval {
     from: f64,
@@ -83,7 +82,7 @@ impl ContactPath {
     }
 
     /// Replaces the path by the path from `from` to `to`. The start must lie in the domain; the end may lie outside.
-    /// If a parameter is not finite, all values are NaN, and the functions are those of the span of `from`.
+    /// If a parameter is not finite, all values are NaN, and the basis functions are those of the span that contains `from`.
     pub fn set_interval(&mut self, from: f64, to: f64) {
         let is_there = self.length > 0 && (self.interval.from, self.interval.to) == (from, to);
         if is_there {
@@ -96,7 +95,7 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            // Common degrees are compile-time constants, for speed.
+            // Common polynomial degrees are compile-time constants, for speed.
             match self.line.basis.degree() {
                 1 => self.set_values::<2>(interval),
                 2 => self.set_values::<3>(interval),
@@ -118,35 +117,35 @@ impl ContactPath {
         self.first
     }
 
-    /// Values of the functions at the start of the path. The values sum to one.
+    /// Values of the basis functions at the start of the path. The values sum to one.
     pub fn start(&self) -> &[f64] {
         self.row(PathQuantity::Start)
     }
 
-    /// Values of the functions at the end of the path. The values sum to one.
+    /// Values of the basis functions at the end of the path. The values sum to one.
     pub fn end(&self) -> &[f64] {
         self.row(PathQuantity::End)
     }
 
-    /// Means of the values of the functions at the start and the end of the path. The means sum to one.
+    /// Means of the values of the basis functions at the start and the end of the path. The means sum to one.
     pub fn mean(&self) -> &[f64] {
         self.row(PathQuantity::Mean)
     }
 
-    /// Derivatives of the functions at the end of the path, as limits from inside the path. The derivatives sum to zero.
+    /// Derivatives of the basis functions at the end of the path, as limits from inside the path. The derivatives sum to zero.
     pub fn slope(&self) -> &[f64] {
         self.row(PathQuantity::Slope)
     }
 
-    /// Divided differences of the functions: their mean derivatives over the path, accurate to rounding. They sum to zero.
-    /// The divided differences of a path of zero length are the derivatives of the functions at its start.
+    /// Divided differences of the basis functions: their mean derivatives over the path, accurate to rounding. The differences sum to zero.
+    /// The divided differences of a path of zero length are the derivatives of the basis functions at its start.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
 
-    /// Derivatives of the divided differences with respect to the end of the path, for a fixed start. They sum to zero.
-    /// For a path of zero length, these derivatives are half the second derivatives of the functions.
-    /// The derivatives are accurate to rounding unless a first derivative of the basis jumps on the path.
+    /// Derivatives of the divided differences with respect to the end of the path, for a fixed start. The derivatives sum to zero.
+    /// For a path of zero length, the derivatives of the divided differences are half the second derivatives of the basis functions.
+    /// The derivatives of the divided differences are accurate to rounding unless a first derivative of the basis jumps on the path.
     pub fn change(&self) -> &[f64] {
         self.row(PathQuantity::Change)
     }
@@ -184,7 +183,7 @@ impl ContactPath {
     }
 
     /// Number of spans that the path between two parameters covers, including fractions of spans.
-    /// For a path within one span, the number is the length of the path divided by the length of the span.
+    /// For a path within one span, the number of spans is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);

@@ -18,7 +18,7 @@ pub fn is_on_length(arc_length: f64, length: f64) -> bool {
     (-tolerance..=length + tolerance).contains(&arc_length)
 }
 
-/// Planar curve `x(ξ)`. Points are lengths, the parameter ξ is dimensionless.
+/// Planar curve `x(ξ)`. Points are lengths, and the parameter ξ is dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
     /// Straight line.
@@ -30,7 +30,7 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// Returns the straight line between two points [length], ξ from 0 to 1.
+    /// Returns the straight line between two points [length], with the parameter ξ from 0 to 1.
     ///
     /// # Errors
     /// Fails if coordinates are not finite or the points coincide.
@@ -38,7 +38,8 @@ impl Curve {
         Line::new(from, to).map(Self::Line)
     }
 
-    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad]. ξ runs from 0 to 1.
+    /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad].
+    /// The parameter ξ of the arc runs from 0 to 1.
     /// The arc is counter-clockwise if `to_angle` is larger than the first angle.
     ///
     /// # Errors
@@ -55,13 +56,13 @@ impl Curve {
     /// Returns the B-spline curve of a knot vector with one control point [length] per basis function.
     ///
     /// # Errors
-    /// Errors of [`SplineCurve::new`].
+    /// Fails in the same cases as [`SplineCurve::new`].
     pub fn spline(knots: KnotVector, control_points: Vec<Vec2>) -> Result<Self, GeometryError> {
         SplineCurve::new(knots, control_points).map(Self::Spline)
     }
 
     /// Returns the C¹ cubic spline through `n + 1` points [length] by local cubic interpolation (The NURBS Book, section 9.3.4).
-    /// The spline has `2n + 2` control points and double interior knots at the points. ξ runs from 0 to 1.
+    /// The spline has `2n + 2` control points and double interior knots at the points. Its parameter ξ runs from 0 to 1.
     ///
     /// # Errors
     /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
@@ -69,7 +70,7 @@ impl Curve {
         local_cubic::through(points).map(Self::Spline)
     }
 
-    /// Interval of the parameter ξ [-]: start and end.
+    /// Interval of the parameter ξ [-], given by its start and end.
     pub fn domain(&self) -> (f64, f64) {
         match self {
             Self::Line(_) | Self::Arc(_) => (0.0, 1.0),
@@ -85,7 +86,7 @@ impl Curve {
         self.derivative(xi, 0)
     }
 
-    /// Derivative `dᵏx/dξᵏ` of `order` k [length]. At knots, the limit from the right is returned.
+    /// Derivative `dᵏx/dξᵏ` of `order` k [length]; at knots, the limit from the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -106,7 +107,7 @@ impl Curve {
         Ok(atan2(velocity.y, velocity.x))
     }
 
-    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise. At knots, the limit from the right is returned.
+    /// Curvature `(x' × x'') / |x'|³` [1/length], positive if the curve turns counter-clockwise; at knots, the limit from the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN, or if the derivative is zero at `xi`.
@@ -122,7 +123,7 @@ impl Curve {
         }
     }
 
-    /// Length of the curve [length]. For splines its error is about 1e-13 of the length of the control polygon.
+    /// Length of the curve [length]. For splines, its error is about 1e-13 of the length of the control polygon.
     pub fn length(&self) -> f64 {
         match self {
             Self::Line(line) => line.length(),
@@ -131,7 +132,7 @@ impl Curve {
         }
     }
 
-    /// Arc length from the start to `xi` [length].
+    /// Arc length of the curve from its start to the parameter `xi` [length].
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -145,7 +146,7 @@ impl Curve {
         }
     }
 
-    /// Parameter [-] at an arc length from the start [length].
+    /// Parameter of the curve [-] at an arc length from its start [length].
     /// If the arc length exceeds the length of the curve only by rounding, the parameter of the end is returned.
     ///
     /// # Errors
@@ -162,7 +163,7 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ`. Fails if the derivative is zero.
+    /// Derivative `dx/dξ` of the curve. Fails if the derivative is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

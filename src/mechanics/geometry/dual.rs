@@ -6,14 +6,13 @@ use super::Vec2;
 
 /// Number with its derivatives with respect to `SLOPES` variables.
 ///
-/// Without derivatives, values are computed by the same operations, so that both agree to the last bit.
+/// Numbers without derivatives are computed by the same operations, so that their values agree to the last bit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dual<const SLOPES: usize> {
     pub value: f64,
     pub slopes: [f64; SLOPES],
 }
 
-/// Planar vector with the derivatives of its components.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DualVector<const SLOPES: usize> {
     pub x: Dual<SLOPES>,
@@ -25,7 +24,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Variable with the given index. Its derivative is left out if there are fewer variables.
+    /// Variable with the given index. The derivative of a variable with a larger index than the number of variables is left out.
     pub fn variable(value: f64, at: usize) -> Self {
         let mut variable = Self::constant(value);
         variable.add_slope(at, 1.0);
@@ -109,7 +108,7 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         Self { x: Dual::constant(value.x), y: Dual::constant(value.y) }
     }
 
-    /// Vector whose components are the variables `first` and `first + 1`.
+    /// Vector whose components are the variables with the indices `first` and `first + 1`.
     pub fn variable(value: Vec2, first: usize) -> Self {
         Self { x: Dual::variable(value.x, first), y: Dual::variable(value.y, first + 1) }
     }
@@ -134,7 +133,7 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         Self { x: -self.y, y: self.x }
     }
 
-    /// Vector whose products with two given vectors are `alpha` and `beta`.
+    /// Vector whose scalar products with two given vectors are `alpha` and `beta`.
     pub fn with_products([a, b]: [Self; 2], [alpha, beta]: [Dual<SLOPES>; 2]) -> Self {
         let determinant = a.cross(&b).inverse();
         (a.turned() * beta - b.turned() * alpha) * determinant

@@ -115,7 +115,6 @@ fn open_end(end: &str, knot: f64, degree: usize) -> String {
     if end == "first" { format!("[{repeated}, …]") } else { format!("[…, {repeated}]") }
 }
 
-/// Returns `value` if it is finite, otherwise an error that names the `object`.
 pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, GeometryError> {
     if value.is_finite() {
         Ok(value)
@@ -124,7 +123,6 @@ pub(super) fn finite(object: impl Into<String>, value: f64) -> Result<f64, Geome
     }
 }
 
-/// Returns `point` if both coordinates are finite, otherwise an error that names the `object`.
 pub(super) fn finite_point(object: impl Into<String>, point: Vec2) -> Result<Vec2, GeometryError> {
     match point.iter().find(|coordinate| !coordinate.is_finite()) {
         None => Ok(point),

@@ -1,12 +1,12 @@
 //! Maximum and minimum that propagate NaN.
 
-/// Larger of two numbers. Unlike `f64::max`, it is NaN if either number is NaN.
+/// Larger of two numbers. Unlike `f64::max`, this function returns NaN if either number is NaN.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if a >= b || a.is_nan() { a } else { b }
 }
 
-/// Smaller of two numbers. Unlike `f64::min`, it is NaN if either number is NaN.
+/// Smaller of two numbers. Unlike `f64::min`, this function returns NaN if either number is NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if a <= b || a.is_nan() { a } else { b }

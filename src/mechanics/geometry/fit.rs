@@ -7,8 +7,9 @@ use super::{Basis, Curve, GeometryError, Vec2};
 /// The parameter of the basis is mapped to the parameter of the curve by an affine map.
 ///
 /// The interpolation is exact for lines, and for splines with the same knots.
-/// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends.
-/// For smooth curves the error is of order `degree + 1` in the span length. Kinks of the curve are represented only at C⁰ breaks of the basis.
+/// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends of the curve.
+/// For smooth curves, the interpolation error is of order `degree + 1` in the span length.
+/// Kinks of the curve are represented only at C⁰ breaks of the basis.
 ///
 /// # Errors
 /// Fails if the curve cannot be evaluated.
@@ -37,7 +38,7 @@ pub fn interpolate(curve: &Curve, basis: &Basis) -> Result<Vec<Vec2>, GeometryEr
     }
 }
 
-/// Affine map of `xi` from one interval to another. It is exact at the ends.
+/// Affine map of `xi` from the interval `[a, b]` to `[start, end]`. The map is exact at the ends.
 pub fn corresponding(xi: f64, (a, b): (f64, f64), (start, end): (f64, f64)) -> f64 {
     let t = (xi - a) / (b - a);
     ((1.0 - t) * start + t * end).clamp(start, end)

@@ -15,7 +15,8 @@ pub const MAX_SPANS: usize = 400_000;
 const SHORTEST_SPAN: f64 = 1e-12;
 
 /// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`.
-/// The end knots are repeated exactly `p + 1` times. Interior knots are repeated at most `p` times, so that splines are at least continuous.
+/// The end knots are repeated exactly `p + 1` times.
+/// Interior knots are repeated at most `p` times, so that splines are at least continuous.
 /// Knots are dimensionless. See The NURBS Book, section 2.2.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
@@ -24,7 +25,7 @@ pub struct KnotVector {
     knots: Vec<f64>,
 }
 
-/// Knot interval of nonzero length, or Lagrange element. Each function is a single polynomial on it.
+/// Knot interval of nonzero length, or Lagrange element. Each basis function is a single polynomial on a span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
     /// First basis function that is nonzero on the span. The next `degree` functions are also nonzero.
@@ -64,8 +65,9 @@ impl KnotVector {
         Ok(vector)
     }
 
-    /// Creates `spans` equal spans on `[0, 1]`.
-    /// At interior knots, splines have `continuity` continuous derivatives. The multiplicity of these knots is therefore `degree - continuity`.
+    /// Creates a knot vector with `spans` equal spans on `[0, 1]`.
+    /// Splines have `continuity` continuous derivatives at interior knots.
+    /// The multiplicity of interior knots is therefore `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.
@@ -114,7 +116,7 @@ impl KnotVector {
             .collect()
     }
 
-    /// Distinct knots [-] in increasing order, including the ends.
+    /// Distinct knots [-] in increasing order, including the first and the last knot.
     pub fn breaks(&self) -> Vec<f64> {
         let mut breaks = self.knots.clone();
         breaks.dedup();
@@ -127,8 +129,8 @@ impl KnotVector {
             - self.knots.partition_point(|&knot| knot < xi)
     }
 
-    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`. At the right end, the index of the last nonempty span is returned (The NURBS Book, algorithm A2.1).
-    /// The functions `i - p` to `i` are nonzero at `xi`.
+    /// Index `i` with `ξ_i ≤ xi < ξ_{i+1}`; at the right end, the index of the last nonempty span (The NURBS Book, algorithm A2.1).
+    /// The basis functions `i - p` to `i` are nonzero at `xi`, where `i` is the index of the span and `p` the degree.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -269,7 +271,7 @@ pub(super) fn check_span_lengths(
     }
 }
 
-/// Rejects a parameter outside `[start, end]`, and NaN.
+/// Checks that a parameter lies in `[start, end]` and is not NaN.
 pub(super) fn check_inside(xi: f64, start: f64, end: f64) -> Result<(), GeometryError> {
     if (start..=end).contains(&xi) {
         Ok(())

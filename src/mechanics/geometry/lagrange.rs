@@ -86,7 +86,7 @@ impl LagrangeBasis {
         (0..self.breaks.len() - 1).map(|element| self.span(element)).collect()
     }
 
-    /// Element that contains the parameter `xi` [-]. At a break, the element on the right is returned.
+    /// Element that contains the parameter `xi` [-]; at a break, the element on the right.
     ///
     /// # Errors
     /// Fails if `xi` is outside the domain or NaN.
@@ -155,7 +155,7 @@ impl LagrangeBasis {
         }
     }
 
-    /// Node `j` of an element. The end nodes are exactly the breaks.
+    /// Parameter of node `j` of an element. The end nodes are exactly the breaks.
     fn node(&self, span: &Span, j: usize) -> f64 {
         let t = j as f64 / self.degree as f64;
         (1.0 - t) * span.start + t * span.end

@@ -3,13 +3,12 @@
 use super::error::finite_point;
 use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 
-/// Largest angle between two chords that count as parallel [rad].
-/// Largest length of a sum of chords that counts as zero, as a multiple of the lengths of the chords.
+/// Largest angle [rad] between two chords that count as parallel, and largest relative length of a sum of chords that counts as zero.
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
-/// The end tangents of a piece are those of [`tangents`]. The speed at the ends and in the middle is equal for all pieces.
-/// The curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
+/// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle is equal for all pieces.
+/// The interpolating curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
 /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
@@ -43,7 +42,7 @@ pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     SplineCurve::new(KnotVector::new(3, knots)?, control_points)
 }
 
-/// Common speed at the start, the middle and the end of a cubic piece (The NURBS Book, equation 9.50).
+/// Speed at the start, the middle and the end of a cubic piece (The NURBS Book, equation 9.50).
 fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
     let a = 16.0 - tangent_sum.norm_squared();
     let half_b = 6.0 * chord.dot(&tangent_sum);
@@ -54,8 +53,8 @@ fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
 }
 
 /// Unit tangents at the points between consecutive `chords` and at both ends.
-/// Akima's rule computes a tangent from two chords on either side (equations 9.29 and 9.31).
-/// Equation 9.33 of The NURBS Book gives the additional chords beyond the ends.
+/// Akima's rule computes a tangent from two chords on either side (The NURBS Book, equations 9.29 and 9.31).
+/// Equation 9.33 of The NURBS Book gives the additional chords beyond the ends of the curve.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -64,10 +63,10 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Returns two chords beyond an end, which continue the rotation of the last two chords.
-/// The NURBS Book uses the chord `2 near - far`.
-/// This function first scales `far` to the length of `near`, which changes nothing for equally spaced points.
-/// Without the scaling, a curve through unequally spaced points could start backwards.
+/// Returns two chords beyond an end of the curve, which continue the rotation of the last two chords.
+/// The NURBS Book uses the chord `2 near - far`, computed from the chord `near` at the end and the next chord `far`.
+/// The function `continued` first scales the chord `far` to the length of `near`, which changes nothing for equally spaced points.
+/// Without the scaling of chords, a curve through unequally spaced points could start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);
@@ -76,7 +75,7 @@ fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
 
 /// Unit tangent at the point between the chords `b` and `c` of four consecutive chords.
 /// At a corner between two straight parts, both chords have equal weight, which rounds the corner.
-/// If the direction reverses, the tangent is the direction of the following chord.
+/// If the direction of the curve reverses, the tangent is the direction of the following chord.
 fn akima_tangent(a: Vec2, b: Vec2, c: Vec2, d: Vec2) -> Vec2 {
     let (bend_before, bend_after) = (cross(a, b).abs(), cross(c, d).abs());
     let straight = bend_before <= PARALLEL * a.norm() * b.norm()

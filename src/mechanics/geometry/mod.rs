@@ -1,4 +1,4 @@
-//! Knot vectors, bases, planar curves and quadrature. This module uses no other module.
+//! Knot vectors, bases, planar curves and quadrature.
 
 mod arc;
 mod arc_length;

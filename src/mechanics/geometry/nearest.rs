@@ -2,10 +2,9 @@
 
 use super::{Curve, GeometryError, Vec2};
 
-/// Number of initial samples of a curve.
 const SAMPLES: usize = 512;
 
-/// Number of bisections, after which the parameter is accurate to rounding.
+/// Number of bisections after which the parameter is accurate to rounding.
 const HALVINGS: usize = 60;
 
 /// Parameter of the point on a curve that is nearest to a given point. If several points are equally near, the first one is returned.

@@ -16,11 +16,11 @@ pub struct PiecewisePolynomial {
 /// Function along a path between two parameters, with its divided difference.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FunctionOnPath {
-    /// Value at the start of the path.
+    /// Value of the function at the start of the path.
     pub start: f64,
-    /// Value at the end of the path.
+    /// Value of the function at the end of the path.
     pub end: f64,
-    /// Derivative at the end of the path, as limit from inside the path.
+    /// Derivative of the function at the end of the path, as limit from inside the path.
     pub slope: f64,
     /// Divided difference: mean derivative of the function over the path, accurate to rounding for paths of any length.
     pub difference: f64,
@@ -29,7 +29,8 @@ pub struct FunctionOnPath {
 }
 
 impl PiecewisePolynomial {
-    /// Creates a function from a row of coefficients for each span. On a span the function is `Σ c_k t^k`, where `t` runs from -1 to 1.
+    /// Creates a function from a row of coefficients for each span.
+    /// On a span, the function is `Σ c_k t^k` with the coefficients `c_k`, where `t` runs from -1 to 1.
     pub fn new(spans: &[Span], rows: &[Vec<f64>]) -> Self {
         let count = rows.first().map_or(1, Vec::len);
         let place = |span: &Span| (0.5 * (span.start + span.end), 0.5 * (span.end - span.start));
@@ -42,7 +43,7 @@ impl PiecewisePolynomial {
     }
 
     /// Creates the integral of a function over consecutive spans, starting at the first span.
-    /// On each span the function is interpolated at `points` Gauss points.
+    /// On each span, the function is interpolated at `points` Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
@@ -75,7 +76,7 @@ impl PiecewisePolynomial {
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values along a path within one span, computed by Horner's scheme.
+    /// Values of the function along a path within one span, computed by Horner's scheme.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];
@@ -96,7 +97,7 @@ impl PiecewisePolynomial {
         on
     }
 
-    /// Value, first and second derivative of the polynomial of a span with respect to ξ. ξ may lie outside the span.
+    /// Value, first and second derivative of the polynomial of a span with respect to ξ, which may lie outside the span.
     #[inline]
     pub(crate) fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];

@@ -5,13 +5,13 @@ use crate::elementary::sin_cos;
 /// Planar vector or point.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
-/// Vector `J a = (-a2, a1)`: `a` rotated by +90°.
+/// Vector `J a = (-a2, a1)`: the vector `a` rotated by +90°.
 #[inline]
 pub fn perpendicular(a: Vec2) -> Vec2 {
     Vec2::new(-a.y, a.x)
 }
 
-/// Cross product `a × b = a1 b2 - a2 b1`, positive if `b` is counter-clockwise from `a`.
+/// Cross product `a × b = a1 b2 - a2 b1` of two vectors, positive if `b` is counter-clockwise from `a`.
 #[inline]
 pub fn cross(a: Vec2, b: Vec2) -> f64 {
     a.x * b.y - a.y * b.x

@@ -1,19 +1,19 @@
 //! Symmetric positive definite band matrices, and entries of their inverse near the diagonal.
 
-/// Ratio of a pivot to the diagonal entry, below which a matrix counts as singular.
+/// Ratio of a pivot to the diagonal entry below which a matrix counts as singular.
 const ROUNDING: f64 = 1e-11;
 
 /// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.
 #[derive(Debug, Clone)]
 pub struct PositiveBand {
-    /// Row `i` contains the entries `(i, i), (i, i + 1), …`.
+    /// Rows of the upper triangle: row `i` contains the entries `(i, i), (i, i + 1), …`.
     rows: Vec<Vec<f64>>,
 }
 
 /// Factors `L D Lᵀ` of a [`PositiveBand`], with a unit diagonal of `L`.
 #[derive(Debug, Clone)]
 pub struct PositiveFactors {
-    /// Row `i` contains `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
+    /// Columns of the factors: column `i` contains `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
     columns: Vec<Vec<f64>>,
 }
 
@@ -28,7 +28,7 @@ impl PositiveBand {
         self.rows.len()
     }
 
-    /// Adds `factor · v vᵀ`. The first entry of `v` belongs to the row and column `first`.
+    /// Adds `factor · v vᵀ` to the matrix. The first entry of the vector `v` belongs to the row and column `first`.
     pub(crate) fn add_square(&mut self, first: usize, factor: f64, v: &[f64]) {
         for (row, (left, a)) in self.rows[first..].iter_mut().zip(v.iter().enumerate()) {
             row.iter_mut().zip(&v[left..]).for_each(|(entry, b)| *entry += factor * a * b);
@@ -40,7 +40,7 @@ impl PositiveBand {
         self.rows[low].get(high - low).copied().unwrap_or(0.0)
     }
 
-    /// Computes the factors `L D Lᵀ`. Returns `None` if a pivot is not positive, or so small that it is due to rounding.
+    /// Computes the factors `L D Lᵀ` of the matrix. Returns `None` if a pivot is not positive, or so small that it is due to rounding.
     pub fn factorise(&self) -> Option<PositiveFactors> {
         let mut columns = self.rows.clone();
         for at in 0..columns.len() {
@@ -77,12 +77,12 @@ impl PositiveFactors {
 
     /// Entries of the inverse that are up to `width` columns away from its diagonal. `width` must be at least the half-bandwidth.
     ///
-    /// With the inverse `Z`, the entries follow from `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Erisman & Tinney 1975).
+    /// The entries of the inverse `Z` follow from `Lᵀ Z = D⁻¹ L⁻¹`, starting with the last row (Erisman & Tinney 1975).
     pub fn inverse(&self, width: usize) -> PositiveBand {
         let size = self.columns.len();
         let mut inverse = PositiveBand::zeros(size, width);
         for (row, column) in self.columns.iter().enumerate().rev() {
-            // The diagonal entry is computed last, because it depends on the other entries of its row.
+            // The diagonal entry of a row of the inverse is computed last, because it depends on the other entries of the row.
             for away in (0..=width.min(size - 1 - row)).rev() {
                 let known = (row + 1..size).zip(&column[1..]);
                 let products = known.map(|(at, factor)| factor * inverse.get(at, row + away));

@@ -4,7 +4,6 @@ use super::GeometryError;
 use crate::elementary::cos;
 use std::f64::consts::PI;
 
-/// Largest number of points of a rule.
 const MOST_POINTS: usize = 64;
 
 /// Gauss–Legendre rule with `n` points, exact for polynomials up to degree `2n - 1`.
@@ -29,7 +28,8 @@ impl GaussRule {
         }
     }
 
-    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29). The points are computed by Newton's method from Tricomi's estimate.
+    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29).
+    /// The points are computed by Newton's method from Tricomi's estimate.
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
@@ -49,7 +49,7 @@ impl GaussRule {
         Self { points, weights }
     }
 
-    /// Points and weights on `[start, end]`: `∫ f dξ ≈ Σ weight · f(point)`.
+    /// Points and weights of the rule on `[start, end]`: `∫ f dξ ≈ Σ weight · f(point)`.
     pub fn iter_on(&self, start: f64, end: f64) -> impl Iterator<Item = (f64, f64)> {
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         self.points

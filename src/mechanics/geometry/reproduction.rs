@@ -79,7 +79,7 @@ impl LowerSplines {
         values
     }
 
-    /// Reproducing kernel at the parameter `xi` on a span of the run.
+    /// Reproducing kernel of the space at the parameter `xi` on a span of the run.
     ///
     /// # Errors
     /// Fails if there is no Gauss rule for the degree.

@@ -104,7 +104,7 @@ impl SplineCurve {
         Ok((self.lengths[number] + within).min(self.lengths[number + 1]))
     }
 
-    /// Parameter [-] at `arc_length` [length], which must be in `[0, length]`.
+    /// Parameter of the curve [-] at `arc_length` [length], which must be in `[0, length]`.
     pub(super) fn parameter_at(&self, arc_length: f64) -> f64 {
         let behind = self.lengths.partition_point(|&length| length <= arc_length);
         if behind == self.lengths.len() {
@@ -137,7 +137,6 @@ impl SplineCurve {
     }
 }
 
-/// Returns the control points after `xi` has been inserted once as a knot.
 fn insert_once(knots: &KnotVector, points: &[Vec2], xi: f64) -> Result<Vec<Vec2>, GeometryError> {
     let (span, degree, multiplicity) = (knots.span_at(xi)?, knots.degree(), knots.multiplicity(xi));
     let divide = |i: usize| {

@@ -10,12 +10,13 @@ pub type RunRule = Vec<Vec<(f64, f64)>>;
 const EQUAL: f64 = 1e-9;
 
 /// Computes the patch rule of a run of spans, which are consecutive and joined at least C¹ (docs/theory.md, section 4).
-/// The rule has as many points as there are linearly independent derivatives of the basis functions, and integrates all derivatives exactly.
+/// The patch rule has as many points as the basis functions have linearly independent derivatives, and integrates all derivatives exactly.
 ///
-/// The points are the zeros of a spline that is orthogonal to all splines of one degree less. For a single span, they are the Gauss points.
+/// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
+/// The quadrature points of a single span are the Gauss points.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
-/// Tests for every degree and continuity confirm that the weights are positive. There is no proof.
-/// Returns `None` if rounding hides a zero, or if a weight is not positive. No spans are known for which this happens.
+/// Tests for every degree and continuity confirm that the quadrature weights are positive. There is no proof.
+/// Returns `None` if rounding hides a zero, or if a weight is not positive. No such spans are known.
 pub fn patch_rule(basis: &Basis, run: &[Span]) -> Option<RunRule> {
     if let [span] = run {
         return gauss_points(basis.degree(), span).map(|rule| vec![rule]);
@@ -106,7 +107,7 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
 }
 
 /// Parameters in a span, from -1 to 1, between which zeros are searched.
-/// The parameters are denser towards the ends, like Gauss points, so that at most one zero lies between two of them.
+/// The parameters are denser towards the ends of the span, like Gauss points, so that at most one zero lies between two of them.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -140,7 +141,7 @@ fn zeros(basis: &Basis, run: &[Span], coefficients: &[f64]) -> Option<Vec<Vec<f6
     (found.iter().map(Vec::len).sum::<usize>() == lower_count(basis, run)?).then_some(found)
 }
 
-/// Polynomial `Σ c_k t^k` of a span, where t runs from -1 to 1.
+/// Polynomial `Σ c_k t^k` of a span with the coefficients `c_k`, where `t` runs from -1 to 1.
 struct Polynomial(Vec<f64>);
 
 impl Polynomial {

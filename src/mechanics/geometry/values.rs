@@ -10,14 +10,14 @@ pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` nonzero basis functions of one span at one parameter, starting with `N_first`, and all their derivatives with respect to ξ.
+/// The `degree + 1` nonzero basis functions of one span at one parameter, with all their derivatives with respect to ξ.
 /// All other basis functions are zero at this parameter. Values are dimensionless and need no allocated memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
-    /// Index in the basis of the first nonzero function.
+    /// Index of the first nonzero basis function.
     pub first: usize,
     degree: usize,
-    /// Derivatives with respect to ξ. Row `k` contains the derivatives of order `k`.
+    /// Derivatives of the basis functions with respect to ξ. Row `k` contains the derivatives of order `k`.
     rows: [FunctionRow; WIDTH],
 }
 
@@ -26,29 +26,28 @@ impl BasisValues {
         Self { first, degree, rows: [ZERO; WIDTH] }
     }
 
-    /// A single function with the value one everywhere.
     pub(crate) fn constant(index: usize) -> Self {
         let mut values = Self::zeros(index, 0);
         values.rows[0][0] = 1.0;
         values
     }
 
-    /// Derivatives with respect to ξ, of order 0 to `degree`, one row for each order.
+    /// Derivatives of the basis functions with respect to ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]
     }
 
-    /// Values of the `degree + 1` functions. The values sum to one.
+    /// Values of the `degree + 1` nonzero basis functions. The values sum to one.
     pub fn values(&self) -> &[f64] {
         self.derivatives(0)
     }
 
-    /// First derivatives of the `degree + 1` functions with respect to the parameter. The derivatives sum to zero.
+    /// First derivatives of the `degree + 1` nonzero basis functions with respect to the parameter. The derivatives sum to zero.
     pub fn slopes(&self) -> &[f64] {
         self.derivatives(1)
     }
 
-    /// Derivatives of the given `order` of the `degree + 1` functions with respect to ξ. They are zero for orders above the degree.
+    /// Derivatives of the given `order` of the `degree + 1` nonzero basis functions with respect to ξ; zero for orders above the degree.
     pub fn derivatives(&self, order: usize) -> &[f64] {
         let row = if order <= self.degree { &self.rows[order] } else { &ZERO };
         &row[..=self.degree]
@@ -66,12 +65,11 @@ impl BasisValues {
 fn combine(order: usize, derivatives: &[f64], points: &[Vec2]) -> Vec2 {
     let points = &points[..derivatives.len()];
     // The derivatives sum to zero, so the origin of the points affects rounding only.
-    // The rounding error is smallest if the origin is near the points.
+    // The rounding error is smallest for an origin near the points.
     let origin = if order == 0 { Vec2::zeros() } else { points[0] };
     derivatives.iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
 }
 
-/// Largest order of the derivatives in [`LowDerivatives`].
 pub(super) const LOW_ORDERS: usize = 3;
 
 #[derive(Debug, Clone, Copy)]

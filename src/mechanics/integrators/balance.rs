@@ -7,11 +7,11 @@ use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
 /// Largest allowed rotation increment `Δω`, which is the mean angular velocity times the step length.
-/// For larger rotation increments the direction of rotation is ambiguous.
+/// For larger rotation increments, the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
-/// A rotation of about π folds the path. The contact equations then have no defined direction, and spurious solutions exist.
+/// A rotation of about π folds the path. Then, the contact equations have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +31,8 @@ impl BalanceCoefficients {
 }
 
 /// Balance of a step, as equations for the increments and the constraint multipliers.
-/// The unknown is the deviation of the increments from a motion with constant velocity.
-/// The rounding error of the final velocity is therefore proportional to the change of velocity in the step, and momenta do not drift.
+/// The unknowns are the deviations of the increments from a motion with constant velocity.
+/// The rounding error of the final velocity is proportional to the deviation from constant velocity, so that momenta do not drift.
 pub(super) struct StepBalance<'a> {
     mechanism: &'a mut dyn Mechanism,
     rule: BalanceCoefficients,
@@ -111,7 +111,6 @@ impl Equations for StepBalance<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
-    /// Increments of a motion with constant velocity.
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
@@ -120,7 +119,7 @@ pub(super) struct StepSolver {
     rates: Vec<f64>,
     residual: Vec<f64>,
     balanced: Vec<(Stage, f64)>,
-    /// True if the integrator balances changes of momentum. False if it balances accelerations.
+    /// True if the integrator balances changes of momentum. False if the integrator balances accelerations.
     balances_rates: bool,
 }
 

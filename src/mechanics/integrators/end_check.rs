@@ -4,7 +4,7 @@ use super::{Integrator, Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
 /// Integrator that rejects a step if the state at its end violates a condition of the constraints.
-/// The conditions depend on the present forces, which are known only after the step. A rejected step is undone.
+/// The conditions of the constraints depend on the present forces, which are known only after the step. A rejected step is undone.
 pub(super) struct EndCheck {
     integrator: Box<dyn Integrator>,
 }
@@ -28,7 +28,7 @@ impl Integrator for EndCheck {
     }
 }
 
-/// Checks the state at the end of a step. A rejected step is undone: the mechanism returns to its saved state.
+/// Checks the state at the end of a step. If the check fails, the mechanism returns to its saved state.
 ///
 /// # Errors
 /// Fails if the state violates a condition of the constraints.

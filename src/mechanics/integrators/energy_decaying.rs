@@ -17,7 +17,7 @@ pub struct EnergyDecaying {
 }
 
 impl EnergyDecaying {
-    /// Stages at which loads are evaluated.
+    /// Stages of a step at which the method evaluates loads.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
     /// Creates the method with the dissipation `chi` [-], and allocates memory for a mechanism.

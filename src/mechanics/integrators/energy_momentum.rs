@@ -4,7 +4,7 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method. It conserves energy, linear and angular momentum to rounding for any step size.
+/// Energy–momentum method, which conserves energy, linear and angular momentum to rounding for any step size.
 /// Conservation follows from midpoint kinematics with tangent-scaled rotations and averaged section forces.
 /// The method is of second order (docs/theory.md, section 6).
 ///
@@ -16,7 +16,7 @@ pub struct EnergyMomentum {
 }
 
 impl EnergyMomentum {
-    /// Stages at which forces are evaluated.
+    /// Stages of a step at which the method evaluates forces.
     pub const STAGES: &[Stage] = &[Stage::Midpoint];
 
     /// Creates the method, and allocates memory for a mechanism.

@@ -8,9 +8,9 @@ use super::{Interval, Overshoot};
 use crate::elementary::rounded_to;
 use crate::newton::NewtonError;
 
-/// Error from outside the solver. It is displayed unchanged, and can be downcast to its type.
+/// Error from outside the solver, which is displayed unchanged and can be downcast to its type.
 ///
-/// The type is not `Send`, because errors of script functions are not `Send`.
+/// The type `ExternalError` is not `Send`, because errors of script functions are not `Send`.
 #[derive(Debug, Clone)]
 pub struct ExternalError(Rc<dyn Error>);
 

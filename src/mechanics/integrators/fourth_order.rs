@@ -5,8 +5,8 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// The substep lengths satisfy the conditions for a method of fourth order.
-/// With the selected lengths, slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
+/// The selected substep lengths satisfy the conditions for a method of fourth order.
+/// With the selected substep lengths, slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -17,8 +17,8 @@ const ENDS: [f64; 7] = {
 };
 
 /// Fourth-order method. A step consists of seven energy–momentum substeps, of which the fourth runs backwards in time.
-/// Each substep conserves energy, linear and angular momentum to rounding. Hence the whole step conserves them too.
-/// The leading errors of the substeps cancel, because the cubes of their lengths sum to zero (docs/theory.md, section 8.3).
+/// Each substep conserves energy, linear and angular momentum to rounding. Therefore, the whole step conserves these quantities.
+/// The leading errors of the substeps cancel, because the cubes of the substep lengths sum to zero (docs/theory.md, section 8.3).
 ///
 /// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168.
 #[derive(Debug, Clone)]
@@ -27,13 +27,12 @@ pub struct FourthOrder {
 }
 
 impl FourthOrder {
-    /// Stages at which forces are evaluated, one per substep.
+    /// Stages at which the method evaluates forces, one stage per substep.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
     /// Lengths of the longest forward substep and of the backward substep, as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
-    /// Lengths of the substeps, as fractions of a step.
     pub(super) fn parts() -> [f64; ENDS.len()] {
         std::array::from_fn(|part| {
             ENDS[part] - part.checked_sub(1).map_or(0.0, |before| ENDS[before])
@@ -58,7 +57,7 @@ impl Integrator for FourthOrder {
     }
 }
 
-/// Takes the substeps one after the other. If a substep fails, the mechanism is restored to the start of the step.
+/// Takes the substeps of a step. If a substep fails, the mechanism is restored to the start of the step.
 pub(super) fn in_parts(
     mechanism: &mut dyn Mechanism,
     interval: Interval,

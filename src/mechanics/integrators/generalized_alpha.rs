@@ -10,8 +10,8 @@ use crate::newton::{NewtonReport, Tolerance};
 /// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little.
 /// The method conserves neither energy nor momenta.
 ///
-/// Accelerations are part of the state. They are unknown at the start, after an impact, and at a jump of a load.
-/// If accelerations are unknown, a step of the trapezoidal rule determines them.
+/// Accelerations are part of the state. Accelerations are unknown at the start, after an impact, and at a jump of a load.
+/// A step of the trapezoidal rule determines unknown accelerations.
 ///
 /// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
@@ -44,10 +44,11 @@ impl Weights {
 }
 
 impl GeneralizedAlpha {
-    /// Stages at which forces are evaluated.
+    /// Stages of a step at which the method evaluates forces.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
-    /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism. The state of the mechanism then includes accelerations.
+    /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism.
+    /// After this call, the state of the mechanism includes accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {

@@ -7,7 +7,7 @@ pub struct Interval {
     pub start: f64,
     /// End [time].
     pub end: f64,
-    /// Duration of the interval. It is stored because the difference of two large times is less accurate.
+    /// Duration of the interval, stored because the difference of two large times is less accurate [time].
     duration: f64,
     ending: IntervalEnd,
 }
@@ -15,9 +15,9 @@ pub struct Interval {
 /// Role of an interval: a whole step, or a substep of a composed method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IntervalEnd {
-    /// The interval is a substep. Sliders at stops are released only at the end of a whole step.
+    /// Substep of a composed method. Sliders at stops are released only at the end of a whole step.
     Substep,
-    /// The interval is a whole step.
+    /// Whole step of an integrator.
     Step,
 }
 
@@ -27,12 +27,13 @@ impl Interval {
         Self { start, end, duration: end - start, ending: IntervalEnd::Step }
     }
 
-    /// Interval with an exact start and duration [time]. Only its end time is rounded.
+    /// Interval with an exact start and an exact duration [time]. Only its end time is rounded.
     pub fn lasting(start: f64, duration: f64) -> Self {
         Self { start, end: start + duration, duration, ending: IntervalEnd::Step }
     }
 
-    /// Part of the interval between two fractions of its duration [-]. The part runs backwards in time if the second fraction is smaller.
+    /// Part of the interval between two fractions of its duration [-].
+    /// The part runs backwards in time if the second fraction is smaller than the first.
     pub fn part(&self, from: f64, to: f64) -> Self {
         let duration = (to - from) * self.duration;
         let start = self.start + from * self.duration;
@@ -42,7 +43,7 @@ impl Interval {
         Self { start, end: self.start + to * self.duration, duration, ending: IntervalEnd::Substep }
     }
 
-    /// Duration `Δt`, negative for backward intervals [time].
+    /// Duration `Δt` of the interval [time], negative for backward intervals.
     pub fn duration(&self) -> f64 {
         self.duration
     }

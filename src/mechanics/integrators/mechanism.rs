@@ -7,8 +7,7 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. A load has the start value of a linear function of time.
-    /// The linear function has the same mean over the step and the same change in the step as the load.
+    /// Start of the step. A load has the start value of the linear function of time with the same mean and the same change in the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -16,11 +15,10 @@ pub enum Stage {
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
-    /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
-    /// The value in the enum variant is the dissipation parameter `χ`.
+    /// The strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The value of this variant is the dissipation parameter `χ`.
     DampedMidpoint(f64),
-    /// End of the step. A load has the end value of a linear function of time.
-    /// The linear function has the same mean over the step and the same change in the step as the load.
+    /// End of the step. A load has the end value of the linear function of time with the same mean and the same change in the step.
     End,
 }
 
@@ -31,20 +29,20 @@ impl Stage {
 
 /// Constant inertia matrix `M` of a mechanical system.
 pub trait Inertia {
-    /// Adds `factor · M · rates` to `out`, one entry per unknown degree of freedom.
+    /// Adds `factor · M · rates` to `out`, where `M` is the inertia matrix, with one entry per unknown degree of freedom.
     fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]);
 
-    /// Adds `factor · M` to the tangent.
+    /// Adds `factor · M` to the tangent, where `M` is the inertia matrix.
     fn add_inertia_tangent(&self, factor: f64, tangent: &mut BandedMatrix);
 }
 
 /// Forces of a mechanical system that depend on its configuration.
 ///
-/// Section forces may be internal unknowns. They are eliminated from the equations and corrected together with the increments.
+/// Section forces may be internal unknowns, which are eliminated from the equations and corrected together with the increments.
 pub trait Forces {
     /// Adds `weight` times the forces of a stage to `out`: internal forces minus loads, computed from the present section forces.
     ///
-    /// Returns the largest strain residual: strain of the configuration minus strain that belongs to the section force.
+    /// Returns the largest strain residual: strain of the configuration minus the strain that belongs to the section force.
     fn add_forces(&mut self, stage: Stage, increments: &[f64], weight: f64, out: &mut [f64])
     -> f64;
 
@@ -59,11 +57,12 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the present strain residuals.
+    /// Adds `weight` times the force corrections that would remove the present strain residuals.
     /// The derivatives of the strains are those of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
-    /// Updates the section forces after an iteration has corrected the increments. The derivatives are those of the last linearisation.
+    /// Updates the section forces after an iteration has corrected the increments.
+    /// The derivatives of the section forces are those of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
     /// Largest force residual, as a fraction of the forces in this step [-].
@@ -83,12 +82,12 @@ pub trait Forces {
     fn largest_rotation(&self) -> f64;
 }
 
-/// Constraints of a mechanical system. Their multipliers are unknowns.
+/// Constraints of a mechanical system, whose multipliers are unknowns.
 pub trait Constraints {
-    /// Number of constraint unknowns, and the largest number of entries of their equations.
+    /// Number of constraint unknowns, and the largest number of entries of the constraint equations.
     fn constraint_shape(&self) -> BorderShape;
 
-    /// Blocks of five constraint unknowns, if the constraints are eliminated block by block; otherwise `None`.
+    /// Blocks of five constraint unknowns; `None` if the constraints are not eliminated block by block.
     fn constraint_blocks(&self) -> Option<&BlockLayout> {
         None
     }
@@ -99,8 +98,8 @@ pub trait Constraints {
     /// Adds the constraint forces and then the constraint violations to `out`.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
-    /// Adds constraint forces and violations to `out`.
-    /// Adds the derivatives of forces and violations with respect to increments and constraint unknowns to the border of the tangent.
+    /// Adds the constraint forces and the constraint violations to `out`.
+    /// Adds the derivatives of constraint forces and violations with respect to increments and constraint unknowns to the border of the tangent.
     fn add_linearised_constraints(
         &mut self,
         increments: &[f64],
@@ -112,7 +111,7 @@ pub trait Constraints {
     /// Largest relative constraint violation [-].
     fn relative_violation(&self, residual: &[f64]) -> f64;
 
-    /// Checks whether the constraint unknowns allow the step to be accepted.
+    /// Checks that the constraint unknowns allow the step to be accepted.
     ///
     /// # Errors
     /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
@@ -123,7 +122,7 @@ pub trait Constraints {
         false
     }
 
-    /// Checks the state at the end of a step that has converged.
+    /// Checks the state at the end of a step whose iteration has converged.
     ///
     /// # Errors
     /// Fails if the present forces violate a condition of the constraints. The step must then be undone.
@@ -137,7 +136,8 @@ pub trait Constraints {
 
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
-/// Increments and rates belong to the unknown degrees of freedom. The constraint unknowns (contact forces and contact positions) follow them.
+/// Vectors of increments and rates contain the unknown degrees of freedom, followed by the constraint unknowns.
+/// The constraint unknowns are contact forces and contact positions.
 /// The constraint unknowns have no inertia. There are as many constraint equations as constraint unknowns.
 /// Force vectors also have entries for supported degrees of freedom, which are fixed or prescribed.
 /// The residual at a supported degree of freedom is the support reaction.
@@ -146,13 +146,13 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.
     fn unknowns(&self) -> usize;
 
-    /// Length of force vectors: unknowns, constraints and supported degrees of freedom.
+    /// Length of force vectors, which is the number of unknowns, constraints and supported degrees of freedom.
     fn degrees_of_freedom(&self) -> usize;
 
     /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
-    /// Number of threads that solve the equations. The number does not affect the results.
+    /// Number of threads that solve the equations. The number of threads does not affect the results.
     fn threads(&self) -> usize {
         1
     }
@@ -196,10 +196,10 @@ pub trait Accelerated {
     /// Adds accelerations to the state. The accelerations are unknown until they are set.
     fn enable_accelerations(&mut self);
 
-    /// Accelerations just after the start of the present step, if known [length/time², 1/time²].
+    /// Accelerations just after the start of the present step [length/time², 1/time²]; `None` if unknown.
     fn accelerations(&self) -> Option<&[f64]>;
 
-    /// Sets the accelerations [length/time², 1/time²]. Has no effect unless accelerations are enabled.
+    /// Sets the accelerations [length/time², 1/time²]. The call has no effect unless accelerations are enabled.
     fn set_accelerations(&mut self, accelerations: &[f64]);
 }
 
@@ -212,14 +212,14 @@ pub struct Solution<'a> {
     pub constraints: &'a [f64],
     /// Rates at the end of the step [length/time, 1/time].
     pub rates: &'a [f64],
-    /// Residual of the equations [force, force·length]. At supported degrees of freedom it is the support reaction.
+    /// Residual of the equations [force, force·length]. At supported degrees of freedom, it is the support reaction.
     pub residual: &'a [f64],
     /// Stages with weights [-], for which the weighted sum of forces is the rate of change of the momenta.
-    /// The list is empty if the method balances accelerations instead of momenta.
+    /// The list of stages is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// Constraint event within a step, such as a passed limit. The step is rejected.
+/// Constraint event within a step, such as a passed limit, for which the step is rejected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
     /// Index of the event among the events of all constraints.

@@ -1,4 +1,4 @@
-//! Time integrators for an abstract mechanism. This module does not depend on beams.
+//! Time integrators for an abstract mechanism, independent of beams.
 
 mod balance;
 mod end_check;

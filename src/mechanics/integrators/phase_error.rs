@@ -6,8 +6,9 @@ use crate::elementary::{atan, atan2, square, whole_power};
 impl Method {
     /// Phase error of an undamped linear vibration in one step [rad], for the phase `ω Δt` of the exact solution [rad].
     ///
-    /// Its leading term is `(ω Δt)³/12` for the energy–momentum and trapezoidal rules, and `|Σ sᵢ⁵| (ω Δt)⁵/80` for fourth order,
-    /// with the fractions `sᵢ` of the substeps. For generalized-α it is `(11/24 - 3ρ/(2 (1 + ρ)²)) (ω Δt)³` (docs/theory.md, section 13.3).
+    /// For the energy–momentum and trapezoidal rules, the leading term of the phase error is `(ω Δt)³/12`.
+    /// For fourth order, the leading term of the phase error is `|Σ sᵢ⁵| (ω Δt)⁵/80` with the fractions `sᵢ` of the substeps.
+    /// For generalized-α, the leading term of the phase error is `(11/24 - 3ρ/(2 (1 + ρ)²)) (ω Δt)³` (docs/theory.md, section 13.3).
     pub fn phase_error(&self, angle: f64) -> f64 {
         let midpoint = |fraction: f64| 2.0 * atan(0.5 * fraction * angle);
         match *self {
@@ -41,7 +42,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Phase of `q̈ = -ω² q` in one step of generalized-α, from the roots of its recurrence without rounding of the accelerations.
+    /// Phase of the vibration `q̈ = -ω² q` in one step of generalized-α, from the roots of its recurrence without rounding of the accelerations.
     fn turn_of_generalized_alpha(rho: f64, angle: f64) -> f64 {
         let (inertia, forces) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let (gamma, beta) = (0.5 - inertia + forces, 0.25 * (1.0 - inertia + forces).powi(2));
@@ -91,7 +92,8 @@ mod tests {
 
     #[test]
     fn the_decaying_rule_has_the_phase_of_its_amplification_matrix() {
-        // One step with q1 - q0 = v̄ and v1 - v0 = -ω² (q̄ + ½ χ (q1 - q0)), for q0 = 1 and v0 = 0, and for q0 = 0 and v0 = 1.
+        // The method is applied to the start values q0 = 1, v0 = 0 and q0 = 0, v0 = 1 of the vibration.
+        // One step satisfies q1 - q0 = v̄ and v1 - v0 = -ω² (q̄ + ½ χ (q1 - q0)) with the means q̄ and v̄.
         for [chi, angle] in [[0.1, 0.3], [1.0, 0.5], [0.5, 2.0_f64]] {
             let square = angle * angle;
             let weight = 0.25 * (1.0 + chi) * square;

@@ -1,6 +1,6 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
-/// Prescribed motions of a mechanism in the present step. They are numbered after the unknowns and the constraint multipliers.
+/// Prescribed motions of a mechanism in the present step, numbered after the unknowns and the constraint multipliers.
 /// All vectors of this struct are empty without prescribed motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
@@ -8,7 +8,7 @@ pub struct PrescribedKinematics {
     pub increments: Vec<f64>,
     /// Rates at the end of the step [length/time, 1/time].
     pub rates: Vec<f64>,
-    /// Mean accelerations `(v1 - v0)/Δt` over the step [length/time², 1/time²].
+    /// Mean accelerations `(v1 - v0)/Δt` over the step of duration `Δt` [length/time², 1/time²].
     pub mean_accelerations: Vec<f64>,
     /// Accelerations just after the start and just before the end of the step [length/time², 1/time²].
     pub accelerations: [Vec<f64>; 2],
@@ -33,7 +33,7 @@ impl PrescribedKinematics {
         }
     }
 
-    /// Number of entries after the unknowns.
+    /// Number of vector entries after the unknowns.
     pub fn width(&self) -> usize {
         self.increments.len()
     }

@@ -15,11 +15,11 @@ pub enum Method {
     /// [`EnergyMomentum`], the default.
     #[default]
     EnergyMomentum,
-    /// [`Trapezoidal`]: Newmark with β = 1/4, γ = 1/2.
+    /// [`Trapezoidal`]: Newmark's method with β = 1/4 and γ = 1/2.
     Trapezoidal,
     /// [`EnergyDecaying`]: momenta are conserved, vibrations are damped.
     EnergyDecaying {
-        /// Dissipation `χ`: section forces use the mean strain plus `χ/2` times the change of strain in the step [-].
+        /// Dissipation `χ` [-]: section forces belong to the mean strain plus `χ/2` times the change of the strain in the step.
         chi: f64,
     },
     /// [`FourthOrder`]: a composition of seven energy–momentum steps.
@@ -31,14 +31,14 @@ pub enum Method {
     },
 }
 
-/// Statement about the conservation of energy by a method.
+/// Claim about the conservation of energy by a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
     /// The energy is conserved to rounding.
     Conserved,
     /// The energy never increases by more than rounding.
     NonIncreasing,
-    /// No statement about the energy.
+    /// The method has no claim about the energy.
     Unclaimed,
 }
 
@@ -47,7 +47,7 @@ pub enum EnergyClaim {
 pub struct Claims {
     /// Order of convergence in time.
     pub order: u32,
-    /// Statement about the energy.
+    /// Claim about the conservation of energy.
     pub energy: EnergyClaim,
     /// True if linear momentum is conserved to rounding.
     pub momentum: bool,
@@ -56,7 +56,7 @@ pub struct Claims {
 }
 
 impl Claims {
-    /// Names of the conserved quantities.
+    /// Names of the quantities that the method conserves.
     pub fn conserved_quantities(&self) -> impl Iterator<Item = &'static str> {
         let claims = [
             (self.energy == EnergyClaim::Conserved, "energy"),
@@ -83,7 +83,7 @@ pub struct MethodParameter {
 }
 
 impl MethodParameter {
-    /// Description of the range, such as `from 0 to 1`.
+    /// Description of the range of the parameter, such as `from 0 to 1`.
     pub fn range(&self) -> String {
         match self.most {
             f64::INFINITY => format!("{} or greater", self.least),
@@ -102,18 +102,18 @@ pub struct MethodError {
     allowed: String,
 }
 
-/// Entry of [`INTEGRATORS`].
+/// Entry of the list [`INTEGRATORS`].
 #[derive(Debug, Clone, Copy)]
 pub struct IntegratorEntry {
     /// Method with the default of its parameter.
     pub method: Method,
     /// Name in scripts and reports.
     pub name: &'static str,
-    /// Recommended use as a sentence.
+    /// Recommended use of the method as a sentence.
     pub summary: &'static str,
     /// Conservation properties of the method.
     pub claims: Claims,
-    /// Parameter, if the method has one.
+    /// Parameter of the method; `None` for methods without a parameter.
     pub parameter: Option<MethodParameter>,
     /// Reference to the literature.
     pub source: &'static str,
@@ -221,7 +221,8 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep has the duration `duration` [time]. A negative duration refers to substeps backwards in time.
+    /// Step size for which the longest substep has the duration `duration` [time].
+    /// A negative duration refers to substeps backwards in time.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -239,7 +240,7 @@ impl Method {
         }
     }
 
-    /// Checks the parameter.
+    /// Checks the parameter of the method.
     ///
     /// # Errors
     /// Fails if the parameter is out of range or not finite.
@@ -253,7 +254,7 @@ impl Method {
         Err(MethodError { method: entry.name, name, value, allowed })
     }
 
-    /// Stages at which loads are evaluated.
+    /// Stages of a step at which the method evaluates loads.
     pub fn stages(&self) -> &'static [Stage] {
         match self {
             Self::EnergyMomentum => EnergyMomentum::STAGES,
@@ -264,7 +265,8 @@ impl Method {
         }
     }
 
-    /// Creates the integrator, and allocates memory for a mechanism. The state of the mechanism then includes the data that the method needs.
+    /// Creates the integrator, and allocates memory for a mechanism.
+    /// After this call, the state of the mechanism includes the data that the method needs.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

@@ -11,7 +11,7 @@ use crate::newton::{NewtonReport, Tolerance};
 /// A companion is a mechanism with the structure of the leader, and slightly different parameters and states.
 ///
 /// The step of a companion is solved iteratively, with the matrix factors of the last Newton iteration of the leader.
-/// A few corrections without factorisation reduce the error to rounding.
+/// A few corrections without factorisation reduce the error of a companion to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -31,7 +31,7 @@ pub struct SharedFactorWork {
     /// Statistics of the leader, which do not depend on the companions.
     pub leader: NewtonReport,
     /// Statistics of all companions together, or the error of a companion that failed.
-    /// The iterations of companions are additional factorisations, which are needed if the factors of the leader are not sufficient.
+    /// The iterations of companions are additional factorisations, needed if the factors of the leader are not sufficient.
     pub companions: Result<NewtonReport, StepError>,
 }
 
@@ -103,7 +103,6 @@ impl SharedFactorStepper {
     }
 }
 
-/// Solves a step of all companions from the solution and factors of the leader.
 fn step_companions(
     solver: &mut StepSolver,
     companions: &mut [&mut dyn Mechanism],

@@ -8,14 +8,14 @@ use crate::newton::{NewtonReport, Tolerance};
 /// The rule is of second order. It conserves linear momentum, and for linear problems also energy and angular momentum.
 /// A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
 ///
-/// N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
+/// Reference: N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]
 pub struct Trapezoidal {
     solver: StepSolver,
 }
 
 impl Trapezoidal {
-    /// Stages at which forces are evaluated.
+    /// Stages of a step at which the rule evaluates forces.
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
     /// Creates the method, and allocates memory for a mechanism.

@@ -1,6 +1,6 @@
-//! Joints. A joint ties displacement components of two stations, which then share an unknown.
+//! Joints, which tie displacement components of two stations by a common unknown.
 //!
-//! Both stations of a joint have the same increments in every step, for every integrator.
+//! The two stations of a joint have the same increments in every step, for every integrator.
 //! A joint has no gap, does no work, and transmits force and moment unchanged.
 
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ impl Component {
     /// All components, in the order in which increments store them.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
 
-    /// Name in messages, such as `x`.
+    /// Name of the component in messages, such as `x`.
     pub fn name(self) -> &'static str {
         match self {
             Self::X => "x",
@@ -53,7 +53,7 @@ pub enum Components {
 }
 
 impl Components {
-    /// Set of the components for which a predicate is true; `None` if it is empty.
+    /// Set of the components for which a predicate is true; `None` if the set is empty.
     pub fn among(is_in: impl Fn(Component) -> bool) -> Option<Self> {
         match Component::ALL.map(is_in) {
             [false, false, false] => None,
@@ -84,15 +84,17 @@ impl Components {
 /// Type of a joint, which determines the components that it ties.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum JointKind {
-    /// Hinge: ties positions, leaves rotations free.
+    /// Hinge, which ties positions and leaves rotations free.
     Hinge,
-    /// Rigid joint: ties positions and rotations. The initial angle between the sections is kept. A rigid joint to the ground is a clamp.
+    /// Rigid joint, which ties positions and rotations and keeps the initial angle between the sections.
+    /// A rigid joint to the ground is a clamp.
     Rigid,
-    /// Support: fixes some components of a station and leaves the other components free.
+    /// Support, which fixes some components of a station and leaves the other components free.
     Support(Components),
-    /// Inclined roller: the station is fixed across a unit vector that is not parallel to an axis. It is free along this vector, and free to rotate.
+    /// Inclined roller, which fixes the station across a unit vector that is not parallel to an axis.
+    /// The station of an inclined roller is free along the unit vector, and free to rotate.
     InclinedRoller(Vec2),
-    /// Inclined guide: an inclined roller with fixed rotation.
+    /// Inclined guide, which is an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
 }
 
@@ -110,7 +112,7 @@ pub enum Partner {
 pub struct Joint {
     /// Name in messages.
     pub name: String,
-    /// Tied components.
+    /// Type of the joint, which determines the tied components.
     pub kind: JointKind,
     /// Station of the joint.
     pub station: Station,
@@ -139,7 +141,8 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate. A direction parallel to an axis gives a support. `None` for a zero vector.
+    /// Roller that is free along a direction and free to rotate; `None` for a zero vector.
+    /// For a direction parallel to an axis, the function returns a support.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -148,7 +151,8 @@ impl JointKind {
         })
     }
 
-    /// Guide that is free along a direction, with fixed rotation. A direction parallel to an axis gives a support. `None` for a zero vector.
+    /// Guide that is free along a direction, with fixed rotation; `None` for a zero vector.
+    /// For a direction parallel to an axis, the function returns a support.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),
@@ -176,7 +180,7 @@ impl JointKind {
         }
     }
 
-    /// Returns true if rotations are tied, so that moments are transmitted.
+    /// Returns true if joints of this type tie rotations, so that they transmit moments.
     pub(crate) fn ties_rotation(self) -> bool {
         self.components().contains(&Component::Rotation)
     }

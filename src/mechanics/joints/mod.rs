@@ -1,4 +1,4 @@
-//! Joints, and the laws of contact between sliders and their masters. The solver state of sliders is in `system::sliders`.
+//! Joints, and the laws of contact between sliders and their masters.
 
 mod joint;
 mod release;

@@ -18,7 +18,7 @@ pub enum Releasable {
 /// Event that triggers a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
-    /// Time since the start, at which a step ends [time].
+    /// Time since the start [time]. A step ends at this time.
     Time(f64),
     /// Call by the user of the simulation, between two steps.
     Outside,

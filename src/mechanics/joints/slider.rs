@@ -5,29 +5,29 @@ use serde::{Deserialize, Serialize};
 use super::SlidingRule;
 use crate::beams::Station;
 
-/// Point that stays on the axis of a beam and slides along it, with or without friction.
-/// A slider with a side only pushes, and may leave the axis on that side.
+/// Point that stays on the axis of a beam and slides along the axis, with or without friction.
+/// A slider with a given side can only push its master, and may leave the axis of the master on that side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name in messages and columns.
     pub name: String,
     /// Slave: the sliding point.
     pub slave: Station,
-    /// Index of the master beam. A slider on a track has several masters; this is the first one.
+    /// Index of the master beam. For a slider on a track, it is the index of the first of its masters.
     pub master: usize,
     /// Index of the track; `None` for a slider on a single beam.
     pub track: Option<usize>,
-    /// Initial arc length along the master [length].
+    /// Initial arc length of the slider along the master [length].
     pub arc_length: f64,
     /// Sliding rule.
     pub rule: SlidingRule,
-    /// Behaviour at the ends of the master or track.
+    /// Behaviour of the slider at the ends of the master or track.
     pub ends: EndAction,
-    /// Coefficient of restitution at the ends, or of landings with a side, from 0 to 1 [-].
+    /// Coefficient of restitution at the ends, or at landings of a slider with a side, from 0 to 1 [-].
     pub restitution: f64,
     /// Coefficient of friction along the master [-].
     pub friction: f64,
-    /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves it.
+    /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves the axis.
     pub side: Option<Side>,
     /// Treatment of velocities of the slave across the master at the start.
     pub velocities: StartVelocities,
@@ -67,7 +67,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// Name for messages and scripts, such as `left`.
+    /// Name of the side for messages and scripts, such as `left`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -75,7 +75,7 @@ impl Side {
         }
     }
 
-    /// Sign of coordinates along the left normal on this side: 1 on the left, -1 on the right [-].
+    /// Sign of coordinates along the left normal on this side [-]: 1 on the left, -1 on the right.
     pub fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,
@@ -90,17 +90,16 @@ pub enum EndAction {
     /// The run ends.
     #[default]
     Stop,
-    /// The slider bounces with its coefficient of restitution. Momenta are conserved.
+    /// The slider bounces with its coefficient of restitution. The impact conserves momentum and angular momentum.
     Bounce,
     /// A stop holds the slider at the end until the contact force becomes tensile.
-    /// The rebound is determined by waves in the elastic bodies, which the steps must resolve.
+    /// Waves in the elastic bodies determine the rebound. The steps must resolve these waves.
     Contact,
     /// The slider is released from its master.
     Release,
 }
 
 impl EndAction {
-    /// Returns true if a stop at the end prevents the slider from leaving its master.
     pub(crate) fn has_stop(self) -> bool {
         matches!(self, Self::Bounce | Self::Contact)
     }

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Beams that meet end to end. A slider passes from one beam to the next. On a closed track it may circulate any number of times.
+/// Beams that meet end to end. A slider passes from one beam to the next. On a closed track, the number of rounds is not limited.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
     /// Name in messages.
     pub name: String,
-    /// Beams in the order of the track; at least one.
+    /// Beams in the order of the track; at least one beam.
     pub beams: Vec<TrackBeam>,
     /// Behaviour of the track after the last beam.
     pub end: TrackEnd,
@@ -48,7 +48,6 @@ impl Track {
 }
 
 impl TrackDirection {
-    /// Opposite direction along the beam.
     pub(crate) fn reversed(self) -> Self {
         match self {
             Self::Forward => Self::Backward,
@@ -57,7 +56,8 @@ impl TrackDirection {
     }
 
     /// Converts an arc length along the track to an arc length along the beam, or vice versa [length].
-    /// The arc length along the track starts where the track enters the beam. The arc length along the beam starts at the start of the beam.
+    /// The arc length along the track starts where the track enters the beam.
+    /// The arc length along the beam starts at the start of the beam.
     pub fn along(self, length: f64, arc_length: f64) -> f64 {
         match self {
             Self::Forward => arc_length,

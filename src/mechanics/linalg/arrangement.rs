@@ -4,13 +4,13 @@ use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the elimination work to the work for the same band without blocks, for which the order of the band is kept.
+/// Largest ratio of the elimination work to the work for the same band without blocks for which the order of the band is kept.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
 /// The order depends only on the unknowns that the blocks and the distant blocks couple.
-/// The delayed unknowns of a block follow the last unknown that the block touches. At this position in the order, the delayed unknowns have a pivot.
+/// The delayed unknowns of a block follow the last unknown that the block touches, because they have a pivot at this position.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,
@@ -48,7 +48,7 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile. Updates also the order, if the blocks or the distant blocks couple other unknowns than before.
+    /// Updates the profile, and the order if the blocks or the distant blocks couple other unknowns than before.
     pub(super) fn fit(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {

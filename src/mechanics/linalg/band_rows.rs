@@ -37,7 +37,6 @@ impl BandRows<'_> {
         self.rows.clone()
     }
 
-    /// Returns a shorter-lived view of the same rows.
     pub(crate) fn reborrow(&mut self) -> BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }

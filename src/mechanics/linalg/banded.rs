@@ -51,7 +51,7 @@ impl BandedMatrix {
 
     /// Adds a dense block of entries, row by row, for unknowns at any distance from each other.
     ///
-    /// Blocks can be factorised with a local border or by joint elimination only.
+    /// A matrix with such blocks can be factorised with a local border or by joint elimination only.
     pub(crate) fn add_block(&mut self, unknowns: &[usize], entries: impl Iterator<Item = f64>) {
         self.distant.add(unknowns, entries);
     }
@@ -104,27 +104,26 @@ impl BandedMatrix {
         &mut self.storage
     }
 
-    /// Computes row sizes from the diagonal entries. The pivot search uses them to compare rows of different units.
+    /// Computes row sizes from the diagonal entries. The pivot search compares rows of different units by their row sizes.
     pub(crate) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
 
-    /// Sets the squared row sizes. The pivot search uses them to compare rows of different units.
+    /// Sets the squared row sizes. The pivot search compares rows of different units by their row sizes.
     pub(super) fn set_row_sizes(&mut self, sizes: impl Iterator<Item = f64>) {
         self.storage.sizes.iter_mut().zip(sizes).for_each(|(size, given)| *size = given);
     }
 
-    /// Replaces the entries by the factors `P A = L U`.
+    /// Replaces the entries of the matrix `A` by the factors `P A = L U`.
     ///
     /// # Errors
-    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries of the matrix are then lost.
     pub fn factorise(&mut self) -> Result<BandedLu<'_>, LinearError> {
         debug_assert!(self.distant.is_empty(), "entries outside the band");
         Arch::new().dispatch(Elimination(self.storage.rows_mut()))?;
         Ok(self.factors())
     }
 
-    /// Factors that [`factorise`](Self::factorise) has computed.
     pub(crate) fn factors(&self) -> BandedLu<'_> {
         BandedLu { factors: self.storage.factors() }
     }

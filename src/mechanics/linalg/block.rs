@@ -1,8 +1,8 @@
 //! Block of a local border: a few unknowns outside a band, and the band unknowns that are coupled to them.
 //! Each block is eliminated separately from the other blocks.
 //!
-//! The block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
-//! The unknowns of the block are eliminated with complete pivoting, and the Schur complement is added to the band.
+//! A block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
+//! The unknowns of a block are eliminated with complete pivoting, and the Schur complement is added to the band.
 //! An unknown without a pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
 
 use pulp::{Simd, WithSimd};
@@ -12,10 +12,8 @@ use super::{BandedMatrix, BorderUnit, LinearError};
 /// Number of unknowns of a block outside the band, which equals the number of unknowns of a sliding contact.
 pub(super) const BLOCK: usize = 5;
 
-/// Number of values in a vector instruction.
 const LANES: usize = 4;
 
-/// Largest number of delayed unknowns of a block.
 pub(super) const MOST_DELAYED: usize = 2;
 
 const LARGEST_FILL: f64 = 100.0;
@@ -34,7 +32,6 @@ pub(super) struct BlockElimination<'a> {
 impl WithSimd for BlockElimination<'_> {
     type Output = Result<(), (usize, LinearError)>;
 
-    /// Loops in this function are compiled for the vector instructions of the processor.
     #[inline(always)]
     fn with_simd<S: Simd>(self, _simd: S) -> Self::Output {
         let Self { blocks, band, places } = self;
@@ -55,7 +52,7 @@ struct Coupling {
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     pub(super) own: Vec<usize>,
-    /// Couplings with unknowns of the band. An unknown may occur several times.
+    /// Couplings of the block with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
     /// Unknowns of the band that are coupled to the block, except its own unknowns.
@@ -197,7 +194,7 @@ impl Block {
         Ok(())
     }
 
-    /// Finds the coupled unknowns of the band, and fills the dense matrix.
+    /// Finds the coupled unknowns of the band, and fills the dense matrix of the block.
     #[inline(always)]
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());

@@ -36,7 +36,7 @@ pub enum BorderUnit {
     /// Force.
     #[default]
     Force,
-    /// Unit other than force. The number converts it to a length.
+    /// Unit other than force, with the number that converts this unit to a length.
     Length(f64),
 }
 
@@ -94,7 +94,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the submatrix `B`, at the given row of the band and column of the border.
+    /// Adds `value` to the columns `B` of the border, at the given row of the band and column of the border.
     pub fn add_to_column(&mut self, row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_column(row, border_column, value),
@@ -105,7 +105,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the submatrix `C`, at the given row of the border and column of the band.
+    /// Adds `value` to the rows `C` of the border, at the given row of the border and column of the band.
     pub fn add_to_row(&mut self, border_row: usize, column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_row(border_row, column, value),
@@ -117,7 +117,7 @@ impl Border {
     }
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
-    /// The couplings are entries in a row of `B` and in a column of `C`.
+    /// The couplings are entries in a row of the border columns `B` and in a column of the border rows `C`.
     /// In a border of blocks, all border unknowns of one call must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
@@ -141,7 +141,7 @@ impl Border {
         }
     }
 
-    /// Adds `value` to the corner `D`, at a row and a column of the border. In a border of blocks, both must belong to the same block.
+    /// Adds `value` to the corner `D` of the border. In a border of blocks, row and column must belong to the same block.
     pub fn add_to_corner(&mut self, border_row: usize, border_column: usize, value: f64) {
         match self {
             Self::Full(border) => border.add_to_corner(border_row, border_column, value),
@@ -209,24 +209,24 @@ impl BorderedMatrix {
         }
     }
 
-    /// Sets the number of threads for a long band. Results do not change.
+    /// Sets the number of threads for a long band. The number of threads does not change the results.
     pub fn use_threads(&mut self, threads: usize) {
         if let Some(ends) = &mut self.ends {
             ends.use_threads(threads);
         }
     }
 
-    /// Number of rows, including those of the border.
+    /// Number of rows of the matrix, including the rows of the border.
     pub fn size(&self) -> usize {
         self.band.size() + self.border.width()
     }
 
-    /// Banded part `A`.
+    /// Banded part `A` of the matrix.
     pub fn band(&self) -> &BandedMatrix {
         &self.band
     }
 
-    /// Mutable banded part `A`.
+    /// Mutable banded part `A` of the matrix.
     pub fn band_mut(&mut self) -> &mut BandedMatrix {
         &mut self.band
     }
@@ -236,7 +236,7 @@ impl BorderedMatrix {
         &mut self.border
     }
 
-    /// Sets every entry to zero, including those of the border.
+    /// Sets every entry to zero, including the entries of the border.
     pub fn clear(&mut self) {
         match &self.ends {
             Some(ends) => ends.clear(&mut self.band),
@@ -254,10 +254,10 @@ impl BorderedMatrix {
         }
     }
 
-    /// Replaces the entries by the factors. Without a border, these are the factors of the band.
+    /// Replaces the entries of the matrix by its factors. Without a border, these are the factors of the band.
     ///
     /// # Errors
-    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries of the matrix are then lost.
     pub fn factorise(&mut self) -> Result<BorderedLu<'_>, LinearError> {
         let Self { band, border, joint_elimination: together, ends } = self;
         let size = band.size();

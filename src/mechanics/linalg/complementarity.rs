@@ -11,7 +11,7 @@ pub enum Pairing {
     Complementary,
 }
 
-/// Number of block exchanges without progress, after which pairs are exchanged one by one.
+/// Number of block exchanges without progress after which pairs are exchanged one by one.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
 /// Largest negative unknown or response that counts as zero, as a fraction of the largest value.
@@ -22,8 +22,8 @@ const NOTHING: f64 = 1e-13;
 ///
 /// The matrix `A` is given by its rows and need not be symmetric.
 /// The solution is unique if `A` is positive definite, at least after the elimination of the equality pairs.
-/// The method is block principal pivoting: all violating pairs are exchanged at once (Júdice & Pires 1994).
-/// The result does not depend on the order of the pairs.
+/// The method is block principal pivoting, which exchanges all violating pairs simultaneously (Júdice & Pires 1994).
+/// The solution does not depend on the order of the pairs.
 /// If block pivoting does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors

@@ -1,13 +1,12 @@
 //! Dense blocks of entries that may lie outside the band, for couplings that change during a simulation.
 
-/// Sum of small dense matrices. Each of them couples a few unknowns of a band, at any distance from each other.
+/// Sum of small dense matrices. Each matrix couples a few unknowns of a band, at any distance from each other.
 #[derive(Debug, Clone, Default)]
 pub(super) struct DistantBlocks {
     /// Unknowns of all blocks, one block after the other.
     unknowns: Vec<usize>,
-    /// For each block, the end of its unknowns.
+    /// End of the unknowns of each block in the list `unknowns`.
     ends: Vec<usize>,
-    /// Entries of all blocks, row by row.
     entries: Vec<f64>,
 }
 
@@ -29,13 +28,12 @@ impl DistantBlocks {
         self.entries.extend(entries);
     }
 
-    /// Unknowns of each block.
     pub(super) fn groups(&self) -> impl Iterator<Item = &[usize]> {
         let starts = std::iter::once(&0).chain(&self.ends);
         starts.zip(&self.ends).map(|(&start, &end)| &self.unknowns[start..end])
     }
 
-    /// Row, column and value of all entries. Values for the same row and column must be added up.
+    /// Row, column and value of all entries. The caller must add up values for the same row and column.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         let pairs = self.groups().flat_map(|group| {
             group.iter().flat_map(move |&row| group.iter().map(move |&column| (row, column)))

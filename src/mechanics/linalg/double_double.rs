@@ -4,7 +4,7 @@
 //! Products are split into two parts by fused multiply–add.
 //!
 //! IEEE 754 requires that a fused multiply–add operation rounds once.
-//! The results are identical on every machine, both for hardware and software implementations of the operation.
+//! As a consequence of IEEE 754, hardware and software implementations of fused multiply–add give identical results.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;
@@ -17,14 +17,12 @@ pub(super) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Exact product `a b`.
     #[inline(always)]
     pub(super) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
 
-    /// Sum `self + other`.
     #[inline(always)]
     pub(super) fn plus(self, other: Self) -> Self {
         let sum = self.high + other.high;
@@ -33,7 +31,7 @@ impl DoubleDouble {
         Self::renormalised(sum, lost + (self.low + other.low))
     }
 
-    /// Product `self · factor`, where the factor has 16 digits.
+    /// Product `self · factor` with a factor of 16 digits.
     #[inline(always)]
     pub(super) fn times(self, factor: f64) -> Self {
         let Self { high, low } = Self::product(self.high, factor);
@@ -47,7 +45,6 @@ impl DoubleDouble {
         Self::renormalised(high, self.low.mul_add(other.high, low))
     }
 
-    /// Inverse `1/self`.
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
@@ -63,21 +60,19 @@ impl DoubleDouble {
     }
 }
 
-/// Row of double-double numbers. High and low parts are stored separately for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoubles<'a> {
     pub(super) high: &'a [f64],
     pub(super) low: &'a [f64],
 }
 
-/// Mutable row of double-double numbers. High and low parts are stored separately for vector instructions.
 #[derive(Debug)]
 pub(super) struct DoubleDoublesMut<'a> {
     pub(super) high: &'a mut [f64],
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times a row from another row. Both rows have 32 digits.
+/// Subtracts `factor` times a row from another row. The numbers of both rows have 32 digits.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,

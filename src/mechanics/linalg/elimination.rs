@@ -2,7 +2,7 @@
 //!
 //! A panel of columns is eliminated without row exchanges if all multipliers are small.
 //! The size of the multipliers depends only on the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2).
-//! The rows below the panel are then updated once for the whole panel, without additional nonzero entries.
+//! The rows below a panel are updated once for the whole panel, without additional nonzero entries.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
 //! In a matrix with a profile, entries outside the profile are skipped.
@@ -13,27 +13,25 @@ use pulp::{Simd, WithSimd};
 use super::storage::ActiveRows;
 use super::{LinearError, fixed_band};
 
-/// Number of values in a vector instruction.
 const LANES: usize = 4;
 
 /// Number of columns that are eliminated together. It equals the vector length, so that panels read and write aligned vectors.
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// Smallest half-bandwidth for which a row has space for a panel and whole vectors after it.
+/// Smallest half-bandwidth at which the stored part of a row contains a panel and the whole vectors after the panel.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
 /// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.
 const LARGEST_SQUARE: f64 = 64.0;
 
 /// Returns true if a multiplier is too small for a row exchange.
-/// Arguments: the multiplier, and the squared sizes of the pivot row and of the eliminated row.
+/// The arguments are the multiplier, and the squared sizes of the pivot row and of the eliminated row.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row
 }
 
-/// Gaussian elimination with row exchanges. It replaces the entries of a banded matrix by its factors.
 pub(super) struct Elimination<'a>(pub(super) ActiveRows<'a>);
 
 impl WithSimd for Elimination<'_> {
@@ -56,7 +54,7 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Elimination of a matrix with a symmetric profile.
-/// For each index, the profile gives the last row with an entry in this column, which is also the last column with an entry in this row.
+/// The profile gives, for each index, the last row with an entry in this column, which is also the last column with an entry in this row.
 /// The values of the profile never decrease.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
@@ -80,7 +78,6 @@ fn eliminate_fixed<S: Simd, const REACH: usize, const WIDTH: usize, const STRIDE
     fixed_band::eliminate_panel::<S, REACH, WIDTH, STRIDE>(simd, &mut rows[first..], sizes)
 }
 
-/// Eliminates a band matrix of half-bandwidth `reach`, panel by panel.
 #[inline(always)]
 fn eliminate<S: Simd>(
     simd: S,

@@ -3,20 +3,20 @@
 /// Error for a linear system without a unique solution in floating-point arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LinearError {
-    /// Column without usable pivot: the matrix is singular or nearly singular.
+    /// Singular or nearly singular matrix: a column has no usable pivot.
     #[error("the matrix is singular: no pivot for unknown {unknown} of {size}")]
     Singular {
-        /// Index of the column, counted from 0.
+        /// Index of the column without a pivot, counted from 0.
         unknown: usize,
-        /// Number of rows.
+        /// Number of rows of the matrix.
         size: usize,
     },
-    /// Entry that is infinite or NaN.
+    /// Entry of the matrix that is infinite or NaN.
     #[error("the matrix has an entry that is not a finite number, at unknown {unknown} of {size}")]
     NotFinite {
-        /// Index of the column, counted from 0.
+        /// Index of the column with the entry, counted from 0.
         unknown: usize,
-        /// Number of rows.
+        /// Number of rows of the matrix.
         size: usize,
     },
 }

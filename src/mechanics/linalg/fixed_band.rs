@@ -1,14 +1,13 @@
 //! Elimination and substitution without row exchanges. The half-bandwidth is a compile-time constant for common beams.
 //!
 //! Every entry is computed by the same operations in the same order as with a half-bandwidth given at run time.
-//! The only difference is that the lengths of all loops are constants.
 
 use pulp::Simd;
 
 use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
-/// Eliminates the columns of a panel from the rows below, if there are no additional nonzero entries from earlier row exchanges.
-/// Returns false without any change if rows should be exchanged.
+/// Eliminates the columns of a panel from the rows below, if earlier row exchanges have created no additional nonzero entries.
+/// Returns false without any change of the matrix if rows should be exchanged.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,

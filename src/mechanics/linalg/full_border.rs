@@ -6,16 +6,16 @@
 //! ```
 //!
 //! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
-//! The caller decides whether the solution is refined.
+//! The caller decides about a refinement of the solution.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
 
-/// Number of border columns that are stored and solved together. It equals the number of unknowns of a sliding contact.
+/// Number of border columns that are stored and solved together, which equals the number of unknowns of a sliding contact.
 const STRIP: usize = 5;
 
 /// Weight of length rows relative to force rows in the choice of pivots.
-/// Force rows, such as the equation of a frictionless contact, are preferred as pivot rows, as long as this choice loses at most four digits.
+/// Force rows, such as the equation of a frictionless contact, are preferred as pivot rows if this choice loses at most four digits.
 /// With force rows as pivot rows, a contact force of zero is computed without rounding error.
 const LENGTHS: f64 = 1e-4;
 
@@ -39,9 +39,9 @@ pub struct FullBorder {
 pub(super) struct FullLu<'a> {
     width: usize,
     band: BandedLu<'a>,
-    /// Columns of the matrix `Z`.
+    /// Columns of the matrix `Z = A⁻¹ B`.
     solved: &'a [BorderStrip],
-    /// Entries of the submatrix `C`.
+    /// Entries of the border rows `C` as row, column and value.
     rows: &'a [(usize, usize, f64)],
     complement: BandedLu<'a>,
 }
@@ -158,7 +158,7 @@ impl FullBorder {
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 
-    /// Replaces `B` by `Z = A⁻¹ B`, and `D` by `D - C Z`.
+    /// Replaces the border columns `B` by `Z = A⁻¹ B`, and the corner `D` by `D - C Z`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
         for strip in &mut self.strips {
             if let Some(first) = strip.first_row {

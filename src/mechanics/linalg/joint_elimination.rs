@@ -1,7 +1,7 @@
 //! Joint elimination of a band and its border. The band alone may be singular, for example in mechanisms that only contacts restrain.
 //!
 //! Border rows with few entries are inserted into the band by reverse Cuthill–McKee ordering, and rows are exchanged as in any banded matrix.
-//! Rows and columns are scaled first, because they contain both forces and lengths (Ruiz, report RAL-TR-2001-034).
+//! Rows and columns are scaled first, because they contain forces as well as lengths (Ruiz, report RAL-TR-2001-034).
 
 use super::ordering::reverse_cuthill_mckee;
 use super::{BandedLu, BandedMatrix, LinearError};
@@ -17,7 +17,7 @@ pub(super) struct JointElimination {
     band: BandedMatrix,
     position: Vec<usize>,
     scales: Equilibration,
-    /// Dense columns. The factorisation multiplies them by the inverse of the band.
+    /// Dense columns of the border. The factorisation multiplies them by the inverse of the band.
     columns: Vec<Vec<f64>>,
     rows: Vec<MatrixEntry>,
     complement: BandedMatrix,

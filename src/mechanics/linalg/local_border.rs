@@ -1,6 +1,6 @@
 //! Border of many blocks. Each block is coupled to few unknowns of the band and is eliminated separately.
 //!
-//! The work is proportional to the number of blocks and unknowns.
+//! The work of the elimination is proportional to the number of blocks and unknowns.
 //! In each factorisation, the blocks may be coupled to different unknowns of the band.
 
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use super::block::{BLOCK, Block, BlockElimination, UNTOUCHED};
 use super::profile::{ProfileLu, ProfileMatrix};
 use super::{BandedMatrix, LinearError};
 
-/// Additional half-bandwidth that is allocated for the Schur complements.
+/// Additional half-bandwidth that is allocated for the Schur complements of the blocks.
 const EXTRA_HALF_BANDWIDTH: usize = 16;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,7 +80,7 @@ impl LocalBorder {
         border_column % BLOCK
     }
 
-    /// Entry at a row and a column. Each index is `Ok` for the band and `Err` for the border.
+    /// Entry of the matrix at a row and a column. Each index is `Ok` for the band and `Err` for the border.
     pub(super) fn get(&self, row: Result<usize, usize>, column: Result<usize, usize>) -> f64 {
         let block = |at: usize| (&self.blocks[at / BLOCK], at % BLOCK);
         match (row, column) {
@@ -115,7 +115,7 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band and its distant blocks, in the order of the arrangement.
+    /// Copies the band and its distant blocks to the matrix, in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {

@@ -1,7 +1,8 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
-//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes the large terms cancel.
-//! With 16 digits, rounding would destroy the small stiffness of these modes. With 32 digits, this stiffness and the signs of the pivots of `L D Lᵀ` are accurate.
+//! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes, the large terms cancel.
+//! With 16 digits, rounding would destroy the small stiffness of soft modes.
+//! With 32 digits, the stiffness of soft modes and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -45,7 +46,8 @@ impl PreciseBand {
         self.high[row * self.stride()]
     }
 
-    /// Adds `factor r rᵀ`. Entry `k` of `r` belongs to the unknown `unknowns[k]`. Unknowns with a number not below the size are ignored.
+    /// Adds `factor r rᵀ` to the matrix. Entry `k` of the vector `r` belongs to the unknown `unknowns[k]`.
+    /// Unknowns with a number not below the size of the matrix are ignored.
     pub(crate) fn add_square(&mut self, unknowns: &[usize], factor: f64, r: &[f64]) {
         let is_consecutive = unknowns.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if is_consecutive && unknowns.last().is_some_and(|last| *last < self.size) {
@@ -68,7 +70,8 @@ impl PreciseBand {
         }
     }
 
-    /// Adds `p qᵀ + q pᵀ`. Entry `k` of `p` and `q` belongs to the unknown `unknowns[k]`. Unknowns with a number not below the size are ignored.
+    /// Adds `p qᵀ + q pᵀ` to the matrix. Entry `k` of the vectors `p` and `q` belongs to the unknown `unknowns[k]`.
+    /// Unknowns with a number not below the size of the matrix are ignored.
     pub(crate) fn add_product(&mut self, unknowns: &[usize], p: &[f64], q: &[f64]) {
         for ((&row, &p_a), &q_a) in unknowns.iter().zip(p).zip(q) {
             for ((&column, &p_b), &q_b) in unknowns.iter().zip(p).zip(q) {
@@ -87,7 +90,7 @@ impl PreciseBand {
         (self.high[at], self.low[at]) = (sum.high, sum.low);
     }
 
-    /// Factorises `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`.
+    /// Factorises the sum of this matrix and `shift` times the matrix `other`.
     ///
     /// # Errors
     /// Fails if a pivot is zero or not finite.
@@ -99,7 +102,7 @@ impl PreciseBand {
         SymmetricFactors::of(self, shift, other)
     }
 
-    /// Signs of the pivots of `A + σ M`, where `A` is this matrix, `σ` is `shift` and `M` is `other`. Zero rows have no sign.
+    /// Signs of the pivots of the sum of this matrix and `shift` times the matrix `other`. Zero rows have no sign.
     ///
     /// # Errors
     /// Fails if the pivot of a nonzero row is zero, or a pivot is not finite.

@@ -11,7 +11,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::ProfileSubstitution;
 
 /// Square matrix with a profile.
-/// For each index, the profile gives the last row with an entry in the column of this index. The profile is symmetric.
+/// The profile gives, for each index, the last row with an entry in the column of this index. The profile is symmetric.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileMatrix {
     storage: Storage,
@@ -57,7 +57,7 @@ impl ProfileMatrix {
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
-    /// Computes row sizes from the diagonal entries. The pivot search uses them to compare rows of different units.
+    /// Computes row sizes from the diagonal entries. The pivot search compares rows of different units by their row sizes.
     pub(super) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
@@ -66,10 +66,10 @@ impl ProfileMatrix {
         self.storage.sizes[row] = size;
     }
 
-    /// Replaces the entries by the factors.
+    /// Replaces the entries of the matrix by its factors.
     ///
     /// # Errors
-    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries of the matrix are then lost.
     pub(super) fn factorise(&mut self) -> Result<ProfileLu<'_>, LinearError> {
         Arch::new().dispatch(ProfileElimination(self.storage.rows_mut(), &self.ends))?;
         Ok(ProfileLu { factors: self.storage.factors(), ends: &self.ends })
@@ -77,7 +77,6 @@ impl ProfileMatrix {
 }
 
 impl ProfileLu<'_> {
-    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         Arch::new().dispatch(ProfileSubstitution { factors: self.factors, ends: self.ends, x });
     }

@@ -14,7 +14,8 @@ pub struct SymmetricSparse {
 }
 
 impl SymmetricSparse {
-    /// Creates the matrix from entries (row, column, value) of both triangles, given in any order. Values for the same row and column are added up.
+    /// Creates the matrix from entries (row, column, value) of both triangles, given in any order.
+    /// Values for the same row and column are added up.
     /// The callback `give` is called twice, first to count the entries and then to store them.
     ///
     /// # Panics

@@ -5,8 +5,9 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest [-].
-/// At this limit, elimination with the smaller diagonal entry loses half of the digits. Corrections with the same factors recover the digits.
+/// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest entry [-].
+/// If the ratio of squared entries equals the limit, elimination with the smaller diagonal entry loses half of the digits.
+/// Corrections with the same factors recover the digits lost in the elimination.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.
@@ -23,12 +24,11 @@ pub(super) struct Storage {
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows. The choice of pivots uses them to compare rows with different units. By default all sizes are equal.
+    /// Squared sizes of the rows, equal by default. The choice of pivots compares rows with different units by their sizes.
     /// A row exchange also exchanges the row sizes.
     pub(super) sizes: Vec<f64>,
 }
 
-/// Rows of a banded matrix during elimination, stored as described for [`Storage`].
 #[derive(Debug)]
 pub(super) struct ActiveRows<'a> {
     /// Number of rows, without the identity rows.
@@ -80,7 +80,6 @@ impl Storage {
         self.end_with_the_identity();
     }
 
-    /// Index of the diagonal entry among the stored entries of a row.
     #[inline(always)]
     pub(super) fn centre(&self) -> usize {
         self.reach + PANEL - 1

@@ -11,7 +11,7 @@ pub type VectorStrip = [[f64; STRIP_WIDTH]];
 /// Matrix of four by four numbers, stored row by row, for products of two strips.
 pub type Square4 = [[f64; STRIP_WIDTH]; STRIP_WIDTH];
 
-/// Products `Xᵀ Y` of two strips. Entry `(i, j)` is the product of vector `i` of `x` and vector `j` of `y`.
+/// Products `Xᵀ Y` of two strips. Entry `(i, j)` is the scalar product of vector `i` of `x` and vector `j` of `y`.
 pub fn products(x: &VectorStrip, y: &VectorStrip) -> Square4 {
     Arch::new().dispatch(Products { x, y })
 }

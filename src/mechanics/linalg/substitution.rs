@@ -1,6 +1,6 @@
 //! Substitution with the factors of a banded matrix.
 //!
-//! Each sum adds the most recently computed value last. The processor can therefore evaluate the sums of several rows concurrently.
+//! Each sum adds the most recently computed value last, so that the processor can evaluate the sums of several rows concurrently.
 
 use pulp::{Simd, WithSimd};
 
@@ -8,7 +8,6 @@ use super::elimination::PANEL;
 use super::fixed_band;
 use super::storage::Factors;
 
-/// Forward and backward substitution, which replace a right-hand side by the solution.
 pub(super) struct Substitution<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],

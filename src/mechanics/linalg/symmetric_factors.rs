@@ -12,8 +12,7 @@ use super::{LinearError, SymmetricSparse};
 /// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
-    /// Number of negative pivots.
-    /// The number of negative pivots equals the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
+    /// Number of negative pivots, equal to the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
     pub negative: usize,
     /// Largest reduction of a diagonal entry in the elimination, as a multiple of the entry [-].
     /// The elimination multiplies the rounding error of the matrix by the growth factor, which is at most 1 for a positive definite matrix.
@@ -25,7 +24,6 @@ pub struct Pivots {
 pub struct SymmetricFactors {
     size: usize,
     reach: usize,
-    /// Columns of `L` below the diagonal.
     multipliers: Vec<f64>,
     inverse_pivots: Vec<f64>,
     pivots: Pivots,
@@ -43,7 +41,6 @@ impl SymmetricFactors {
         Ok(Self { size, reach, multipliers, inverse_pivots, pivots })
     }
 
-    /// Number of negative pivots, and growth factor of the elimination.
     pub(crate) fn pivots(&self) -> Pivots {
         self.pivots
     }
@@ -53,7 +50,8 @@ impl SymmetricFactors {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }
 
-    /// Replaces four right-hand sides by their solutions. The right-hand sides must be followed in memory by as many zeros as the half-bandwidth.
+    /// Replaces four right-hand sides by their solutions.
+    /// The right-hand sides must be followed in memory by as many zeros as the half-bandwidth.
     pub fn solve(&self, x: &mut VectorStrip) {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
@@ -93,7 +91,6 @@ impl WithSimd for SymmetricElimination<'_> {
     }
 }
 
-/// Number of values in a vector instruction.
 const LANES: usize = MARGIN + 1;
 
 impl SymmetricElimination<'_> {

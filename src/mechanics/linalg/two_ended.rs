@@ -12,10 +12,9 @@ use super::substitution::{Backward, Forward};
 use super::{BandedLu, BandedMatrix, LinearError};
 use crate::threads::both;
 
-/// Smallest number of rows for elimination from both ends. For shorter bands a second thread saves little time.
+/// Smallest number of rows for elimination from both ends. For shorter bands, a second thread saves little time.
 const FEWEST_ROWS: usize = 6000;
 
-/// Memory for the elimination from both ends.
 #[derive(Debug, Clone)]
 pub(super) struct TwoEnded {
     cut: BandCut,
@@ -69,7 +68,7 @@ impl BandCut {
 }
 
 impl TwoEnded {
-    /// Allocates the memory if the band is long enough; otherwise `None`.
+    /// Allocates the memory if the band is long enough. Returns `None` for shorter bands.
     pub(super) fn worthwhile(size: usize, half_bandwidth: usize) -> Option<Self> {
         (size >= FEWEST_ROWS && size > 16 * half_bandwidth).then(|| Self::new(size, half_bandwidth))
     }
@@ -103,7 +102,7 @@ impl TwoEnded {
     /// Replaces the entries of a matrix by its factors.
     ///
     /// # Errors
-    /// Fails if a column has no nonzero finite pivot. The entries are then lost.
+    /// Fails if a column has no nonzero finite pivot. The entries of the matrix are then lost.
     pub(super) fn factorise<'a>(
         &'a mut self,
         band: &'a mut BandedMatrix,
@@ -199,7 +198,6 @@ impl TwoEnded {
 }
 
 impl TwoEndedLu<'_> {
-    /// Replaces the right-hand side `x` by the solution of `A x = b`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Self { cut, threads, upper, lower, middle, right, reversed: turned } = self;
         let (cut, upper, lower) = (*cut, *upper, *lower);

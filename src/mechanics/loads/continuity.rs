@@ -6,13 +6,13 @@
 use super::{LimitSide, LoadError, Schedule};
 use crate::elementary::{rounded_to, whole_power};
 
-/// Smallest difference that is significant, as a multiple of the rounding error of the values.
+/// Smallest significant difference of two values, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
 
 /// Exponents `i` of the two sampling times `8⁻ⁱ` shortly after the start.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the changes of a function from the start to the two sampling times, above which the function jumps.
+/// Ratio of the changes of a function from the start to the two sampling times above which the function jumps.
 /// The ratio of the two changes is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
@@ -20,7 +20,8 @@ const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 /// Number of bisections before a difference is recorded, and again after the record.
 const HALVINGS: usize = 15;
 
-/// After repeated bisection, the remaining fraction of a difference is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// Fraction of a difference that remains after repeated bisection, above which the function jumps.
+/// The remaining fraction is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 const JUMP_RATIO: f64 = 1.05;

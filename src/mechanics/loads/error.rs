@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::elementary::rounded_to;
 
-/// Error of a script function. It is displayed unchanged, and can be downcast to its type.
+/// Error of a script function, which is displayed unchanged and can be downcast to its type.
 #[derive(Debug, Clone)]
 pub struct FunctionError(Rc<dyn Error>);
 
@@ -72,16 +72,16 @@ pub enum LoadError {
     },
     #[error("its rate is infinite at t = {time}, but must be finite")]
     InfiniteRate {
-        /// Time of the infinite rate [time].
+        /// Time at which the rate is infinite [time].
         time: f64,
     },
     #[error(transparent)]
     Function(FunctionError),
     #[error("the schedule is {value} at t = {}, but it must be finite", rounded_to(6, *time))]
     NotFinite {
-        /// Time [time].
+        /// Time of the value [time].
         time: f64,
-        /// Value [-].
+        /// Value of the schedule [-].
         value: f64,
     },
 }

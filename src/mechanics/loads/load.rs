@@ -12,7 +12,7 @@ pub enum LoadFrame {
     /// Fixed direction in space.
     #[default]
     Dead,
-    /// Frame of the section: the direction rotates with the section (follower load). Components are along and across the initial axis.
+    /// Frame of the section (follower load): the direction rotates with the section. Components are along and across the initial axis.
     Follower,
 }
 
@@ -65,6 +65,6 @@ pub struct Load {
     pub kind: LoadKind,
     /// Load factor as a function of time.
     pub schedule: Schedule,
-    /// Name in the columns of histories, which then contain the work of the load; `None` for loads without columns.
+    /// Name of the load in the columns of histories, which then contain the work of the load; `None` for loads without columns.
     pub title: Option<String>,
 }

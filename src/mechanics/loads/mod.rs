@@ -1,4 +1,4 @@
-//! Loads as functions of time, and prescribed motions. The forces of loads on bodies are in `system::elements`.
+//! Loads as functions of time, and prescribed motions.
 
 mod continuity;
 mod error;

@@ -26,7 +26,7 @@ pub struct MotionInStep {
     pub rounding: f64,
     /// Rate just before the end of the step [length/time, rad/time].
     pub rate: f64,
-    /// Derivatives of the rate at the start and at the end, as limits from inside the step [length/time², rad/time²].
+    /// Derivatives of the rate at the start and at the end of the step, as limits from inside the step [length/time², rad/time²].
     pub accelerations: [f64; 2],
     /// Mean of a prescribed rate over the step [length/time, rad/time]; zero for a prescribed displacement.
     pub mean: StepMean,
@@ -37,7 +37,7 @@ pub struct MotionInStep {
 pub struct MotionAtStart {
     /// Rate just after the start of the motion [length/time, rad/time].
     pub rate: f64,
-    /// Derivative of the rate [length/time², rad/time²].
+    /// Derivative of the rate just after the start of the motion [length/time², rad/time²].
     pub acceleration: f64,
 }
 
@@ -82,7 +82,7 @@ impl PrescribedMotion {
         }
     }
 
-    /// Evaluates the motion between two times. `duration` is their difference, which may be negative [time].
+    /// Evaluates the motion between two times. `duration` is the difference of the times, which may be negative [time].
     ///
     /// A prescribed rate is integrated by [`Schedule::mean`].
     /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
@@ -141,8 +141,8 @@ impl PrescribedMotion {
         }
     }
 
-    /// Jump of the rate at the start of a step [length/time, rad/time]. `before` is the rate at the end of the last step.
-    /// The jump is computed at declared breaks and for controllers. `None` if the rate is continuous.
+    /// Jump of the rate at the start of a step [length/time, rad/time]; `None` if the rate is continuous.
+    /// The jump is computed at declared breaks and for controllers. `before` is the rate at the end of the last step.
     ///
     /// # Errors
     /// Fails if the script function fails or a value is not finite.
@@ -180,8 +180,8 @@ impl PrescribedMotion {
 
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
-    /// The time scale of the function is unknown. Hence the derivatives of a displacement are computed over several decreasing time spans.
-    /// The result of the two consecutive time spans with the smallest difference is returned.
+    /// The time scale of the function is unknown. Therefore, the derivatives of a displacement are computed over several decreasing time spans.
+    /// Returns the derivatives for the two consecutive time spans whose results differ least.
     ///
     /// # Errors
     /// Fails if the script function fails or a value is not finite just after the start.
@@ -246,7 +246,6 @@ fn size_of(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size, value| size.max(value.abs()))
 }
 
-/// Times in a step at which a displacement is evaluated.
 fn nodes(start: f64, end: f64) -> [f64; 5] {
     let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
     NODES.map(|node| middle + half * node)

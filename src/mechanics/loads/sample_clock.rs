@@ -2,8 +2,8 @@
 
 use super::{LoadError, multiple};
 
-/// Clock of a digital controller, which samples at the times `n T`, `n = 0, 1, …`.
-/// The command of a sample acts from `n T + delay` until the next command starts to act.
+/// Clock of a digital controller with the period `T`, which samples at the times `n T`, `n = 0, 1, …`.
+/// The command of the sample at `n T` acts from `n T + delay` until the next command starts to act.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleClock {
     period: f64,
@@ -14,7 +14,7 @@ pub struct SampleClock {
 const SAME: f64 = 1e-9;
 
 impl SampleClock {
-    /// Creates a clock with a sampling period `T` and a dead time [time].
+    /// Creates a clock with a sampling period and a dead time [time].
     ///
     /// # Errors
     /// Fails if the period is not positive, the delay is negative, or one of them is not finite.
@@ -36,7 +36,7 @@ impl SampleClock {
         self.period
     }
 
-    /// Dead time between sample and action [time].
+    /// Dead time between a sample and the action of its command [time].
     pub fn delay(&self) -> f64 {
         self.delay
     }
@@ -46,7 +46,8 @@ impl SampleClock {
         multiple(self.period, number)
     }
 
-    /// Index of the last sample at or before a time. Times count as equal if they differ by less than `slack` [time]. `None` before the first sample.
+    /// Index of the last sample at or before a time; `None` before the first sample.
+    /// Two times count as equal if they differ by less than `slack` [time].
     fn last_by(&self, time: f64, slack: f64) -> Option<u64> {
         if time < -slack {
             return None;
@@ -59,7 +60,8 @@ impl SampleClock {
         Some(if self.sample(next) <= time + slack { next } else { number })
     }
 
-    /// Index of the sample at a time. Times count as equal if they differ by less than `slack` [time]. `None` if there is no sample at this time.
+    /// Index of the sample at a time; `None` without a sample at this time.
+    /// Two times count as equal if they differ by less than `slack` [time].
     pub fn sample_at(&self, time: f64, slack: f64) -> Option<u64> {
         self.last_by(time, slack).filter(|number| time - self.sample(*number) <= slack)
     }
@@ -69,12 +71,12 @@ impl SampleClock {
         self.last_by(time - self.delay, slack)
     }
 
-    /// Returns true if a command starts to act at a time.
+    /// Returns true if the command of a sample starts to act at the given time.
     pub(crate) fn is_active_at(&self, time: f64) -> bool {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }
 
-    /// Time of the next event after `now`: a sample, or the start of a command [time].
+    /// Time of the next event of the clock after `now` [time]: a sample, or the start of a command.
     pub fn next(&self, now: f64, slack: f64) -> f64 {
         let after = |time: f64| {
             self.sample(self.last_by(time, slack).map_or(0, |last| last.saturating_add(1)))
@@ -83,7 +85,6 @@ impl SampleClock {
     }
 }
 
-/// Formats a time. Very small and very large values are written with a power of ten.
 fn time_text(time: f64) -> String {
     if (1e-4..1e7).contains(&time) { time.to_string() } else { format!("{time:e}") }
 }

@@ -18,7 +18,7 @@ use crate::elementary::{sin, whole_power};
 /// Function of time that the caller provides, for example a closure of a script.
 pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
 
-/// Side from which the limit of a schedule is taken at a time. Schedules may jump.
+/// Side from which the limit of a schedule is taken at a time, because schedules may jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LimitSide {
     /// Limit from earlier times.
@@ -34,9 +34,9 @@ pub enum Schedule {
     /// Constant factor [-].
     Constant(f64),
     /// Linear interpolation between (time, factor) points. The factor is constant before the first point and after the last point.
-    /// A time that occurs twice in the table is a jump.
+    /// A time that occurs twice in the table is a jump of the factor.
     Table(Vec<(f64, f64)>),
-    /// Factor `amplitude · sin(rate · t + phase)`.
+    /// Factor `amplitude · sin(rate · t + phase)` at the time `t`.
     Sine {
         /// Amplitude [-].
         amplitude: f64,
@@ -57,9 +57,11 @@ pub enum Schedule {
         /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step. The caller sets its value at the start of the step. It is constant within the step.
+    /// Command of a controller that is sampled at every step, constant within the step.
+    /// The caller sets the command at the start of the step.
     Sampled(Rc<Cell<f64>>),
-    /// Command of a digital controller. The caller sets its value when the command starts to act. It is constant until the next command.
+    /// Command of a digital controller, constant until the next command.
+    /// The caller sets the command of the controller when the command starts to act.
     DigitalController {
         /// Cell that contains the present command.
         value: Rc<Cell<f64>>,
@@ -147,7 +149,7 @@ impl Schedule {
     /// Returns a schedule that is 0 before `from`, 1 after `to`, and linear in between.
     ///
     /// # Errors
-    /// Fails if the times are not finite, or `to` is not later than `from`.
+    /// Fails if the times are not finite, or if `to` is not later than `from`.
     pub fn ramp(from: f64, to: f64) -> Result<Self, LoadError> {
         check_times("ramp", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (to, 1.0)]))
@@ -156,13 +158,13 @@ impl Schedule {
     /// Returns a schedule that is 1 between two times, and 0 at other times.
     ///
     /// # Errors
-    /// Fails if the times are not finite, or `to` is not later than `from`.
+    /// Fails if the times are not finite, or if `to` is not later than `from`.
     pub fn pulse(from: f64, to: f64) -> Result<Self, LoadError> {
         check_times("pulse", from, to)?;
         Ok(Self::Table(vec![(from, 0.0), (from, 1.0), (to, 1.0), (to, 0.0)]))
     }
 
-    /// Returns the schedule `16/5 sin⁶(π t/duration)` up to `duration` [time], then 0. It is a smooth pulse whose mean is one.
+    /// Returns a smooth pulse with mean one: `16/5 sin⁶(π t/duration)` up to the time `duration` [time], then 0.
     ///
     /// # Errors
     /// Fails if the duration is not positive and finite.
@@ -174,7 +176,7 @@ impl Schedule {
     /// Returns the schedule `amplitude · sin(rate · t + phase)` with amplitude [-], rate [rad/time] and phase [rad].
     ///
     /// # Errors
-    /// Fails if a number is not finite.
+    /// Fails if the amplitude, the rate or the phase is not finite.
     pub fn sine(amplitude: f64, rate: f64, phase: f64) -> Result<Self, LoadError> {
         check_finite("sine", "the amplitude", amplitude)?;
         check_finite("sine", "the rate", rate)?;
@@ -216,7 +218,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// Number of script functions in the schedule. [`value`](Self::value) calls each script function once.
+    /// Number of script functions in the schedule. The method [`value`](Self::value) calls each script function once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => 1,
@@ -249,7 +251,7 @@ impl Schedule {
         if let Self::Combined { size, .. } = self { *size } else { 1 }
     }
 
-    /// Factor [-] at a time. At a jump, the limit from the given side is returned.
+    /// Factor [-] at a time; at a jump, the limit from the given side.
     ///
     /// # Errors
     /// Fails if a script function fails or the value is not finite.
@@ -282,7 +284,7 @@ impl Schedule {
         if value.is_finite() { Ok(value) } else { Err(LoadError::NotFinite { time, value }) }
     }
 
-    /// Description in the syntax of the scripting language.
+    /// Description of the schedule in the syntax of the scripting language.
     pub fn describe(&self) -> String {
         match self {
             Self::Constant(factor) => format!("constant({factor})"),

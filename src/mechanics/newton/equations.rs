@@ -7,14 +7,14 @@ use crate::linalg::BorderedMatrix;
 pub struct ResidualNorms {
     /// Largest residual force, as a fraction of the scale of the forces [-].
     pub force: f64,
-    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
+    /// Largest strain residual: strain of the configuration minus the strain that belongs to the section force [-].
     pub strain: f64,
     /// Largest constraint violation, as a fraction of the scale of the constraint [-].
     pub constraint: f64,
 }
 
 impl ResidualNorms {
-    /// Returns true if all norms are finite.
+    /// Returns true if the norms of all parts of the residual are finite.
     pub fn is_finite(&self) -> bool {
         [self.force, self.strain, self.constraint].iter().all(|part| part.is_finite())
     }
@@ -29,7 +29,7 @@ impl ResidualNorms {
         others.into_iter().fold((ResidualPart::Force, self.force), worst).0
     }
 
-    /// Largest norm [-]; NaN if a norm is NaN.
+    /// Largest norm of the parts of the residual [-]; NaN if a norm is NaN.
     pub fn largest(&self) -> f64 {
         [self.strain, self.constraint].into_iter().fold(self.force, |largest, part| {
             if part > largest || part.is_nan() { part } else { largest }
@@ -48,26 +48,27 @@ pub enum ResidualPart {
     Constraint,
 }
 
-/// Nonlinear equations `R(u) = 0`, which may have internal unknowns at quadrature points.
+/// Nonlinear equations `R(u) = 0` for the unknowns `u`, which may have internal unknowns at quadrature points.
 ///
 /// The internal unknowns (section forces) are eliminated from the linear system.
-/// Method: "mixed integration point" Newton (Magisano, Leonetti & Garcea 2017).
+/// The elimination is the "mixed integration point" Newton method (Magisano, Leonetti & Garcea 2017).
 /// [`linearise`](Equations::linearise) eliminates the internal unknowns, and [`correct`](Equations::correct) updates them.
 pub trait Equations {
-    /// Computes residual and tangent at `u`, with the internal unknowns eliminated. Both must be zero on entry.
+    /// Computes residual and tangent at the unknowns `u`, with the internal unknowns eliminated.
+    /// Residual and tangent must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
     /// Eliminates internal unknowns from a residual. A correction with earlier matrix factors needs the result.
     /// The residual must be the result of the last call of [`imbalance`](Equations::imbalance).
     fn condense(&mut self, residual: &mut [f64]);
 
-    /// Updates the internal unknowns after a correction of `u`, using the last linearisation.
+    /// Updates the internal unknowns after a correction of the unknowns `u`, using the last linearisation.
     fn correct(&mut self, correction: &[f64]);
 
-    /// Computes the residual at `u` with the present internal unknowns, and returns its norms.
+    /// Computes the residual at the unknowns `u` with the present internal unknowns, and returns its norms.
     fn imbalance(&mut self, u: &[f64], residual: &mut [f64]) -> ResidualNorms;
 
-    /// Called before every iteration. If it returns false, the solution is stopped.
+    /// Callback before every iteration. If it returns false, the solution is stopped.
     fn goes_on(&mut self) -> bool {
         true
     }

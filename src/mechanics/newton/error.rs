@@ -50,7 +50,6 @@ impl NewtonError {
 
 type NamedResidualPart = (&'static str, fn(&ResidualNorms) -> f64);
 
-/// Convergence history of the part of the residual that is largest in the last iteration.
 fn describe(history: &[ResidualNorms]) -> String {
     let last = history.last().copied().unwrap_or_default();
     let parts: [NamedResidualPart; 3] = [

@@ -1,5 +1,4 @@
 //! Newton's method for equations that provide a residual and a tangent.
-//! The residual and the tangent belong to `integrators` and `statics`, and the linear solvers to `linalg`.
 
 mod equations;
 mod error;

@@ -1,4 +1,4 @@
-//! Newton's method. Every iteration factorises a new tangent. Between iterations, corrections reuse earlier factors if this is sufficient.
+//! Newton's method, with corrections between iterations that reuse earlier matrix factors.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,17 +10,17 @@ use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 const NEAR: f64 = 1e-4;
 
 /// Largest number of corrections that take less time than one iteration.
-/// An iteration with new factors squares the residual. A correction with earlier factors only reduces it.
+/// An iteration with new factors squares the residual norm. A correction with earlier factors only reduces the residual norm.
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections that reuse the factorised tangent of similar equations. Each correction should gain several digits.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// The norm is a billionth of the residual change that the perturbation of a parameter causes.
+/// The norm `FOLLOWED` is a billionth of the residual change that the perturbation of a parameter causes.
 const FOLLOWED: f64 = 1e-14;
 
-/// Ratio of two successive residuals, above which rounding prevents a further reduction.
+/// Ratio of two successive residuals above which rounding prevents a further reduction.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -32,7 +32,7 @@ pub struct Tolerance {
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// Residual norm above which a converged solution is corrected once more with the last factors, to reach rounding [-].
+    /// Residual norm above which a converged solution is corrected one more time with the last factors, to reach rounding [-].
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,
@@ -108,7 +108,7 @@ impl Newton {
         Self::of(BorderedMatrix::zeros(unknowns, half_bandwidth, border), tolerance)
     }
 
-    /// Creates a solver with the given tangent. The type of its border determines the method of elimination.
+    /// Creates a solver with the given tangent. The type of the border of the tangent determines the method of elimination.
     pub fn of(tangent: BorderedMatrix, tolerance: Tolerance) -> Self {
         Self {
             correction: Vec::with_capacity(tangent.size()),
@@ -118,7 +118,7 @@ impl Newton {
         }
     }
 
-    /// Iterates `u` until the equations are satisfied. Afterwards `residual` contains the last residual.
+    /// Iterates the unknowns `u` until the equations are satisfied. Afterwards, `residual` contains the last residual.
     ///
     /// The vector `residual` may be longer than the unknowns. Its additional entries are reactions, which need not be zero.
     ///
@@ -167,7 +167,7 @@ impl Newton {
                 factor = imbalance.largest() / before;
                 corrections += 1;
             }
-            // If the residual is not finite, no corrections are made, because they might hide this error.
+            // If the residual is not finite, no corrections are made, because they might hide the invalid number.
             self.history.push(imbalance);
             if !imbalance.is_finite() {
                 return Err(NewtonError::NotFinite { history: self.history.clone() });

@@ -36,7 +36,8 @@ pub(super) struct StepPlan {
     pub(super) is_least: bool,
 }
 
-/// Order of accuracy of a method in a scene. Numerically damped methods are of second order in scenes without deformable elements.
+/// Order of accuracy of a method in a scene.
+/// Methods with numerical damping are of second order in scenes without deformable elements.
 fn order_of(method: Method, scene: &Scene) -> u32 {
     let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
     match method {
@@ -67,7 +68,7 @@ impl Adaptive {
         Self { controller, doubling, resampling, tolerance, length, order }
     }
 
-    /// Plans the next step from `now`, ending at `stop` at the latest [time].
+    /// Plans the next step, which starts at `now` and ends at `stop` at the latest [time].
     pub(super) fn plan(&self, state: &StepSizeState, now: f64, stop: f64) -> StepPlan {
         let least = self.controller.smallest.max(ROUNDINGS * f64::EPSILON * now);
         let wish = state.unconstrained_size.max(least);

@@ -31,18 +31,18 @@ pub struct Arrival {
     pub time: f64,
     /// Index of the slider.
     pub slider: usize,
-    /// End of the master; `None` for a take-off or a landing.
+    /// End of the master at which the slider arrived; `None` for a take-off or a landing.
     pub end: Option<MasterEnd>,
     /// Index of the beam on which a slider on a track arrived; `None` for other sliders.
     pub beam: Option<usize>,
     /// Outcome of the arrival.
     pub kind: ArrivalKind,
-    /// Impulse on the master in the impact [mass·length/time]. The contact forces do not contain it.
+    /// Impulse on the master in the impact [mass·length/time]. The contact forces do not contain this impulse.
     pub impulse: Vec2,
 }
 
 impl ArrivalKind {
-    /// Outcome in scripts, such as `bounced`.
+    /// Name of the outcome in scripts, such as `bounced`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Stopped => "stopped",
@@ -57,7 +57,8 @@ impl ArrivalKind {
 }
 
 impl Arrival {
-    /// Description such as `slider 'ring' bounced off the end of its beam at t = 1.5`. For sliders on tracks it contains the name of the beam.
+    /// Description of the arrival, such as `slider 'ring' bounced off the end of its beam at t = 1.5`.
+    /// For sliders on tracks, the description contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.end.map_or_else(String::new, |end| format!("the {} of ", end.name()));
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));

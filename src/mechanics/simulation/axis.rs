@@ -17,7 +17,6 @@ pub struct AxisStation {
     values: BasisValues,
     degree: usize,
     drawn_slope: Vec2,
-    /// Initial curvature [1/length].
     drawn_curvature: f64,
 }
 
@@ -30,7 +29,8 @@ impl<'a> Axes<'a> {
         Ok(Self { scene, drawn: System::assemble(scene)? })
     }
 
-    /// Returns stations along each beam. Station `k` of a beam is the point with number `k · Outline::places_a_station(degree)` of its outline.
+    /// Returns stations along each beam.
+    /// Station `k` of a beam is the point with number `k · Outline::places_a_station(degree)` of its outline.
     ///
     /// # Errors
     /// Fails if a station lies outside its mesh, which would be an internal error.
@@ -43,7 +43,7 @@ impl<'a> Axes<'a> {
         self.drawn.meshes().iter().enumerate().map(of_beam).collect()
     }
 
-    /// Returns a station of a beam; `None` for a particle.
+    /// Returns the axis at a station of a beam; `None` for a particle.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.
@@ -80,13 +80,14 @@ impl AxisStation {
         self.values.combine(0, points)
     }
 
-    /// Elongation of the axis, `|r'| / |r0'| - 1` [-]. For small shear it equals the axial strain.
+    /// Elongation of the axis, `|r'| / |r0'| - 1` [-], with the derivatives `r'` and `r0'` of the present and the initial position.
+    /// For small shear, the elongation equals the axial strain.
     pub fn stretch(&self, points: &[Vec2]) -> f64 {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }
 
-    /// Change of the curvature of the axis per initial length, positive counter-clockwise [1/length].
-    /// The change of the curvature differs from the bending strain κ by the derivative of the shear angle. It is NaN for elements of degree one.
+    /// Change of the curvature of the axis per initial length [1/length], positive counter-clockwise; NaN for elements of degree one.
+    /// The change of the curvature differs from the bending strain κ by the derivative of the shear angle.
     pub fn curvature(&self, points: &[Vec2]) -> f64 {
         match self.degree {
             ..=1 => f64::NAN,

@@ -8,7 +8,6 @@ use super::step_retry::StepRetry;
 #[derive(Debug, Clone)]
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,
-    /// Size of the next step; `None` for fixed steps.
     pub(super) step_size: Option<StepSizeState>,
     pub(super) retry: Option<StepRetry>,
     /// End time of the present run [time]; infinite for single steps.
@@ -20,7 +19,6 @@ impl StepClock {
         Self { grid, step_size, retry: None, goal: f64::INFINITY }
     }
 
-    /// Planned size of the next step [time].
     pub(super) fn dt(&self) -> f64 {
         self.step_size.map_or(self.grid.dt(), |state| state.unconstrained_size)
     }

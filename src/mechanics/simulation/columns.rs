@@ -9,22 +9,21 @@ pub struct Column {
     pub name: &'static str,
     /// Dimension of the values.
     pub dimension: &'static str,
-    /// True if the values describe the motion, false if they describe its computation.
+    /// True if the values describe the motion of the scene. False if they describe its computation.
     pub is_of_motion: bool,
-    /// Function that reads the value from a row.
+    /// Function that reads the value of the column from a row.
     pub value: fn(&Sample) -> f64,
 }
 
-/// Column whose presence depends on the scene.
+/// Column of a history that depends on the scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExtraColumn {
-    /// Name: object and quantity, such as `slider1.force`.
+    /// Name of the column: object and quantity, such as `slider1.force`.
     pub name: String,
     /// Dimension of the values.
     pub dimension: &'static str,
 }
 
-/// Standard columns, in their order.
 pub(super) const FIXED: &[Column] = &[
     of_run("t", "time", |row| row.measures.time),
     fixed("kinetic", "energy", |row| row.measures.energy.kinetic),

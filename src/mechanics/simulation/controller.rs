@@ -33,13 +33,12 @@ pub(super) struct StepController {
     pub(super) largest: f64,
 }
 
-/// Size of the next step, and state of the controller. It is part of the state of a simulation.
+/// Size of the next step, and state of the PI controller. It is part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
     pub(super) unconstrained_size: f64,
     pub(super) error: Option<f64>,
-    /// Number of rejected or failed attempts at the next step.
     pub(super) tries: usize,
 }
 
@@ -47,7 +46,7 @@ pub(super) struct StepSizeState {
 pub(super) struct TriedStep {
     /// Duration of the step [time].
     pub(super) duration: f64,
-    /// Error as a fraction of the allowed error [-].
+    /// Error of the step as a fraction of the allowed error [-].
     pub(super) error: f64,
 }
 
@@ -84,7 +83,7 @@ impl StepController {
             StepSizeState { unconstrained_size: self.bounded(wish), error: Some(error), tries: 0 };
     }
 
-    /// Updates the state after an accepted step that an event shortened. The step size may increase but not decrease.
+    /// Updates the controller after an accepted step that an event shortened. The step size may increase but not decrease.
     pub(super) fn accept_cut(&self, state: &mut StepSizeState, trial: TriedStep) {
         let mut alone = StepSizeState { error: None, ..*state };
         self.accept(&mut alone, trial);
@@ -95,14 +94,13 @@ impl StepController {
         };
     }
 
-    /// Updates the state after a step whose error is too large.
     pub(super) fn reject(&self, state: &mut StepSizeState, trial: TriedStep) {
         let most = if state.tries > 0 { SECOND_REJECTION_FACTOR } else { SAFETY };
         let error = if trial.error.is_nan() { f64::INFINITY } else { trial.error };
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// Updates the state after a step of a duration [time] whose equations could not be solved.
+    /// Updates the controller after a step of the given duration [time] whose equations could not be solved.
     pub(super) fn fail(&self, state: &mut StepSizeState, duration: f64) {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }

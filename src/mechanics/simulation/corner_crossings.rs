@@ -3,10 +3,12 @@
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// Branches of spring laws with sharp corners at the start, in the middle and at the end of a step. At the end there are two results: one of the whole step, and one of the two half steps.
+/// Branches of spring laws with sharp corners at the start, in the middle and at the end of a step.
+/// The end of a step has two results: one of the whole step, and one of the two half steps.
 ///
-/// A whole step and its halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its branch within a step, the difference of the rates of whole step and half steps, times the duration, is added to the error.
+/// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
+/// If a spring changes its branch within a step, the difference of the rates of both results increases the error.
+/// The increase is the difference of the rates times the duration of the step.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

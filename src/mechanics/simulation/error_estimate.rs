@@ -10,7 +10,7 @@ use crate::system::{Placement, System, SystemState};
 
 /// Takes two half steps and compares their result with the result of a whole step, which is discarded.
 ///
-/// For a method of order `p`, the error of the half steps is the difference times `1/(2^p - 1)` (Richardson).
+/// For a method of order `p`, the error of the half steps is the difference of the two results times `1/(2^p - 1)` (Richardson).
 /// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {
@@ -20,7 +20,7 @@ pub(super) struct StepDoubling {
     corner_crossings: CornerCrossings,
     /// Length scale of position errors [length].
     length: f64,
-    /// Allowed error times `2^p - 1` [-].
+    /// Allowed error times `2^p - 1` for a method of order `p` [-].
     allowed: f64,
 }
 
@@ -43,7 +43,6 @@ impl DoubledStep {
     }
 }
 
-/// Part of a step doubling in which the solver failed.
 pub(super) struct FailedStep {
     pub(super) source: StepError,
     pub(super) before: usize,
@@ -55,8 +54,8 @@ impl StepDoubling {
         Self { length, allowed, ..Self::default() }
     }
 
-    /// Takes a whole step, then two half steps over the same interval, and returns their error.
-    /// If the buffer `between` is given, the state between the half steps is stored in it.
+    /// Takes a whole step, then two half steps over the same interval, and returns the error of the half steps.
+    /// Stores the state between the half steps in the buffer `between`, if the buffer is given.
     pub(super) fn step(
         &mut self,
         integrator: &mut dyn Integrator,
@@ -90,7 +89,7 @@ impl StepDoubling {
     }
 
     /// Takes a whole step or one of the two half steps of [`step`](Self::step).
-    /// If the step fails, the model is restored to the start of the first of the three steps.
+    /// If the whole step or a half step fails, the model is restored to the start of the first of the three steps.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,
@@ -101,7 +100,6 @@ impl StepDoubling {
         take(integrator, model, step, before).inspect_err(|_| self.restore_start(model))
     }
 
-    /// Restores the start of the last interval given to [`step`](Self::step).
     pub(super) fn restore_start(&self, model: &mut System) {
         model.restore(&self.start);
     }

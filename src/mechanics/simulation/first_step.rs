@@ -8,15 +8,16 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which the scene moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` that serves as a length scale, as a fraction of the largest distance of a body from the origin. Here `v` is the start speed and `g` is gravity.
+/// Smallest distance `v²/g` that is a length scale, as a fraction of the largest distance of a body from the origin.
+/// The distance `v²/g` is computed from the start speed `v` and gravity `g`.
 const SHORTEST_WAY: f64 = 1e-3;
 
 /// Length scale of a scene: the [size](Scene::size) of the scene.
 /// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
-/// If the distance `v²/g` is very short, the scale is the largest distance of a body from the origin.
+/// If the distance `v²/g` is very short, the length scale is the largest distance of a body from the origin.
 ///
-/// A scene may have no length scale, for example a scene of a particle that starts at the origin almost at rest.
-/// The length scale of a scene without a length is 1 [length]. Only for such a scene, the steps depend on the unit of length.
+/// A scene may have no length scale, for example a particle that starts at the origin almost at rest.
+/// Without a length scale, the function returns 1 [length]. Only for such a scene, the steps depend on the unit of length.
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let places = scene.particles.iter().map(|particle| particle.position);
@@ -38,7 +39,7 @@ fn start_speed(scene: &Scene) -> f64 {
     nodes.chain(bodies).map(|velocity| velocity.norm()).fold(0.0, larger)
 }
 
-/// Shortest time in which an axial wave passes a span; `None` without beams [time].
+/// Shortest time in which an axial wave passes a span [time]; `None` without beams.
 pub(super) fn shortest_wave_time(scene: &Scene) -> Option<f64> {
     let waves = scene.beams.iter().map(|beam| {
         beam.axis.length() / (beam.mesh.spans() as f64 * beam.section.axial_wave_speed())

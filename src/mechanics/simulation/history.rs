@@ -17,7 +17,7 @@ pub struct Sample {
     pub newton_iterations: usize,
     /// Number of failed attempts at the step.
     pub retries: usize,
-    /// Energy that dampers returned in the backward substep [energy]. It is not stored in files.
+    /// Energy that dampers returned in the backward substep [energy]. The returned energy is not stored in files.
     #[serde(skip)]
     pub returned: f64,
 }
@@ -25,11 +25,11 @@ pub struct Sample {
 /// Quantity that is constant if the exchange with loads and supports is included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// Energy balance `E - W + D` [energy].
+    /// Energy `E` of the scene minus the work `W` of the loads plus the dissipated energy `D` [energy].
     Energy,
-    /// Momentum minus impulses, `p - ∫ F dt` [mass·length/time].
+    /// Momentum `p` minus the impulse of all external forces [mass·length/time].
     Momentum,
-    /// Angular momentum minus angular impulses, `L - ∫ M dt` [mass·length²/time].
+    /// Angular momentum `L` minus the angular impulse of all external forces [mass·length²/time].
     AngularMomentum,
     /// Largest distance between the partners of a joint [length].
     Gap,
@@ -44,7 +44,7 @@ impl Invariant {
         ("gap", Self::Gap),
     ];
 
-    /// Value of the invariant in a row. The value of a scalar invariant is the first component.
+    /// Value of the invariant in a row. A scalar invariant is the first component of the vector.
     pub fn value(self, row: &Measures) -> Vec2 {
         match self {
             Self::Energy => Vec2::new(row.energy.total() - row.work + row.dissipated, 0.0),
@@ -65,14 +65,14 @@ impl Invariant {
     }
 }
 
-/// Lower bounds of the scales by which drifts are divided.
+/// Lower bounds of the scales by which the drifts of invariants are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
     pub mass: f64,
     /// Length scale of the scene [length]; zero if the scene has no length scale, for example a single particle at the origin.
     pub length: f64,
-    /// Rounding error of the strain energy [energy]. Energy drifts are divided by at least this value.
+    /// Rounding error of the strain energy [energy], which is the smallest scale of energy drifts.
     pub rounding_energy: f64,
 }
 
@@ -95,7 +95,6 @@ impl History {
         Self { samples: Vec::new(), extra_columns, extra: Vec::new(), scales }
     }
 
-    /// Reserves memory for `rows` further rows.
     pub(crate) fn reserve(&mut self, rows: usize) {
         self.samples.reserve(rows);
         self.extra.reserve(rows * self.extra_columns.len());
@@ -112,7 +111,7 @@ impl History {
         assert_eq!(self.extra.len(), expected, "a row has one value for each extra column");
     }
 
-    /// Keeps only the first `rows` rows.
+    /// Keeps only the first `rows` rows of the history.
     pub fn truncate(&mut self, rows: usize) {
         self.samples.truncate(rows);
         self.extra.truncate(rows * self.extra_columns.len());
@@ -164,12 +163,12 @@ impl History {
         fixed.chain(extra)
     }
 
-    /// Dimension of a column; `None` for an unknown name.
+    /// Dimension of a column with a given name; `None` for an unknown name.
     pub fn dimension(&self, name: &str) -> Option<&'static str> {
         self.columns().find(|(other, _)| *other == name).map(|(_, dimension)| dimension)
     }
 
-    /// Values of a column; `None` for an unknown name.
+    /// Values of a column with a given name; `None` for an unknown name.
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         if let Some(column) = Self::COLUMNS.iter().find(|column| column.name == name) {
             return Some(self.samples.iter().map(column.value).collect());
@@ -182,7 +181,7 @@ impl History {
     /// Values of a column, each averaged with the value of the previous row.
     /// The first two values are not averaged, because quantities of a step, such as contact forces, have no value at the start.
     ///
-    /// The average removes oscillations from step to step. It is the value of the quantity in the middle of the step.
+    /// The average removes oscillations from step to step, and approximates the value in the middle of the step.
     pub fn averaged(&self, name: &str) -> Option<Vec<f64>> {
         let mut column = self.column(name)?;
         for row in (1..column.len()).rev().filter(|row| self.samples[row - 1].dt > 0.0) {
@@ -195,7 +194,7 @@ impl History {
     /// The scale of a drift is the largest energy, momentum or angular momentum of all rows.
     /// The gap of joints is not divided by a scale.
     ///
-    /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the kinetic energy `K`.
+    /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the mass `m` and the kinetic energy `K`.
     /// The scale of momenta is also at least the sum of the magnitudes of all exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
@@ -236,8 +235,9 @@ impl History {
         }
     }
 
-    /// Largest increase of `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
-    /// The growth is NaN if an energy is NaN or there are no rows.
+    /// Largest increase of the energy balance `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
+    /// `E` is the energy, `W` the work of the loads and `D` the dissipated energy.
+    /// The largest increase is NaN if an energy is NaN or the history has no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };
         let mut least = f64::INFINITY;
@@ -252,7 +252,7 @@ impl History {
         }
     }
 
-    /// Largest of the [`drifts`](Self::drifts) of an invariant. The result is NaN if a drift is NaN or there are no rows.
+    /// Largest of the [`drifts`](Self::drifts) of an invariant; NaN if a drift is NaN or the history has no rows.
     pub fn drift(&self, invariant: Invariant) -> f64 {
         if self.samples.is_empty() {
             return f64::NAN;

@@ -5,12 +5,11 @@ use std::cell::OnceCell;
 use super::{Outline, Warning};
 use crate::system::SystemError;
 
-/// Properties of the initial configuration: outlines of the beams, the lowest period of vibration (both cached), and warnings.
+/// Properties of the initial configuration: outlines of the beams, lowest period of vibration, and warnings. Outlines and period are cached.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,
     lowest_period: OnceCell<Option<f64>>,
-    /// Warnings about bodies that start inside an obstacle.
     pub(super) warnings: Vec<Warning>,
 }
 
@@ -26,7 +25,7 @@ impl InitialGeometry {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// Lowest period of vibration in the initial configuration [time]; `None` if there is no vibration.
+    /// Lowest period of vibration in the initial configuration [time]; `None` without vibration.
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

@@ -1,4 +1,4 @@
-//! Simulation runs and their recorded results. The formulas of a step belong to `integrators`, and the mechanical model to `system`.
+//! Simulation runs and their recorded results.
 
 mod adaptive;
 mod archive;

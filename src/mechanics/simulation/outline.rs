@@ -5,14 +5,13 @@ use crate::elementary::atan2;
 use crate::geometry::{Vec2, cross, perpendicular};
 use crate::system::{BeamDefinition, RigidBodyDefinition, Scene, SystemError};
 
-/// Number of points per span for spline degrees above one.
 const POINTS_A_SPAN: usize = 8;
 
 fn pieces(degree: usize) -> usize {
     if degree == 1 { 1 } else { POINTS_A_SPAN }
 }
 
-/// Points on a body that define its drawing: points of a beam axis and its knots or nodes, or points of a rigid body.
+/// Points that define the drawing of a body: points of a beam axis and its knots or nodes, or points of a rigid body.
 #[derive(Debug, Clone)]
 pub struct Outline {
     line: Vec<BodyPoint>,
@@ -27,7 +26,7 @@ pub struct DrawnConfiguration {
     pub time: f64,
     /// Polyline of each beam [length].
     pub lines: Vec<Vec<Vec2>>,
-    /// Polyline around each rigid body with points [length].
+    /// Polyline around each rigid body that has further points than its centre [length].
     pub bodies: Vec<Vec<Vec2>>,
     /// Positions of the knots or nodes of all beams [length].
     pub marks: Vec<Vec2>,
@@ -94,7 +93,7 @@ impl Outline {
     }
 
     /// Corners of the closed polygon of a rigid body, relative to the line between the two points of [`line`](Self::line).
-    /// The first coordinate is along the line, the second coordinate is to its left. The unit is the length of the line.
+    /// The first coordinate of a corner is along the line, the second coordinate is to its left. The unit is the length of the line.
     pub fn corners(&self) -> &[Vec2] {
         &self.corners
     }
@@ -123,7 +122,7 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// Number of outline points per station of the axis. There are two stations per span, or one per straight span.
+    /// Number of outline points per station of the axis. A span has two stations, a straight span has one station.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }
@@ -138,12 +137,13 @@ impl Outline {
         &self.line
     }
 
-    /// Points at the knots or nodes.
+    /// Points of the outline at the knots or nodes of the beam.
     pub fn marks(&self) -> &[BodyPoint] {
         &self.marks
     }
 
-    /// Computes a configuration for drawing from the control points of all bodies [length]: beams, then particles, then rigid bodies.
+    /// Computes a configuration for drawing from the control points of all bodies [length].
+    /// The control points are given for beams, then particles, then rigid bodies.
     pub fn draw(outlines: &[Self], time: f64, control_points: &[&[Vec2]]) -> DrawnConfiguration {
         let at = |place: &BodyPoint| place.interpolate(control_points[place.body]);
         let beams = outlines.partition_point(Self::is_of_beam);

@@ -8,14 +8,13 @@ use super::{DriftScales, History, Recording, Sample, Trajectory};
 use crate::geometry::Vec2;
 use crate::system::{Scene, Sensor, SensorReader, System, SystemError};
 
-/// Recorded results of a run, and the rule that selects the recorded states.
 #[derive(Debug, Clone)]
 pub(super) struct RunRecord {
     pub(super) history: History,
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
     pub(super) permanent_rows: usize,
-    /// Sensors of the columns after the standard ones.
+    /// Sensors of the columns that follow the standard columns.
     pub(super) sensors: Vec<Sensor>,
     reader: SensorReader,
 }
@@ -24,7 +23,7 @@ impl RunRecord {
     /// Creates a record whose first row is the start of a scene.
     ///
     /// # Errors
-    /// Fails if a sensor cannot be located, or two columns share a name.
+    /// Fails if a sensor cannot be located, or if two columns have the same name.
     pub(super) fn new(scene: &Scene, model: &mut System) -> Result<Self, SystemError> {
         let sensors = scene.history_sensors();
         let columns = sensors.iter().map(|sensor| ExtraColumn {
@@ -114,7 +113,7 @@ fn scales(scene: &Scene, model: &System) -> DriftScales {
     let distances = model.control_points().flatten().map(|point| point.norm());
     DriftScales {
         mass: model.total_mass(),
-        // The scale is the radius of gyration of the longest beam or, if larger, the distance of a body from the origin.
+        // The length scale is the radius of gyration of the longest beam or, if larger, the distance of a body from the origin.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
             if distance > 10.0 * longest { length.max(distance) } else { length }
         }),

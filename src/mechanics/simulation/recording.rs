@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use serde::{Deserialize, Serialize};
 
-/// Rule that selects the recorded states. The start, the ends of runs and the arrivals of sliders are always recorded.
+/// Rule that selects the recorded states of a run. The start, the ends of runs and the arrivals of sliders are always recorded.
 ///
 /// Energies and sensors are evaluated only for recorded states. In addition, the present state has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

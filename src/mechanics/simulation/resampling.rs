@@ -7,15 +7,15 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed distance between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
+/// Allowed difference between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
 /// In the time scale of a motion, the accumulated error due to sampling is about half the tolerance (theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
 ///
-/// The error of the method is the difference between a whole step and two half steps that both use the controller values at the start.
-/// After sampling of the controllers in the middle of the step, the second half step is repeated.
-/// The difference between both results of the second half is the error due to sampling.
+/// The error of the method is the difference between a whole step and two half steps with the same controller values.
+/// The second half step is repeated with controller values that are sampled in the middle of the step.
+/// The difference between the two results of the second half step is the error due to sampling.
 pub(super) struct Resampling {
     /// Power of the step size in the difference of positions in one step [-].
     order: i32,
@@ -27,7 +27,6 @@ pub(super) struct Resampling {
     half_step: Option<HalfStep>,
 }
 
-/// Step that is paused in its middle to sample controllers.
 struct HalfStep {
     plan: StepPlan,
     doubled: DoubledStep,

@@ -1,4 +1,4 @@
-//! Time loop. Steps end on a time grid. A failed step is halved and repeated.
+//! Time loop of a simulation. Steps end on a time grid. A failed step is halved and repeated.
 
 mod adapting;
 mod back;
@@ -78,13 +78,13 @@ impl Simulation {
     /// Builds a scene and starts the simulation at t = 0.
     ///
     /// # Errors
-    /// Fails if the step size or a method parameter is out of range, or the scene cannot be built.
+    /// Fails if the step size or a method parameter is out of range, or if the scene cannot be built.
     pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
         Self::start_while(scene, settings, &mut || true)
     }
 
-    /// Builds a scene and starts the simulation. The caller can stop the assembly.
-    /// The callback `goes_on` is called repeatedly during the assembly. If it returns false, the start fails.
+    /// Builds a scene and starts the simulation, with a callback that can stop the assembly.
+    /// The callback `goes_on` is called repeatedly during the assembly. If the callback returns false, the start fails.
     ///
     /// # Errors
     /// Fails in the same cases as [`start`](Self::start), or if the assembly is stopped.
@@ -104,7 +104,8 @@ impl Simulation {
     /// If the equilibrium includes prescribed positions, the simulation starts at the time for which the equilibrium was computed.
     ///
     /// # Errors
-    /// Fails if the step size or a method parameter is out of range, or if the position of a drive in the equilibrium differs from its function.
+    /// Fails if the step size or a method parameter is out of range.
+    /// Also fails if the position of a drive in the equilibrium differs from its function.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -173,7 +174,9 @@ impl Simulation {
         Ok(started)
     }
 
-    /// Sets the largest number of threads for large scenes. The default is the number of cores. The number does not affect results.
+    /// Sets the largest number of threads for large scenes.
+    /// The default number of threads is the number of cores.
+    /// Results do not depend on the number of threads.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }
@@ -198,12 +201,12 @@ impl Simulation {
         &self.model
     }
 
-    /// History so far.
+    /// History of the run up to the present time.
     pub fn history(&self) -> &History {
         &self.record.history
     }
 
-    /// Trajectory so far.
+    /// Trajectory of the run up to the present time.
     pub fn trajectory(&self) -> &Trajectory {
         &self.record.trajectory
     }
@@ -223,7 +226,7 @@ impl Simulation {
         self.model.half_bandwidth()
     }
 
-    /// Returns true if a time is reached, within rounding.
+    /// Returns true if the simulation has reached a time, within rounding.
     pub fn has_reached(&self, time: f64) -> bool {
         self.clock.grid.has_reached(self.time(), time)
     }
@@ -241,7 +244,7 @@ impl Simulation {
     /// Takes one step to the next end time of the grid.
     ///
     /// # Errors
-    /// Fails if the equations of the step have no solution, an arrival has ended the run, or the monitor stops it.
+    /// Fails if the equations of the step have no solution, an arrival has ended the run, or the monitor stops the run.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
@@ -283,10 +286,10 @@ impl Simulation {
 
     /// Advances the time without solving equations (dry run). The history receives the rows of a motionless scene.
     ///
-    /// Dry runs are used to check scripts. If there are very many steps, only the first and the last step are recorded.
+    /// Dry runs check scripts. In a dry run with very many steps, only the first and the last step are recorded.
     ///
     /// # Errors
-    /// Fails if `end` is in the past or not finite, or the monitor stops the run.
+    /// Fails if `end` is in the past or not finite, or if the monitor stops the run.
     pub fn dry_run_to(
         &mut self,
         end: f64,

@@ -15,14 +15,14 @@ use crate::integrators::{
 use crate::newton::NewtonReport;
 use crate::system::{Scene, System, SystemState};
 
-/// Two scenes for a perturbed parameter: at the parameter plus and minus a perturbation.
+/// Two scenes for a perturbed parameter: one with a positive and one with a negative perturbation.
 #[derive(Debug, Clone)]
 pub struct Variation {
     /// Name of the parameter.
     pub name: String,
     /// Perturbation in the unit of the parameter.
     pub distance: f64,
-    /// Scenes at the parameter plus and minus the perturbation.
+    /// Scenes with the positive and with the negative perturbation of the parameter.
     pub scenes: [Scene; 2],
 }
 
@@ -45,7 +45,7 @@ pub struct DerivativeCounts {
 }
 
 /// Derivatives of a run with respect to parameters, solved with the factorised matrix of each step.
-/// The right-hand side follows from the difference of two residuals, at a positive and a negative perturbation of the parameter.
+/// The right-hand side of the linear system follows from the residuals at a positive and a negative perturbation of the parameter.
 pub(super) struct Sensitivities {
     stepper: SharedFactorStepper,
     parameters: Vec<PerturbedRuns>,
@@ -135,8 +135,8 @@ impl Sensitivities {
     }
 
     /// Applies a release of the main run to the perturbed runs.
-    /// Positions and rates are continuous, and the time of the release does not depend on parameters.
-    /// A release does not change the derivatives of the state, except their numbering.
+    /// Positions and rates are continuous at the release, and the time of the release does not depend on parameters.
+    /// A release changes only the numbering of the derivatives of the state.
     ///
     /// # Errors
     /// Fails if a perturbed scene cannot be built again, although it was built before.
@@ -210,7 +210,7 @@ impl Sensitivities {
     /// Perturbed run for a parameter.
     ///
     /// # Errors
-    /// Fails if there are no derivatives.
+    /// Fails if the run has no derivatives.
     pub(super) fn perturbed(
         &self,
         parameter: usize,

@@ -9,11 +9,9 @@ use super::step_retry::StepRetry;
 use super::{ReleaseEvent, WorkCounts};
 use crate::system::SystemState;
 
-/// State of a simulation from which the run can be continued bit for bit.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     pub(super) state: SystemState,
-    /// Time of the snapshot [time].
     pub(super) time: f64,
     pub(super) rows: usize,
     pub(super) last_step: StepTaken,
@@ -22,7 +20,6 @@ pub(super) struct Snapshot {
     pub(super) counts: WorkCounts,
     pub(super) passed: u64,
     pub(super) retry: Option<StepRetry>,
-    /// Size of the next step; `None` for fixed steps.
     pub(super) step_size: Option<StepSizeState>,
 }
 
@@ -47,7 +44,7 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    /// Changes the memory limit [bytes]. If there is no snapshot yet, `present` creates the first one.
+    /// Changes the memory limit of the snapshots [bytes]. If no snapshot is stored, the callback `present` creates the first snapshot.
     pub(super) fn set_limit(&mut self, limit: usize, present: impl FnOnce() -> Snapshot) {
         let kept = std::mem::take(self);
         let first = if limit == 0 { None } else { Some(kept.first.unwrap_or_else(present)) };
@@ -87,14 +84,14 @@ impl Snapshots {
         self.all().count()
     }
 
-    /// First step such that the snapshots of all steps from it up to `now` are stored.
+    /// Smallest step number from which the snapshots of all steps up to `now` are stored.
     pub(super) fn unbroken_from(&self, now: usize) -> Option<usize> {
         let first = self.first.as_ref()?.steps();
         let oldest = self.recent.front().map_or(now, Snapshot::steps);
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// Snapshot after a number of steps; `None` if it is not stored.
+    /// Snapshot after a number of steps; `None` if this snapshot is not stored.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);
@@ -109,7 +106,6 @@ impl Snapshots {
         (last.steps() >= unbroken).then_some(last)
     }
 
-    /// Removes snapshots after more than `steps` steps.
     pub(super) fn truncate(&mut self, steps: usize) {
         self.recent.truncate(self.recent.partition_point(|snapshot| snapshot.steps() <= steps));
     }

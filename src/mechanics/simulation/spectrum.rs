@@ -1,9 +1,10 @@
 //! Frequency spectrum of a column over time.
 //!
-//! The mean is subtracted, the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB), and zeros are appended.
+//! The mean is subtracted, and the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB).
+//! Then, zeros are appended.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
 //! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
-//! The transform uses the sines of this crate, so that results are identical on all machines.
+//! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 
@@ -17,17 +18,16 @@ const EVEN: f64 = 1e-6;
 /// Smallest number of rows to which the window function is applied.
 const FEWEST: usize = 16;
 
-/// Smallest ratio of the length with appended zeros to the original length.
+/// Smallest ratio of the length with appended zeros to the original length of the column.
 const PADDING: usize = 4;
 
 /// Largest height of a maximum that may be a side lobe of the window function, as a fraction of the largest maximum.
 const SIDE_LOBES: f64 = 5e-5;
 
-/// Coefficients of the Blackman–Harris window function.
 const WINDOW: [f64; 4] = [0.35875, -0.48829, 0.14128, -0.01168];
 
 /// Half width of the main lobe of the window function, as a multiple of the frequency that has one period over all rows.
-/// Frequencies below the half width cannot be distinguished from the mean.
+/// Frequencies below the half width of the main lobe cannot be distinguished from the mean.
 const LOBE: f64 = 4.0;
 
 /// Vibration found in a column.
@@ -35,7 +35,7 @@ const LOBE: f64 = 4.0;
 pub struct SpectrumPeak {
     /// Frequency [1/time].
     pub frequency: f64,
-    /// Half the peak-to-peak value, in the unit of the column.
+    /// Half the peak-to-peak value of the vibration, in the unit of the column.
     pub amplitude: f64,
 }
 
@@ -55,13 +55,13 @@ pub enum SpectrumError {
 }
 
 impl TimeSeries {
-    /// Strongest vibrations of the column, at most `most`, in decreasing order of amplitude.
+    /// Strongest vibrations of the column, in decreasing order of amplitude. The argument `most` limits their number.
     ///
     /// Two vibrations are not separated if their numbers of periods over all rows differ by less than about four.
     /// Vibrations with fewer than about four periods are not detected.
     ///
     /// # Errors
-    /// Fails if there are too few or unevenly spaced rows, or a value is NaN.
+    /// Fails if there are too few or unevenly spaced rows, or if a value is NaN.
     pub fn spectrum(&self, most: usize) -> Result<Vec<SpectrumPeak>, SpectrumError> {
         let count = self.values.len();
         if count < FEWEST {
@@ -107,7 +107,7 @@ impl TimeSeries {
         Ok((self.times[count - 1] - self.times[0]) / (count - 1) as f64)
     }
 
-    /// Amplitudes at multiples of a base frequency, from zero to half the sampling rate.
+    /// Amplitudes of the windowed column at multiples of a base frequency, from zero to half the sampling rate.
     fn windowed_magnitudes(&self) -> Vec<f64> {
         let count = self.values.len();
         let weights: Vec<f64> = (0..count)
@@ -129,7 +129,7 @@ impl TimeSeries {
     }
 }
 
-/// Fourier transform in place. The length must be a power of two.
+/// Computes the Fourier transform in place. The length must be a power of two.
 fn transform(numbers: &mut [(f64, f64)]) {
     let size = numbers.len();
     let bits = size.trailing_zeros();

@@ -1,6 +1,6 @@
 //! Statistics of a column over time: extremes, means, derivatives and crossings.
 //!
-//! Columns are interpolated linearly between rows. Integrals are exact for this interpolation.
+//! Columns are interpolated linearly between rows. Integrals are exact for linear interpolation.
 
 /// Time series of a quantity, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,9 +22,9 @@ pub struct Summary {
     pub max: f64,
     /// Time at which the largest value first occurs [time].
     pub max_at: f64,
-    /// Time average `∫ f dt / T`.
+    /// Time average `∫ f dt / T` of the quantity `f` over the duration `T`.
     pub mean: f64,
-    /// Root mean square `√(∫ f² dt / T)`.
+    /// Root mean square `√(∫ f² dt / T)` of the quantity `f` over the duration `T`.
     pub rms: f64,
     /// Integral `∫ f dt`.
     pub integral: f64,
@@ -60,9 +60,10 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row: the slope of the parabola through the row and its neighbours. It is of second order also for uneven spacing.
-    /// At the ends of the column, the difference quotient is one-sided.
-    /// A jump consists of two rows of equal time. Each of the two rows uses the difference quotient on its side of the jump.
+    /// Time derivative at every row, of second order also for uneven spacing.
+    /// The derivative is the slope of the parabola through the row and its neighbours.
+    /// In the first and the last row, the derivative is a one-sided difference quotient.
+    /// A jump consists of two rows of equal time. Each row of a jump uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {

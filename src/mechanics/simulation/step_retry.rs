@@ -62,7 +62,7 @@ impl StepRetry {
         self.covered == PARTS
     }
 
-    /// Returns the step, or `None` if it is completed.
+    /// Returns the remaining part of the step; `None` if the step is completed.
     pub(super) fn remaining(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }
@@ -80,7 +80,7 @@ impl StepRetry {
         }
     }
 
-    /// Halves the size of the next part. Returns false if the part has the smallest size already.
+    /// Halves the size of the next part. Returns false if the next part already has the smallest size.
     pub(super) fn fail(&mut self) -> bool {
         self.retries += 1;
         let can_be_halved = self.halvings < MOST_HALVINGS;

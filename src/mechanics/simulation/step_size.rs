@@ -19,7 +19,7 @@ pub enum StepSize {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepControl {
     /// Allowed error that accumulates while the scene moves by about its own length.
-    /// The error of a position is a fraction of the length of the scene. The error of an angle is in rad [-].
+    /// The allowed error of a position is relative to the length of the scene [-]. The allowed error of an angle is in rad.
     ///
     /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
     /// The step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.
@@ -86,7 +86,7 @@ impl StepSize {
     /// Checks all values of the step size.
     ///
     /// # Errors
-    /// Fails if a number is out of range.
+    /// Fails if a number of the step size is out of range.
     pub fn check(&self) -> Result<(), StepSizeError> {
         match *self {
             Self::Fixed(dt) if dt.is_finite() && dt > 0.0 => Ok(()),

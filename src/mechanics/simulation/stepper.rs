@@ -5,7 +5,6 @@ use crate::integrators::{Integrator, Interval, StepError};
 use crate::newton::NewtonReport;
 use crate::system::System;
 
-/// Integrator of a run, with its optional derivatives.
 pub(super) struct Stepper {
     pub(super) integrator: Box<dyn Integrator>,
     pub(super) sensitivities: Option<Box<Sensitivities>>,
@@ -16,10 +15,7 @@ impl Stepper {
         Self { integrator, sensitivities: None }
     }
 
-    /// Takes one step over an interval, and computes its derivatives if they are enabled.
-    ///
-    /// # Errors
-    /// Fails if the step of the run fails.
+    /// Takes one step over an interval, and computes the derivatives of the step if they are enabled.
     pub(super) fn step(
         &mut self,
         model: &mut System,

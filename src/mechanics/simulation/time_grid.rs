@@ -2,13 +2,12 @@
 
 use crate::loads::{SampleClock, multiple};
 
-/// Largest difference of two times that count as equal, as a fraction of the step.
+/// Largest difference of two times that count as equal, as a fraction of the step size.
 const SAME: f64 = 1e-9;
 
 /// Largest difference of two times that count as equal, as a multiple of their rounding error.
 const ROUNDINGS: f64 = 4.0;
 
-/// Largest index of a grid point.
 const MOST_POINTS: u64 = 1 << 60;
 
 /// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.
@@ -26,13 +25,14 @@ pub struct TimeGrid {
 }
 
 impl TimeGrid {
-    /// Creates a grid that starts at `start` with steps of `dt` [time]. `cuts` may be unsorted.
+    /// Creates a grid that starts at `start` with steps of `dt` [time]. The list `cuts` of additional times may be unsorted.
     pub fn new(start: f64, dt: f64, cuts: Vec<f64>) -> Self {
         let slack = SAME * dt;
         Self { start, dt, slack, cuts: Vec::new(), clocks: Vec::new(), passed: 0 }.with_cuts(cuts)
     }
 
-    /// Creates a grid without regular times, for variable steps: steps must end only at the `cuts`. `first` is the size of the first step [time].
+    /// Creates a grid without regular times, for variable steps: steps must end only at the `cuts`.
+    /// `first` is the size of the first step [time].
     pub(crate) fn of_cuts(start: f64, first: f64, cuts: Vec<f64>) -> Self {
         Self { dt: f64::INFINITY, ..Self::new(start, first, cuts) }
     }
@@ -53,7 +53,7 @@ impl TimeGrid {
         &self.cuts
     }
 
-    /// Spacing of the grid; infinite if there are only cuts [time].
+    /// Spacing of the regular grid times [time]; infinite if the grid has only cuts.
     pub fn dt(&self) -> f64 {
         self.dt
     }
@@ -63,12 +63,11 @@ impl TimeGrid {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }
 
-    /// Returns true if a time is before or equal to `now`, within the tolerance.
+    /// Returns true if a time is before or equal to `now`, within the tolerance of the grid.
     pub fn has_reached(&self, now: f64, time: f64) -> bool {
         now >= time - self.slack(now)
     }
 
-    /// Grid time `t_0 + n dt`.
     fn point(&self, n: u64) -> f64 {
         if self.dt == f64::INFINITY || n > MOST_POINTS {
             return f64::INFINITY;
@@ -76,7 +75,7 @@ impl TimeGrid {
         self.start + multiple(self.dt, n)
     }
 
-    /// Adds a cut, unless there is already a cut at this time.
+    /// Adds a cut, unless the grid already has a cut at this time.
     pub fn cut_at(&mut self, time: f64) {
         let same = self.slack(time);
         if self.cuts.iter().all(|cut| (cut - time).abs() > same) {
@@ -84,12 +83,12 @@ impl TimeGrid {
         }
     }
 
-    /// End of the step that starts at `now`: the next grid time or cut, at most `limit` [time].
+    /// End of the step that starts at `now` [time]: the next grid time or cut, at most `limit`.
     pub fn next(&self, now: f64, limit: f64) -> f64 {
         self.next_after(self.points_up_to(now, self.passed), now, limit)
     }
 
-    /// End of the step that started at an earlier time, without a limit [time].
+    /// End of the step that started at the time `start`, without a limit [time].
     pub(crate) fn end_of_step(&self, start: f64) -> f64 {
         self.next_after(self.points_up_to(start, 0), start, f64::INFINITY)
     }
@@ -110,26 +109,26 @@ impl TimeGrid {
         self.passed
     }
 
-    /// Restores the number of passed grid times. Cuts are kept.
+    /// Restores the number of passed grid times. Cuts do not change.
     pub fn restore(&mut self, passed: u64) {
         self.passed = passed;
     }
 
-    /// Replaces the cuts. Cuts up to `now` count as passed.
+    /// Replaces the cuts. Cuts up to `now` are already passed.
     pub fn lay(&mut self, cuts: &[f64], now: f64) {
         *self = std::mem::take(self).with_cuts(cuts.to_vec());
         self.passed = 0;
         self.mark_reached(now);
     }
 
-    /// Records that a time is reached. The next search for an end time starts there.
+    /// Records that a time is reached. The next search for an end time starts at this time.
     pub(crate) fn mark_reached(&mut self, now: f64) {
         self.passed = self.points_up_to(now, self.passed);
     }
 
     /// Number of grid times up to `now`, at least `least`.
     fn points_up_to(&self, now: f64, least: u64) -> u64 {
-        // The search starts at an index slightly below the result.
+        // The search for the number of grid times starts slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);
         let mut passed = least.max(near);
         while passed < MOST_POINTS && self.has_reached(now, self.point(passed + 1)) {

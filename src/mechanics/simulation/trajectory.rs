@@ -1,6 +1,6 @@
 //! Recorded control points at many times.
 
-/// Largest number of stored values of a trajectory. If it is exceeded, every second configuration is discarded.
+/// Largest number of stored values of a trajectory. For more values, every second configuration is discarded.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Trajectory of a run: control points of all bodies [length] at some times of the run.
@@ -25,7 +25,7 @@ impl Trajectory {
         self.numbers.reserve(room * self.stride);
     }
 
-    /// Receives a configuration, and stores it unless it belongs to the discarded configurations.
+    /// Stores every n-th configuration passed to the trajectory. The number n is doubled at the limit of stored values.
     pub fn push(&mut self, time: f64, numbers: impl Iterator<Item = f64>) {
         if self.offered.is_multiple_of(self.every) {
             self.times.push(time);
@@ -49,8 +49,8 @@ impl Trajectory {
         self.every *= 2;
     }
 
-    /// Restores the trajectory to the time when it had received `offered` configurations.
-    /// Configurations that have been discarded since then are not restored.
+    /// Restores the trajectory to the time when `offered` configurations had been passed to it.
+    /// Configurations that were discarded because of the limit of stored values are not restored.
     /// If the run is repeated after the restoration, the trajectory becomes the same as in the original run.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;

@@ -22,7 +22,7 @@ const BOUNCE: f64 = 5.0;
 /// Smallest number of steps per period for which no warning is given.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Cause of rate changes within a step that is not a vibration.
+/// Cause of rate changes within a step, other than a vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.
@@ -42,9 +42,9 @@ impl fmt::Display for RateChangeCause {
     }
 }
 
-/// Motion that the steps do not resolve.
+/// Motion that the time steps do not resolve.
 ///
-/// To add a type of warning, add a variant, its message, and its condition in `Simulation::warnings`.
+/// A new type of warning needs a variant, a message, and a condition in `Simulation::warnings`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Unresolved vibration with a large fraction of the kinetic energy.
@@ -62,7 +62,7 @@ pub enum Warning {
         /// Name of a method that would damp the vibration; `None` if the method is in use or would have no effect.
         damping: Option<&'static str>,
     },
-    /// Unresolved vibration of a damped beam. The kinetic energy of the beam is small in comparison with other bodies.
+    /// Unresolved vibration of a damped beam whose kinetic energy is small in comparison with other bodies.
     Beam {
         /// Name of the beam.
         beam: String,
@@ -83,9 +83,9 @@ pub enum Warning {
         share: f64,
         /// Accumulated phase error [rad].
         phase: f64,
-        /// Step size with a small phase error [time].
+        /// Recommended step size with a small phase error [time].
         advised: f64,
-        /// Name of a method of higher order; `None` if it is in use.
+        /// Name of a method of higher order; `None` if a method of higher order is in use.
         method: Option<&'static str>,
     },
     /// Drive that starts with a speed at a beam at rest.
@@ -104,7 +104,7 @@ pub enum Warning {
         /// Length of the longest recent step [time].
         longest: f64,
     },
-    /// Large number of adaptive steps. The steps are much shorter than the motion of the whole scene requires, or the method is of first order.
+    /// Large number of adaptive steps, due to a method of first order or to fast vibrations of small amplitude.
     ManySteps {
         /// Number of steps so far.
         steps: usize,
@@ -112,7 +112,7 @@ pub enum Warning {
         dt: f64,
         /// Tolerance [-].
         tolerance: f64,
-        /// Name of the method if it is of first order; `None` otherwise.
+        /// Name of the method if the method is of first order; `None` otherwise.
         method: Option<&'static str>,
         /// Time in which the scene moves by its own length [time].
         travel_time: f64,
@@ -139,7 +139,7 @@ pub enum Warning {
     Friction {
         /// Name of the slider.
         slider: String,
-        /// Number of such steps.
+        /// Number of steps with a constant friction force.
         steps: usize,
     },
     /// Slider that only pushes, and that stayed in contact under a tensile force after too many take-offs and landings.
@@ -149,7 +149,7 @@ pub enum Warning {
         /// Number of attempted steps in which the slider stayed in contact under a tensile force.
         steps: usize,
     },
-    /// Slider on a master with a kink. The slider moves almost as fast as the shear waves of the master.
+    /// Slider that moves on its master almost as fast as the shear waves of the master.
     WaveSpeed {
         /// Name of the slider.
         slider: String,
@@ -189,7 +189,7 @@ pub enum Warning {
         owner: String,
         /// Step size [time].
         dt: f64,
-        /// Step with the largest difference between two quadrature rules for the mean.
+        /// Step with the largest difference between two quadrature rules for the mean of the function.
         change: UnsampledChange,
     },
     /// Spring or damper beyond the range of its law.
@@ -219,7 +219,7 @@ pub enum Warning {
         /// Energy that the contacts of the body store [energy].
         energy: f64,
     },
-    /// Elastic impact of a slider. The duration of the impact is shorter than a step.
+    /// Elastic impact of a slider whose duration is shorter than a step.
     Bounce {
         /// Name of the slider.
         slider: String,
@@ -231,7 +231,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Severity of the warning. It can be compared only between warnings of the same type.
+    /// Severity of the warning. Only warnings of the same type have comparable severities.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {
@@ -254,7 +254,7 @@ impl Warning {
         }
     }
 
-    /// Name of the object; `None` for types of warnings that concern the whole scene.
+    /// Name of the object of the warning; `None` for types of warnings that concern the whole scene.
     fn object_name(&self) -> Option<&str> {
         match self {
             Self::Motion { .. }

@@ -9,9 +9,8 @@ use crate::system::{StaticForces, System, UnknownKind};
 /// Static forces of a model, and the scale of their residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// Length that converts moments to forces, for loads that consist of moments only.
+    /// Length that converts moments to forces, for loads that consist of moments only [length].
     pub(super) length: f64,
-    /// Function that returns false to stop the solution.
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
 
@@ -38,7 +37,7 @@ impl Balance<'_> {
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Rate of the viscous damping in the equations; zero for an equilibrium [1/time²].
+    /// Rate of the viscous damping in the equations [1/time²]; zero for an equilibrium.
     pub(super) rate: f64,
 }
 
@@ -86,7 +85,7 @@ impl Equations for UnderLoad<'_> {
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     pub(super) normal: &'a [f64],
-    /// Distance of the plane from the last equilibrium, in the metric of the path.
+    /// Distance of the plane from the last equilibrium, in the norm of displacements and rotations.
     pub(super) distance: f64,
     pub(super) forces: &'a mut [f64],
 }

@@ -20,7 +20,7 @@ const MOST_HALVINGS: u32 = 8;
 /// Equilibria that are farther apart may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
-/// Ratio of the displacements per load increment in two consecutive steps, above which the structure has snapped through.
+/// Ratio of the displacements per load increment in two consecutive steps above which the structure has snapped through.
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
 /// Smallest reference displacement for the detection of snap-through, as a fraction of the size of the scene.
@@ -39,7 +39,7 @@ pub(super) struct Continuation<'s> {
     pub(super) scene: &'s Scene,
     length: f64,
     /// Weights of squared displacements and rotations in the distance between two equilibria.
-    /// Displacements are divided by a length, and the sum is averaged over the control points.
+    /// Displacements are divided by a length, and the weighted sum is averaged over the control points.
     metric: Vec<f64>,
     loading: Loading,
     pub(super) model: System,
@@ -48,7 +48,7 @@ pub(super) struct Continuation<'s> {
     pub(super) unknowns: Vec<f64>,
     residual: Vec<f64>,
     heading: PathDirection,
-    /// Called with the last load factor before every step and every iteration. Returns false to stop the search.
+    /// Callback before every step and every iteration, with the last load factor. If it returns false, the search stops.
     goes_on: &'s mut dyn FnMut(f64) -> bool,
 }
 
@@ -59,7 +59,7 @@ struct PathDirection {
 
 impl PathDirection {
     /// Returns true if the next step has nearly the same direction as this step.
-    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a straight column.
+    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a column.
     /// Smaller steps are needed if the next step has reached another branch.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
@@ -175,9 +175,9 @@ impl<'s> Continuation<'s> {
         Err(self.path_lost_error(miss))
     }
 
-    /// Distance from the last point to the turning point of the load factor.
-    /// The distance is returned if the path crosses the requested load factor before the turning point and again after it.
-    /// The solution is the equilibrium at which the path crosses the requested load factor for the first time.
+    /// Distance from the last point of the path to the turning point of the load factor.
+    /// Returns `None` unless the path crosses the requested load factor before the turning point and again after it.
+    /// The required equilibrium is the first point at which the path crosses the requested load factor.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
         let factors = [before.load_factor, last.load_factor, factor];
@@ -254,8 +254,8 @@ impl<'s> Continuation<'s> {
         norm(&self.metric, &self.unknowns)
     }
 
-    /// Solves for a fraction of the loads, starting from the present configuration.
-    /// A positive `rate` adds viscous damping with this rate [1/time²]. Returns the number of iterations.
+    /// Solves for a fraction of the loads, starting from the present configuration, and returns the number of iterations.
+    /// A positive `rate` adds viscous damping with this rate [1/time²].
     ///
     /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
@@ -276,8 +276,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration [1/time²]. It is divided by the size of the scene.
-    /// If no force is unbalanced, the result is 1. Dynamic relaxation may then start with any rate.
+    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
+    /// Returns 1 if no force is unbalanced. Dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -295,14 +295,13 @@ impl<'s> Continuation<'s> {
         if fastest > 0.0 && fastest.is_finite() { fastest } else { 1.0 }
     }
 
-    /// Restores the last equilibrium after a failed search.
     pub(super) fn restore_last(&mut self) {
         if let Some(last) = self.path.points().last() {
             self.model.restore(&last.state);
         }
     }
 
-    /// Largest allowed distance of the next equilibrium.
+    /// Largest allowed distance of the next equilibrium from the last equilibrium.
     /// With load control, the largest distance follows from the last displacement per load increment.
     /// With arc-length control, the largest distance follows from the longest step.
     fn farthest(&self, factor: f64) -> f64 {

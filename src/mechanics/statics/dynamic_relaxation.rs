@@ -1,4 +1,4 @@
-//! Dynamic relaxation. It finds equilibria of scenes that are restrained only by loads.
+//! Dynamic relaxation, which finds equilibria of scenes that are restrained only by loads.
 
 use super::StaticsError;
 use super::continuation::Continuation;
@@ -19,19 +19,19 @@ const EASIER: f64 = 0.2;
 /// Factor by which the damping rate is multiplied after a pass that failed or had too large displacements.
 const HARDER: f64 = 4.0;
 
-/// Largest number of attempts at the first pass.
 const MOST_FIRST_PASSES: usize = 60;
 
 const MOST_PASSES: usize = 400;
 
-/// Sum of the displacements of all passes, above which the motion counts as endless, as a multiple of the size of the scene.
+/// Sum of the displacements of all passes above which the motion counts as endless, as a multiple of the size of the scene.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
-/// Largest number of passes in which a slider may cross the end of its master. After more passes, the slider counts as having left its master.
+/// Largest number of passes in which a slider may cross the end of its master.
+/// A slider that crosses the end of its master in more passes counts as having left its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds an equilibrium under a fraction of the loads. The unloaded scene approaches it under viscous damping.
+    /// Finds an equilibrium under a fraction of the loads, which the unloaded scene approaches under viscous damping.
     /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
     /// Every pass reduces the potential energy.
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.

@@ -17,13 +17,13 @@ const ROUNDING: f64 = 1e-12;
 /// Stability of an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stability {
-    /// Every small disturbance stays small.
+    /// Every small disturbance of the equilibrium stays small.
     Stable,
-    /// At least one small disturbance grows.
+    /// At least one small disturbance of the equilibrium grows.
     Unstable,
-    /// Not determined, because the stiffnesses differ so much that rounding hides the smallest stiffnesses.
+    /// Undetermined stability, because the stiffnesses differ so much that rounding hides the smallest stiffnesses.
     BelowRounding,
-    /// Not determined, because a follower load has no potential.
+    /// Undetermined stability, because a follower load has no potential.
     Follower,
 }
 
@@ -38,7 +38,8 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Finds the equilibrium of a scene. Before every step and every iteration, `goes_on` is called with the load factor of the last equilibrium.
+    /// Finds the equilibrium of a scene.
+    /// Before every step and every iteration, `goes_on` is called with the load factor of the last equilibrium.
     ///
     /// # Errors
     /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
@@ -60,7 +61,7 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// Dry run for the check of scripts. The initial configuration replaces the equilibrium.
+    /// Returns the initial configuration instead of the equilibrium, for the check of scripts (dry run).
     ///
     /// # Errors
     /// Fails if [`find`](Self::find) would reject the scene or the loads: the scene cannot be built, a load has no value, or no load acts.
@@ -73,7 +74,7 @@ impl Equilibrium {
         Ok(Self { scene, loading, model, path })
     }
 
-    /// Scene in equilibrium.
+    /// Scene whose equilibrium was computed.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -106,7 +107,7 @@ impl Equilibrium {
         Ok(self.path.points().iter().map(at).collect())
     }
 
-    /// Reaction of the supports at a point: force [force] and moment [force·length]. `None` without a support at the point.
+    /// Reaction of the supports at a point: force [force] and moment [force·length]; `None` without a support at the point.
     pub fn reaction(&mut self, place: &BodyPoint) -> Option<(Vec2, f64)> {
         let mut forces = vec![0.0; self.model.degrees_of_freedom()];
         let contacts = self.model.constraint_shape().width;
@@ -117,7 +118,7 @@ impl Equilibrium {
         self.model.support_force(place, &forces)
     }
 
-    /// Section forces and strains at a station.
+    /// Section forces and strains at a station of a beam in equilibrium.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam, or if it belongs to a particle.
@@ -126,7 +127,7 @@ impl Equilibrium {
         Ok(self.model.section_forces(&at))
     }
 
-    /// Section forces along a beam, from start to end.
+    /// Section forces along a beam in equilibrium, from its start to its end.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -134,7 +135,8 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Stability, determined from the signs of the pivots of the stiffness. If the signs are uncertain, the lowest mode decides.
+    /// Stability of the equilibrium, determined from the signs of the pivots of the stiffness.
+    /// If the signs of the pivots are uncertain, the lowest mode determines the stability.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -152,7 +154,7 @@ impl Equilibrium {
     /// Lowest natural modes about the equilibrium.
     ///
     /// # Errors
-    /// Fails if there are too few modes, or a load is a follower load.
+    /// Fails if there are too few modes, or if a load is a follower load.
     pub fn modes(
         &self,
         count: usize,
@@ -163,7 +165,7 @@ impl Equilibrium {
 }
 
 /// Returns the scene with equal axial, shear and bending stiffnesses of the beams and similar masses.
-/// In the scene with equal stiffnesses, degrees of freedom without restraint have zero stiffness.
+/// In the returned scene, degrees of freedom without restraint have zero stiffness.
 /// With similar stiffnesses, rounding errors are so small that zero stiffness can be recognised.
 fn of_equal_stiffness(scene: &Scene) -> Scene {
     let mut equal = scene.clone();

@@ -61,7 +61,7 @@ pub enum StaticsError {
     Interrupted { reached: f64 },
 }
 
-/// Reason why a load step found no equilibrium.
+/// Reason for the failure of a load step.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepFailure {
@@ -75,7 +75,7 @@ pub enum StepFailure {
     #[error("slider '{slider}' would leave its beam at its {end}")]
     LeavesMaster {
         slider: String,
-        /// End of the master, such as `start`.
+        /// End of the master that the slider passed, such as `start`.
         end: &'static str,
     },
 }

@@ -15,13 +15,13 @@ pub struct Loading {
     pub factor: f64,
     /// Number of equal load steps. With arc-length control, only the first load step has this size.
     pub steps: usize,
-    /// Quantity that is prescribed in each step.
+    /// Quantity that is prescribed in each load step.
     pub control: Control,
     /// Tolerance of the Newton solver.
     pub tolerance: Tolerance,
 }
 
-/// Quantity that is prescribed in each step.
+/// Quantity that is prescribed in each load step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Control {
     /// Load factor. The path ends at a limit point.

@@ -1,5 +1,4 @@
 //! Equilibrium of a scene under its loads, found by load steps, or along the path of equilibria through limit points.
-//! Residual and tangent are those of `system`; small vibrations are in `vibration`.
 
 mod balance;
 mod continuation;

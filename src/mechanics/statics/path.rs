@@ -9,8 +9,9 @@ pub struct PathPoint {
     pub load_factor: f64,
     /// Strain energy [energy].
     pub strain_energy: f64,
-    /// Distance from the previous equilibrium [-, rad].
-    /// The distance is the root mean square of displacements and rotations over all control points. Displacements are divided by the length of the longest beam.
+    /// Distance of the equilibrium from the previous equilibrium [-, rad].
+    /// The distance is the root mean square of displacements and rotations over all control points.
+    /// Displacements are divided by the length of the longest beam.
     pub distance: f64,
     /// Number of Newton iterations from the previous point of the path.
     pub iterations: usize,
@@ -18,7 +19,7 @@ pub struct PathPoint {
     pub state: SystemState,
 }
 
-/// Equilibria in order, starting with the unloaded scene.
+/// Sequence of equilibria that starts with the unloaded scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct EquilibriumPath {
     points: Vec<PathPoint>,
@@ -39,7 +40,7 @@ impl EquilibriumPath {
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
     }
 
-    /// Points of the path in order.
+    /// Points of the path of equilibria, in order.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }
@@ -49,7 +50,7 @@ impl EquilibriumPath {
         self.points.last().map_or(0.0, |point| point.load_factor)
     }
 
-    /// Limit points: extrema of the load factor along the path [-]. They are computed from parabolas through three points.
+    /// Limit points: extrema of the load factor along the path [-], computed from parabolas through three points.
     ///
     /// If the load increases beyond a limit point, the structure snaps through.
     pub fn limit_points(&self) -> Vec<f64> {
@@ -63,7 +64,7 @@ impl EquilibriumPath {
 
 /// Extremum of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
-    /// Distance of the extremum from the first equilibrium, in the metric of the path.
+    /// Distance of the extremum from the first equilibrium, in the norm of displacements and rotations.
     pub(super) distance: f64,
     pub(super) load_factor: f64,
 }

@@ -140,7 +140,7 @@ impl System {
         self.motion.time
     }
 
-    /// Energy that dampers returned in the last step [energy]. It is zero for methods without backward substeps.
+    /// Energy that dampers returned in the last step [energy]. The returned energy is zero for methods without backward substeps.
     pub fn returned(&self) -> f64 {
         self.step.returned
     }
@@ -154,7 +154,6 @@ impl System {
         self.motion.watched().iter().map(|one| (one.body, one.resolution()))
     }
 
-    /// Returns true if forces of rigid links are among the unknowns.
     pub(crate) fn has_rigid_links(&self) -> bool {
         self.links.count() > 0
     }
@@ -164,12 +163,12 @@ impl System {
         self.bodies.mass() + self.elements.mass()
     }
 
-    /// Sets the number of threads for a large body or many bodies. Results do not change. Returns the largest number of threads in use.
+    /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
+    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }
 
-    /// Sets the time without changing the state of motion.
     pub(crate) fn set_time(&mut self, time: f64) {
         self.motion.time = time;
     }
@@ -177,13 +176,12 @@ impl System {
     /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the reason.
+    /// Returns the name of an element without a finite value, and the reason of the failure.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)
     }
 
-    /// Sets the event of a slider at which the next step must end; `None` for a regular step.
     pub(crate) fn set_target(&mut self, event: Option<SliderEvent>) {
         self.sliders.set_target(event);
     }

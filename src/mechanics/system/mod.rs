@@ -1,4 +1,4 @@
-//! Scenes, and their assembly into mechanisms for integrators. The formulas of steps belong to `integrators`, and time loops to `simulation`.
+//! Scenes, and their assembly into mechanisms for integrators.
 
 mod assembly;
 mod bodies;

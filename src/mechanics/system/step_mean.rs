@@ -5,9 +5,9 @@ use std::ops::{Add, Mul};
 /// Mean force over a step, computed from mean forces over successive substeps. Substeps may run backwards in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StepMean<T> {
-    /// Mean over the last step. Before the first step, it is the present force.
+    /// Mean force over the last step. Before the first step, it is the present force.
     pub value: T,
-    /// Duration of the substeps since the end of the last step [time].
+    /// Total duration of the substeps since the end of the last step [time].
     pub covered: f64,
 }
 

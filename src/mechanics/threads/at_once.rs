@@ -12,7 +12,7 @@ const MOST_POLLS: usize = 2000;
 /// Runs all tasks concurrently: the first task on this thread, and the other tasks on threads of the pool.
 /// Tasks that have not been started by the pool also run on this thread.
 ///
-/// Returns when every task is completed.
+/// Returns after every task is completed.
 /// Each call allocates a few hundred bytes. The function is suitable for tasks that take much longer than this allocation.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
@@ -48,7 +48,7 @@ pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl 
     });
 }
 
-/// Runs two operations. They run concurrently if there are two threads.
+/// Runs two operations, concurrently if `threads` is at least two.
 pub fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if threads < 2 {
         one();

@@ -11,11 +11,10 @@ use rayon_core::{ThreadPool, ThreadPoolBuilder};
 /// The tasks of a step follow each other immediately. Waking a thread takes as long as many of these tasks.
 const POLLING_TIME: Duration = Duration::from_micros(300);
 
-/// Number of times that tasks were distributed to the pool.
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
-/// Pool with one thread for each additional processor core. The pool is created at its first use.
-/// Returns `None` if there is only one core, or if the system provides no threads.
+/// Pool with one thread for each additional processor core, created at its first use.
+/// Returns `None` if the machine has only one core, or if the system provides no threads.
 pub(super) fn pool() -> Option<&'static ThreadPool> {
     static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
     let start = || {

@@ -13,20 +13,20 @@ use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
 /// Decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
-/// Even slow overdamped vibrations decay at far larger rates than the limit.
+/// Slow overdamped vibrations decay at rates far above the limit `NOTHING`.
 const NOTHING: f64 = 1e-40;
 
-/// Damped natural vibration, which decays as `exp(-δ t)`. It has a frequency unless it is overdamped.
+/// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. An overdamped vibration has no frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DampedMode {
-    /// Decay rate `δ = -Re λ` [1/time]; negative if the vibration grows.
+    /// Decay rate `δ = -Re λ` of the vibration `exp(λ t)` [1/time]; negative if the vibration grows.
     pub decay_rate: f64,
-    /// Angular frequency `|Im λ|` [rad/time]; zero for an overdamped vibration.
+    /// Angular frequency `|Im λ|` of the vibration `exp(λ t)` [rad/time]; zero for an overdamped vibration.
     pub angular_frequency: f64,
 }
 
 impl DampedMode {
-    /// Damping ratio `δ/|λ|` [-]. It is one for an overdamped vibration, and zero for `λ = 0`.
+    /// Damping ratio `δ/|λ|` of the vibration `exp(λ t)` with decay rate `δ` [-]; one for an overdamped vibration, zero for `λ = 0`.
     pub fn damping_ratio(&self) -> f64 {
         match hypot(self.decay_rate, self.angular_frequency) {
             0.0 => 0.0,
@@ -81,7 +81,7 @@ impl DampedMode {
     }
 }
 
-/// Matrix `B`, with a row for each mode shape and a column for each damped rate.
+/// Damping matrix with a row for each mode shape and a column for each damped rate.
 fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {

@@ -70,7 +70,7 @@ pub(super) fn all_pairs(
 }
 
 /// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes with respect to the inertia.
-/// Rounding errors of a shape may have little strain energy but much kinetic energy.
+/// Rounding errors of a mode shape may have little strain energy but much kinetic energy.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];
@@ -130,7 +130,7 @@ pub(super) fn rotate(
     let square = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>();
     let mut sizes = Vec::new();
     for _ in 0..MOST_SWEEPS {
-        // The lengths are computed again in each pass, because updated lengths would accumulate rounding errors.
+        // The column lengths are computed again in each pass, because updated lengths would accumulate rounding errors.
         sizes = columns.as_slice().chunks_exact(rows).map(square).collect();
         let mut is_turned = false;
         for first in 0..count {

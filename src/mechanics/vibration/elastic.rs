@@ -94,7 +94,7 @@ impl Elastic {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the energy for given displacements.
+    /// Rounding error of twice the strain energy for given displacements.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }

@@ -1,7 +1,7 @@
 //! Lowest modes, computed by the block Lanczos method with shift and inversion.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
-//! All vectors are orthogonal with respect to the inertia.
+//! All vectors of the search are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -16,16 +16,15 @@ use crate::linalg::{
 /// Residual of a converged pair, as a fraction of the inverted stiffness. The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation, below which the result consists of rounding errors.
+/// Ratio of the lengths of a vector after and before orthogonalisation below which the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation, below which the vector is orthogonalised again.
+/// Ratio of the lengths of a vector after and before orthogonalisation below which the vector is orthogonalised again.
 const SHRUNK: f64 = 1e-4;
 
-/// Component in the basis that remains after orthogonalisation, as a fraction of the length. Above this value, the vector is orthogonalised again.
+/// Remaining component in the basis above which a vector is orthogonalised again, as a fraction of the length of the vector.
 const TRACE: f64 = 1e-8;
 
-/// Tolerance of the scalar products of basis vectors.
 const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
@@ -33,7 +32,7 @@ const MOST_RESTARTS: usize = 60;
 /// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
-    /// Vectors `φ` of the pairs, four per strip.
+    /// Shapes `φ` of the pairs, four per strip.
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
@@ -72,10 +71,10 @@ impl<'a> Lanczos<'a> {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }
 
-    /// Continues the search until `count` pairs have converged. Returns all converged pairs.
+    /// Continues the search until `count` pairs of eigenvalue and shape have converged. Returns all converged pairs.
     ///
     /// # Errors
-    /// Fails if the pairs do not converge, or the search is stopped.
+    /// Fails if the pairs do not converge, or if the search is stopped.
     pub(super) fn find_pairs(
         &mut self,
         count: usize,
@@ -130,7 +129,8 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The remainder is small in comparison with the removed components. Because of rounding, it still contains a fraction of them.
+            // The orthogonalised image is small in comparison with the removed components.
+            // Rounding leaves a fraction of the removed components in the image.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -193,7 +193,6 @@ impl<'a> Lanczos<'a> {
         }
     }
 
-    /// Sets the next block to random vectors that are orthogonal to the basis.
     fn restart_randomly(&mut self) {
         let mut block = self.pencil.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
@@ -218,7 +217,7 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// Eigenvalues and eigenvectors of the projection, in decreasing order of the eigenvalues.
+    /// Eigenvalues and eigenvectors of the projected problem, in decreasing order of the eigenvalues.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();
@@ -299,7 +298,7 @@ fn product(a: &Square4, b: &Square4) -> Square4 {
     })
 }
 
-/// Cholesky factor of a matrix of scalar products, and its inverse.
+/// Cholesky factor of a matrix of scalar products, and the inverse of this factor.
 /// Rows and columns that consist of rounding errors are set to zero.
 fn cholesky(gram: &Square4, sizes: &FourVectors) -> (Square4, Square4) {
     let (mut upper, mut inverse) = (Square4::default(), Square4::default());

@@ -1,4 +1,4 @@
-//! Small vibrations about a configuration: natural frequencies and mode shapes. The stiffness and the contacts at rest belong to `system`.
+//! Small vibrations about a configuration: natural frequencies and mode shapes.
 
 mod damped;
 mod dense;

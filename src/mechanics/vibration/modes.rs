@@ -16,37 +16,37 @@ const UNRESTRAINED: f64 = 1e-10;
 /// Natural mode of small vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Squared angular frequency `ω²` [1/time²]. It is zero for an unrestrained motion, or if it is below its rounding error.
-    /// The squared frequency is negative if the configuration is unstable.
+    /// Squared angular frequency `ω²` of the mode [1/time²]; zero for an unrestrained motion, or if it is below its rounding error.
+    /// A negative squared frequency means that the configuration is unstable.
     pub square: f64,
     /// Rounding error of the squared frequency `ω²` [1/time²].
     pub rounding: f64,
-    /// Residual [-], a measure of the accuracy of the mode.
+    /// Residual of the mode [-], a measure of its accuracy.
     /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
     /// The residual is an upper bound of the relative error of the squared frequency plus the square of the lowest bending frequency.
-    /// A second bound is the square of the residual, divided by the relative distance to the next mode.
+    /// A second bound of the relative error is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
 }
 
 impl Mode {
-    /// Angular frequency `ω` [rad/time]; zero if the mode does not vibrate.
+    /// Angular frequency `ω` of the mode [rad/time]; zero if the mode does not vibrate.
     pub fn angular_frequency(&self) -> f64 {
         self.square.max(0.0).sqrt()
     }
 
-    /// Frequency `ω/2π` [1/time].
+    /// Frequency `ω/2π` of the mode with angular frequency `ω` [1/time].
     pub fn frequency(&self) -> f64 {
         self.angular_frequency() / TAU
     }
 
-    /// Period `2π/ω` [time]; infinite if the mode does not vibrate.
+    /// Period `2π/ω` of the mode with angular frequency `ω` [time]; infinite if the mode does not vibrate.
     pub fn period(&self) -> f64 {
         1.0 / self.frequency()
     }
 
-    /// Returns true for a motion that is unrestrained within rounding.
+    /// Returns true if the mode is an unrestrained motion within rounding.
     pub fn is_free(&self) -> bool {
         self.square == 0.0
     }
@@ -62,7 +62,7 @@ impl Mode {
 pub struct Modes {
     modes: Vec<Mode>,
     meshes: Vec<Mesh>,
-    /// Control points of all bodies [length].
+    /// Control points of all bodies in the configuration [length].
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
     /// Decay rate of each mode [1/time].
@@ -71,7 +71,7 @@ pub struct Modes {
 
 impl Modes {
     /// Computes the modes of a model in its present configuration, which is treated as an equilibrium.
-    /// The callback `goes_on` is called repeatedly. If it returns false, the search stops.
+    /// The callback `goes_on` is called repeatedly. If the callback returns false, the search stops.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
@@ -106,24 +106,24 @@ impl Modes {
     /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // The search rejects larger numbers, so their memory need not be estimated.
+        // The search rejects larger numbers of modes, so their memory need not be estimated.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
 
-    /// Modes in increasing order.
+    /// Modes in increasing order of their squared frequencies.
     pub fn all(&self) -> &[Mode] {
         &self.modes
     }
 
-    /// Decay rates [1/time].
-    /// The rates are exact if damping does not couple modes, for example if the material has one relaxation time for all strains.
-    /// If damping couples modes, the rates are accurate to first order in the damping.
+    /// Decay rates of all modes [1/time].
+    /// The decay rates are exact if damping does not couple modes, for example for a material with one relaxation time for all strains.
+    /// If damping couples modes, the decay rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
     }
 
-    /// Damping ratio of each mode [-]: the decay rate divided by the angular frequency. Zero if the mode does not vibrate.
+    /// Damping ratio of each mode [-]: decay rate divided by angular frequency; zero if the mode does not vibrate.
     pub fn damping_ratios(&self) -> impl Iterator<Item = f64> {
         self.modes.iter().zip(&self.decay_rates).map(|(mode, decay)| match mode.square > 0.0 {
             true => decay / mode.angular_frequency(),
@@ -131,7 +131,7 @@ impl Modes {
         })
     }
 
-    /// Returns true if no small disturbance grows exponentially.
+    /// Returns true if no small disturbance of the configuration grows exponentially.
     pub fn is_stable(&self) -> bool {
         self.modes.iter().all(|mode| mode.square >= 0.0)
     }
@@ -184,7 +184,7 @@ impl Modes {
 }
 
 /// Number of degrees of freedom that are unrestrained in the present configuration without loads.
-/// The result is 0 for scenes without sliders that are too large for the computation.
+/// Returns 0 for scenes without sliders that are too large for the computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

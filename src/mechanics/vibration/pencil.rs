@@ -7,17 +7,17 @@ use crate::elementary::square;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{StaticOrder, System, add_resistance};
 
-/// Largest accepted growth factor of an elimination. With a larger factor, more than half of the 32 digits are lost.
+/// Largest accepted growth factor of an elimination. With a larger growth factor, more than half of the 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
-/// Eigenvalue problem `K φ = ω² M φ` with the stiffness and the inertia of a model.
+/// Eigenvalue problem `K φ = ω² M φ` with the stiffness `K` and the inertia `M` of a model, for modes `φ` of angular frequency `ω`.
 pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
     /// Estimate of the squared frequency of the lowest bending mode, for scenes with beams [1/time²].
-    /// For scenes without beams, it is the squared frequency of the lowest vibration of a chain of the softest springs.
+    /// For scenes without beams, the estimate is the squared frequency of the lowest vibration of a chain of the softest springs.
     pub(super) scale: f64,
     /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
     pub(super) finite: usize,
@@ -101,7 +101,7 @@ impl Pencil {
     }
 
     /// Number of modes whose squared frequency is below `square`; `None` if the elimination is not reliable.
-    /// The count follows from the signs of pivots (Sylvester's law of inertia).
+    /// The number of modes follows from the signs of pivots (Sylvester's law of inertia).
     pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
         match self.stiffness.pivots(-square, &self.inertia) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),

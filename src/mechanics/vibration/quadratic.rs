@@ -2,8 +2,8 @@
 //! The eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
 //! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
-//! A single matrix would give accurate values only for the largest eigenvalues.
-//! Several problems with increasing positive real shifts are solved ([`Resolvent`]), because each is accurate for the largest eigenvalues only.
+//! The eigenvalues of a single shifted problem ([`Resolvent`]) are accurate only for magnitudes near the shift.
+//! The search therefore solves several shifted problems with increasing positive real shifts.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -18,7 +18,7 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
 const FARTHEST: f64 = 1e12;
 
-/// Largest displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at this damper.
+/// Displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -27,7 +27,6 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
     hypot(at.re, at.im)
 }
 
-/// Damped vibration problem in the basis of the undamped modes.
 pub(super) struct Quadratic {
     /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,
@@ -43,14 +42,13 @@ impl Quadratic {
             free.filter(|(rate, _)| rate.abs() <= least).for_each(|(rate, _)| *rate = 0.0);
         }
         if dampers.ncols() > dampers.nrows() {
-            // The factorisation `Bᵀ = Q R` has a rounding error that is small in comparison with every single row, even a small one.
-            // Accurate small rows are needed, because nearly undamped modes depend on their squares.
+            // The rounding error of the factorisation `Bᵀ = Q R` is small in comparison with every single row of `B`, even a small row.
+            // Small rows of `B` must be accurate, because nearly undamped modes depend on the squares of these rows.
             dampers = dampers.transpose().qr().r().transpose();
         }
         Self { squares, dampers }
     }
 
-    /// Modal damping `(B Bᵀ)_ii` [1/time].
     fn damping(&self, mode: usize) -> f64 {
         self.dampers.row(mode).norm_squared()
     }
@@ -106,7 +104,7 @@ impl Quadratic {
             .collect())
     }
 
-    /// First shift of the search [1/time]. It is at most slightly above the magnitude of the smallest eigenvalue.
+    /// First shift of the search [1/time], which is at most slightly above the magnitude of the smallest eigenvalue.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

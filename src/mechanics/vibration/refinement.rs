@@ -12,23 +12,24 @@ const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Ratio of two successive residuals, above which further corrections have no effect.
+/// Ratio of two successive residuals above which further corrections have no effect.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue, above which each pair is refined separately.
+/// Ratio of the largest to the smallest eigenvalue above which each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Upper bound of the relative error of the shifted squared frequency [-]. The rounding error of the pair itself is not included.
+    /// Upper bound of the relative error of the shifted squared frequency [-], without the rounding error of the squared frequency.
     pub(super) residual: f64,
-    /// Rounding error of `ω²` due to the rounding of displacements [1/time²].
+    /// Rounding error of the squared frequency `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
     pub(super) shape: Vec<f64>,
 }
 
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
-/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them. The residual includes these components.
+/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
+/// The residual includes these components.
 ///
 /// # Errors
 /// Fails if the refinement is stopped.
@@ -87,7 +88,6 @@ struct OtherPairs<'a> {
     shift: f64,
     strips: &'a [Vec<FourVectors>],
     momenta: &'a [Vec<FourVectors>],
-    /// Eigenvalues `μ`.
     values: &'a [f64],
 }
 
@@ -216,7 +216,7 @@ impl OtherPairs<'_> {
         self.values[0] > WIDE * self.values[count - 1]
     }
 
-    /// Removes the components of all pairs from displacements.
+    /// Removes the components of all pairs from the given displacements.
     fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);
@@ -240,7 +240,6 @@ fn squares_of(energies: &FourVectors, kinetic: &FourVectors) -> FourVectors {
     )
 }
 
-/// Factors that normalise the shapes with respect to the inertia.
 fn scale_of(kinetic: &FourVectors) -> FourVectors {
     kinetic.map(|kinetic| if kinetic > 0.0 { 1.0 / kinetic.sqrt() } else { 0.0 })
 }

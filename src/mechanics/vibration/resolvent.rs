@@ -15,7 +15,8 @@ use crate::elementary::square;
 /// Largest number of QR iterations per eigenvalue in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero. If it does not converge, the next larger value is used.
+/// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero.
+/// If the Schur decomposition does not converge, the next larger size is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
@@ -23,16 +24,16 @@ const CORRECTIONS: usize = 4;
 /// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of an eigenvalue near the shift, above which a correction is rejected if the change is much larger than rounding.
+/// Relative change of an eigenvalue near the shift above which a correction is rejected if the change is much larger than rounding.
 /// A larger change indicates several close eigenvalues whose shapes are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// If the shift has this distance from the eigenvalue, the matrix of the iteration is not singular.
+/// A shift at the distance `BESIDE` from the eigenvalue gives a matrix of the inverse iteration that is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping above which the force of a dashpot is an unknown. As a matrix entry, it would reduce the accuracy of weakly damped modes.
+/// Damping above which the force of a dashpot is an unknown. A larger matrix entry would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
@@ -46,7 +47,7 @@ pub(super) struct Resolvent {
 }
 
 impl Resolvent {
-    /// Creates the problem for a shift whose square exceeds `-ω²` of all unstable modes.
+    /// Creates the problem for a shift whose square exceeds `-ω²` of all unstable modes with squared frequency `ω²`.
     ///
     /// # Errors
     /// Fails if the search is stopped.
@@ -136,7 +137,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Corrected eigenvalue, as a multiple of the shift.
+    /// Eigenvalue near `start` after corrections, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();

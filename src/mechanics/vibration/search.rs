@@ -1,4 +1,4 @@
-//! Search for the lowest modes: choice of a shift, computation of pairs, and a count of eigenvalues, which verifies that no mode is missing.
+//! Search for the lowest modes: choice of a shift, computation of pairs of eigenvalue and shape, and a count of eigenvalues as a check.
 
 use super::VibrationError;
 use super::dense::all_pairs;
@@ -26,11 +26,11 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of a squared frequency, below which the squared frequency counts as zero.
+/// Multiple of the rounding error of a squared frequency below which the squared frequency counts as zero.
 const ROUNDING: f64 = 64.0;
 
 /// Squared frequency that counts as zero, as a fraction of the shift.
-/// Rigid motions have squared frequencies below this limit because of rounding.
+/// Rigid motions have squared frequencies below the limit `HIDDEN` because of rounding.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero squared frequency.
@@ -75,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the result with the first shift is used. Its residuals show its accuracy.
+            // If the search with a better shift fails, the modes found with the first shift are used, with residuals that show their accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -130,7 +130,8 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs with the same eigenvalue as the last requested pair may be missing. All pairs with smaller frequencies must have been found.
+        // Pairs with the same eigenvalue as the last requested pair may be missing.
+        // All pairs with smaller frequencies than the last requested pair must have been found.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

@@ -4,12 +4,12 @@ use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// Largest number of spans over which the correction factor is averaged.
+/// Largest number of spans over which the correction factor of the kinetic energy is averaged.
 const SAMPLES: usize = 16;
 
 impl SplineString {
     /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
-    /// The factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
+    /// The correction factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -32,8 +32,8 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // The exact motion is one at parameters above that of the kink, and zero below.
-                            // The motion of the mesh is `there`. It differs from one by `missing`.
+                            // The exact motion is one at parameters above the parameter of the kink, and zero below.
+                            // The motion of the mesh is `there`. The difference between the exact motion and `there` is `missing`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -5,17 +5,16 @@ use std::fmt::Debug;
 use crate::beams::Section;
 use crate::beams::dynamics::Movement;
 
-/// Integral of a product of two basis functions along a beam.
 pub(in crate::beams) trait MassIntegral:
     Copy + Default + Debug + Send + Sync
 {
     fn add(&mut self, product: f64, section: &Section);
 
-    /// Integral of the product of the functions, without the inertia per length [length].
+    /// Integral of the product of the two basis functions, without the inertia per length [length].
     fn length(self) -> f64;
 
     /// Integrals to which the inertia of each component is proportional.
-    /// The integrals are unweighted for every component, or weighted with mass and inertia.
+    /// The integrals are unweighted for every component, or weighted with mass and inertia per length.
     fn weights(self) -> Movement;
 
     fn shares(uniform: &Section) -> Movement;

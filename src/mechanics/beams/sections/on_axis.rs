@@ -3,7 +3,6 @@
 use crate::beams::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, Span, Vec2};
 
-/// Number of Gauss points for the arc length within one span.
 const POINTS: usize = 8;
 
 pub(in crate::beams) struct SectionsOnAxis<'a> {
@@ -35,7 +34,6 @@ impl<'a> SectionsOnAxis<'a> {
         Ok(along)
     }
 
-    /// Arc length from the start of a span to a parameter in the span [length].
     fn within(&self, span: &Span, xi: f64) -> f64 {
         let speed = |at: f64| {
             self.mesh.basis().evaluate_in(span, at).combine(1, self.control_points).norm()

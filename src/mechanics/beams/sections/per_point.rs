@@ -22,7 +22,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
     /// Section at a quadrature point for the curvature `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Stiffness `diag(EA, GA)` at several quadrature points for the strain `Γ`, one in each vector lane.
+    /// Stiffnesses `EA` and `GA` at several quadrature points for the strain `Γ`, one point in each vector lane.
     fn force_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -30,7 +30,7 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Stiffness<V>;
 
-    /// Stiffness `EI` at several quadrature points for the curvature `κ`, one in each vector lane.
+    /// Bending stiffness `EI` at several quadrature points for the curvature `κ`, one point in each vector lane.
     fn bending_stiffness<V: Simd>(
         &self,
         uniform: &Section,

@@ -9,7 +9,7 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 /// Unknowns of a sliding contact in a step. The type is also used for derivatives with respect to these unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactUnknowns {
-    /// Contact force `λ` on the master; `-λ` acts on the slave [force].
+    /// Contact force `λ` on the master; the force `-λ` acts on the slave [force].
     pub force: Vec2,
     /// Couple on the master, divided by a length [force]. It balances the moment of the contact forces, so that angular momentum is conserved.
     pub couple: Vec2,
@@ -48,7 +48,7 @@ impl ContactUnknowns {
 pub struct PathVector {
     /// Position or direction [length].
     pub value: Vec2,
-    /// Derivative of `value` with respect to the parameter at the end of the path [length].
+    /// Derivative of the position or tangent with respect to the parameter at the end of the path [length].
     pub by_end: Vec2,
 }
 
@@ -68,7 +68,7 @@ pub struct Kink {
 /// Kink of a master at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct KinkState {
-    /// Jump of the tangent, given as the force that would cause this jump statically [force].
+    /// Jump of the tangent at the kink, given as the force that would cause this jump statically [force].
     pub jump: Vec2,
     /// Speed of the kink along the undeformed axis of the master [length/time].
     pub speed: f64,
@@ -93,7 +93,8 @@ pub struct KinkMotion {
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, relative to the slave, and their increments in the step [length].
+    /// Control points of the master whose basis functions are nonzero on the path, and their increments in the step [length].
+    /// The control points are given relative to the slave.
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Displacement of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -101,7 +102,7 @@ pub struct Contact<'a> {
     pub unknowns: ContactUnknowns,
     /// Kink of the axis of the master under the contact force; `None` for sliding laws without a kink.
     pub kink: Option<Kink>,
-    /// Friction along the master; `None` without friction.
+    /// Friction of the slider along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
     /// Length of the master divided by its parameter range [length]. The contact equations are divided by this length.
     pub length: f64,
@@ -121,7 +122,7 @@ impl Contact<'_> {
         weights.iter().zip(moved).map(|(w, moved)| moved * *w).sum()
     }
 
-    /// Vector from the slave to its position on the master at the start of the step [length]. It is zero if the gap is closed.
+    /// Vector from the slave to its position on the master at the start of the step [length]; zero if the gap is closed.
     pub fn start_gap(&self) -> Vec2 {
         self.sum(self.path.start(), 0.0)
     }
@@ -132,7 +133,7 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.change(), 0.0) }
     }
 
-    /// Position on the master at the end of the path and at the end of the step [length].
+    /// Position on the master at the end of the path, in the configuration at the end of the step [length].
     #[inline]
     pub fn end_point(&self) -> PathVector {
         let value = self.sum(self.path.end(), 1.0);
@@ -140,7 +141,8 @@ impl Contact<'_> {
     }
 
     /// Product of the contact force and the tangent of the master at the end of the step [force·length].
-    /// The product is positive if the slave pushes outwards at an end of the master. `outward` is the sign of the parameter change towards this end.
+    /// The product is positive if the slave pushes outwards at an end of the master.
+    /// The argument `outward` is the sign of the parameter change towards this end of the master.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
@@ -186,8 +188,8 @@ impl Contact<'_> {
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
 
-    /// Derivatives of the contact forces on the control points of the master.
-    /// For each control point, returns a factor for the force, a factor for the couple, and a vector for the sliding increment.
+    /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
+    /// Each control point has a factor for the force, a factor for the couple, and a vector for the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

@@ -8,7 +8,7 @@ use crate::geometry::{Dual, DualVector, Vec2};
 pub(super) const ALL_SLOPES: usize = 11;
 
 /// Number of derivatives of a dual number that is only a value.
-/// Values and dual numbers are computed by the same operations, so that both agree to the last bit.
+/// Values and dual numbers are computed by the same operations, so that their values agree to the last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;
@@ -45,14 +45,12 @@ impl<const SLOPES: usize> ContactDuals<SLOPES> {
     }
 }
 
-/// Number with its derivative with respect to the increment along the path.
 pub(super) fn path_dual<const SLOPES: usize>(value: f64, by_way: f64) -> Dual<SLOPES> {
     let mut dual = Dual::constant(value);
     dual.add_slope(WAY, by_way);
     dual
 }
 
-/// Vector whose components are variables that also depend on the increment along the path.
 fn path_variable<const SLOPES: usize>(vector: PathVector, first: usize) -> DualVector<SLOPES> {
     let component = |value: f64, by_way: f64, at: usize| {
         let mut dual = path_dual(value, by_way);

@@ -15,11 +15,11 @@ pub enum Unit {
 /// Equation `value = 0` of a sliding contact, with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Equation {
-    /// Value in the unit of the equation.
+    /// Value of the left-hand side in the unit of the equation.
     pub value: f64,
     /// Unit of the value.
     pub unit: Unit,
-    /// Derivative of `value` with respect to the increment of the slave.
+    /// Derivative of the value with respect to the increment of the slave [unit of the equation/length].
     pub by_slave: Vec2,
     /// Derivative of the value with respect to the end position of the slave on the master [unit of the equation/length].
     pub by_end: Vec2,
@@ -27,7 +27,7 @@ pub struct Equation {
     pub by_mean: Vec2,
     /// Derivative of the value with respect to the mean tangent of the master [unit of the equation/length].
     pub by_difference: Vec2,
-    /// Derivatives with respect to the contact force, the couple and the sliding increment.
+    /// Derivatives of the value with respect to the contact force, the couple and the sliding increment.
     pub by_unknowns: ContactUnknowns,
 }
 

@@ -1,10 +1,10 @@
-//! Sliding rule of equation 17 of Sibileau & Muñoz. It closes the gap, but does not conserve angular momentum.
+//! Sliding rule of equation 17 of Sibileau & Muñoz, which closes the gap, but does not conserve angular momentum.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
 /// Exact sliding law. The gap is closed at the end of every step. Energy and linear momentum are conserved, but not angular momentum.
-/// The law is that of Sibileau & Muñoz, equations 15 and 17, with a divided difference instead of a derivative.
-/// The divided difference makes the conservation of energy exact.
+/// The exact law is that of Sibileau & Muñoz, equations 15 and 17, with a divided difference instead of a derivative.
+/// Because of the divided difference, the energy is conserved exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct Exact;
 

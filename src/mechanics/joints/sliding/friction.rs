@@ -1,7 +1,7 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
 //! An error of the velocity across the master changes its sign from step to step, and has no effect on positions.
-//! The force that reverses the error grows with the inverse of the step length. The friction limit excludes this force.
+//! The force that reverses the velocity error grows with the inverse of the step length. The friction limit excludes this force.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -9,7 +9,7 @@ use crate::geometry::{Vec2, cross, perpendicular};
 /// Friction state of a sliding contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionMode {
-    /// The slave moves along the master in the direction of this sign.
+    /// The slave moves along the master in the direction given by the sign.
     Slip(f64),
     /// The slave does not move along the master.
     Stick,
@@ -32,14 +32,14 @@ pub struct Friction<'a> {
     pub inertia_across: f64,
     /// Duration of the step [time].
     pub duration: f64,
-    /// Force along the master that replaces the law of slip [force]; `None` with the law.
+    /// Force along the master that replaces the law of slip [force]; `None` if the law of slip applies.
     pub fixed_force: Option<f64>,
 }
 
 /// Forces and velocities of a contact with friction in an iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionForces {
-    /// Force along the master, times the length of the mean tangent [force·length].
+    /// Contact force along the master, times the length of the mean tangent [force·length].
     pub along: f64,
     /// Normal force in the friction limit, times the length of the mean tangent [force·length].
     pub across: f64,
@@ -49,7 +49,6 @@ pub struct FrictionForces {
     pub end_velocity: f64,
 }
 
-/// Relative motion of slave and master at the end of a step.
 struct EndMotion {
     /// Velocity of the slave relative to the contact point of the master [length/time].
     velocity: Vec2,

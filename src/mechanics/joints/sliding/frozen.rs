@@ -27,7 +27,6 @@ impl SlidingLaw for Frozen {
     }
 }
 
-/// Quantities of the kink in an iterate of a step.
 struct FrozenInStep<const SLOPES: usize> {
     on_path: KinkOnPath<SLOPES>,
     direction: DualVector<SLOPES>,

@@ -3,7 +3,7 @@
 use super::{CONTACT_UNKNOWNS, Contact, Equation, KinkState, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Law for a held slider. The slave is hinged to the end of the master, including the kink of the master.
+/// Law for a slider held by a stop. The slave is hinged to the end of the master, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct HeldSlider;
 

@@ -5,7 +5,7 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 use crate::geometry::{Dual, DualVector};
 
-/// Quantities of a kink in an iterate. They depend on the path of the slave.
+/// Quantities of a kink in an iterate, which depend on the path of the slave.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub length: Dual<SLOPES>,
     pub difference: Dual<SLOPES>,
@@ -15,7 +15,6 @@ pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub arm: DualVector<SLOPES>,
 }
 
-/// Units of the equations of a contact on a master with a kink.
 pub(super) const UNITS: [Unit; CONTACT_UNKNOWNS] =
     [Unit::Length, Unit::Length, Unit::Force, Unit::Force, Unit::Force];
 
@@ -39,7 +38,8 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
         }
     }
 
-    /// Residuals of the contact equations. The argument `jump` is the kink at the end of the step, given as the force that causes it statically [force].
+    /// Residuals of the contact equations.
+    /// The argument `jump` is the kink at the end of the step, given as the force that causes it statically [force].
     /// The argument `balance` is the residual of the force balance along the path [force·length].
     pub fn imbalances(
         &self,

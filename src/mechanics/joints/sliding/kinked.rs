@@ -10,7 +10,7 @@ use crate::geometry::{Dual, DualVector};
 ///
 /// The tangent of the axis jumps at the slave, and the kink moves along the master.
 /// The law adds the energy of the kink, which the mesh does not contain.
-/// Without a [`Kink`] the law is [`Conserving`]. Derivation: docs/theory.md, sections 10 and 10.1.
+/// Without a [`Kink`], the law is [`Conserving`]. Derivation: docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;
 

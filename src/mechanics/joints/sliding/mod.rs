@@ -1,7 +1,7 @@
 //! Laws of sliding joints: equations of a closed gap, and equations of sliding.
 //!
 //! The unknowns of a slider in a step are the contact force on the master, the couple, and the sliding increment.
-//! All laws apply the same forces to slave and master (see [`Contact`]). They differ in the five equations for the unknowns.
+//! All laws apply the same forces to slave and master (see [`Contact`]). The laws differ in the five equations for the unknowns.
 
 mod conserving;
 mod contact;

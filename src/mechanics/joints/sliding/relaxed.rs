@@ -1,4 +1,4 @@
-//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz. It conserves energy and momenta, but the gap drifts.
+//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz, which conserves energy and momenta, but not the closed gap.
 
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
@@ -6,10 +6,11 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 /// Largest gap that is attributed to rounding, as a fraction of the length of the master. The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
-/// Relaxed sliding law. The gap is closed on average over each step. Energy, linear and angular momentum are conserved. A closed gap may open.
-/// The law is that of Sibileau & Muñoz, equations 11 to 14.
+/// Relaxed sliding law, which closes the gap on average over each step. A closed gap may open.
+/// The relaxed law conserves energy, linear and angular momentum.
+/// The relaxed law is that of Sibileau & Muñoz, equations 11 to 14.
 ///
-/// As the gap grows, a step may have no solution. The direction of sliding is undefined in a step without sliding.
+/// For a large gap, a step may have no solution. The direction of sliding is undefined in a step without sliding.
 #[derive(Debug, Clone, Copy)]
 pub struct Relaxed;
 
@@ -33,7 +34,7 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     })
 }
 
-/// Sliding equation. Its direction is the mean tangent at the start plus a multiple of the gap.
+/// Sliding equation. The sliding direction is the mean tangent at the start plus a multiple of the gap.
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {

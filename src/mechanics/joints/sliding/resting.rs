@@ -13,7 +13,7 @@ pub struct Resting;
 /// Static law of a slider that a stop holds at an end of its master, including the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
-    /// Sliding increment to the end of the master [-].
+    /// Sliding increment of the slider to the end of the master [-].
     pub increment: f64,
 }
 
@@ -46,7 +46,7 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // For a path of zero length, the change of the slope is half the second derivative of the kink length.
+        // For a path of zero length, the field `change` is half the second derivative of the kink length.
         equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
@@ -58,8 +58,8 @@ impl Contact<'_> {
         self.path.end().iter().map(|value| self.unknowns.force * *value)
     }
 
-    /// Derivatives of the static contact forces on the control points of the master.
-    /// For each control point, returns three derivatives: with respect to the contact force (a multiple of the identity), the couple (zero), and the sliding increment (a vector).
+    /// Derivatives of the static contact forces on the control points of the master with respect to the contact unknowns.
+    /// Each control point has a multiple of the identity for the contact force, zero for the couple, and a vector for the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -19,7 +19,7 @@ pub enum SlidingRule {
 }
 
 /// Quantities that a sliding law conserves to rounding, if the integrator conserves them in scenes without sliders.
-/// All laws conserve linear momentum.
+/// All sliding laws conserve linear momentum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RuleClaims {
     /// True if the energy is conserved.
@@ -30,14 +30,14 @@ pub struct RuleClaims {
     pub gap: bool,
 }
 
-/// Entry of [`SLIDING_RULES`].
+/// Entry of the list [`SLIDING_RULES`].
 #[derive(Debug, Clone, Copy)]
 pub struct RuleEntry {
     /// Sliding rule of the entry.
     pub rule: SlidingRule,
     /// Name in scripts and reports.
     pub name: &'static str,
-    /// Recommended use as a sentence.
+    /// Recommended use of the sliding rule as a sentence.
     pub summary: &'static str,
     /// Conservation properties of the law.
     pub claims: RuleClaims,

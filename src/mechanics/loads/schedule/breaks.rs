@@ -4,7 +4,7 @@ use super::Schedule;
 use crate::loads::SampleClock;
 
 impl Schedule {
-    /// Times of jumps and kinks, at which steps should end.
+    /// Times of jumps and kinks of the schedule, at which steps should end.
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Constant(_)
@@ -18,13 +18,14 @@ impl Schedule {
         }
     }
 
-    /// Clock of a digital controller; `None` for other schedules. Steps should end at its samples and at the times when its commands start to act.
-    /// Controllers cannot be combined with other schedules.
+    /// Clock of a digital controller; `None` for other schedules.
+    /// Steps should end at the samples of the clock and at the times when commands start to act.
+    /// Digital controllers cannot be combined with other schedules.
     pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }
 
-    /// Returns true if a time is a declared break.
+    /// Returns true if a time is a declared break of the schedule.
     pub fn is_break(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::Sampled(_) => false,

@@ -1,8 +1,9 @@
 //! Means of schedules over steps.
 //!
-//! Constants and tables are integrated exactly by a three-point Gauss rule. Sines, smooth pulses and their products are integrated in closed form.
+//! Constants and tables are integrated exactly by a three-point Gauss rule.
+//! Sines, smooth pulses and their products are integrated in closed form.
 //! All other schedules are sampled at five points, for two quadrature rules that are exact for cubic polynomials.
-//! The difference between the results of both rules is an estimate of the sampling error.
+//! The difference between the results of the two quadrature rules is an estimate of the sampling error.
 
 use super::{GAUSS, LimitSide, LoadError, Operation, Schedule, table_value};
 use crate::elementary::{cos, sin};
@@ -22,11 +23,11 @@ pub struct StepMean {
 /// Highest degree of a polynomial that three Gauss points integrate exactly.
 const EXACT_DEGREE: usize = 5;
 
-/// Distance of the additional points from the middle, on [-1, 1].
-/// The points are inside the step, because a jump at an end of the step does not affect the mean.
+/// Distance of the additional quadrature points from the middle of the step, on [-1, 1].
+/// The quadrature points are inside the step, because a jump at an end of the step does not affect the mean.
 const OUTER: f64 = 0.96;
 
-/// Weight of each additional point. The rule with these points and the middle point is exact for cubic polynomials.
+/// Weight of each additional quadrature point. The rule with these points and the middle point is exact for cubic polynomials.
 const OUTER_WEIGHT: f64 = 1.0 / (6.0 * OUTER * OUTER);
 
 /// Largest number of terms in a closed form. Products with more terms are sampled.
@@ -39,7 +40,7 @@ const MOST_DEGREE: usize = 4;
 const TERMS: usize = 10;
 
 impl Schedule {
-    /// Mean factor [-] over a step. No break may lie inside the step.
+    /// Mean factor [-] over a step. No break of the schedule may lie inside the step.
     ///
     /// # Errors
     /// Fails if a script function fails or a value is not finite.
@@ -168,7 +169,7 @@ struct Step {
 }
 
 impl Step {
-    /// Mean of the product of a wave and the schedules `factors`; `None` if there is no closed form.
+    /// Mean of the product of a wave and the schedules `factors`; `None` without a closed form.
     fn mean(&self, factors: Option<&ScheduleFactors>, wave: Wave) -> Option<f64> {
         let Some(ScheduleFactors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
@@ -183,7 +184,7 @@ impl Step {
                 let sine = [amplitude * sin(phase), -amplitude * cos(phase)];
                 self.mean_of_product(*others, wave, (sine, rate * half))
             }
-            // Identity: 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x
+            // The integral of a smooth pulse uses the identity 16/5 sin⁶ x = 1 - 3/2 cos 2x + 3/5 cos 4x - 1/10 cos 6x.
             Schedule::SmoothPulse { duration } if middle > 0.0 && middle < *duration => {
                 let mut sum = self.mean(*others, wave)?;
                 for (order, amplitude) in [(1.0, -1.5), (2.0, 0.6), (3.0, -0.1)] {
@@ -250,7 +251,6 @@ fn line(rows: &[(f64, f64)], middle: f64, half: f64) -> [f64; 2] {
 /// Function `p(x) Re(amplitude exp(i turn x))` on [-1, 1], with a polynomial `p`.
 #[derive(Clone, Copy)]
 struct Wave {
-    /// Coefficients of `p`.
     polynomial: [f64; MOST_DEGREE + 1],
     degree: usize,
     amplitude: [f64; 2],

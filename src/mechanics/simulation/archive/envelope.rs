@@ -1,9 +1,9 @@
 //! File envelope: magic number, versions, lengths and checksum.
 //!
-//! A file starts with the eight bytes `89 "withy" 0D 0A`. The byte 89 is not text, and 0D 0A reveals a conversion of line ends.
-//! The version of the file format follows (`u16`), then the version of the program as a length (`u8`) and a text.
+//! A file starts with the eight bytes `89 "withy" 0D 0A`. The byte 89 is not text, and the bytes 0D 0A reveal a conversion of line ends.
+//! The version of the file format (`u16`) and the version of the program, as a length (`u8`) and a text, follow the first eight bytes.
 //! The number of bytes of the content (`u64`) precedes the content. The file ends with the CRC-32 of all preceding bytes (`u32`).
-//! All numbers are little-endian.
+//! All numbers in the file are little-endian.
 
 use super::ArchiveError;
 
@@ -51,7 +51,7 @@ pub fn wrap(content: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Checks versions, length and checksum, and returns the content.
+/// Checks versions, length and checksum of a file, and returns the content.
 pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MAGIC[..file.len().min(MAGIC.len())]) {
         return Err(ArchiveError::Foreign);

@@ -20,7 +20,7 @@ pub enum ArchiveError {
     Truncated {
         /// Actual length of the file [bytes].
         found: usize,
-        /// Length that the header states, as far as it could be read [bytes].
+        /// Length of the file according to its header [bytes], as far as the header could be read.
         needed: u64,
     },
     #[error(

@@ -24,7 +24,7 @@ impl Simulation {
         planned.map_or(stop, |(adaptive, state)| adaptive.plan(&state, now, stop).interval.end)
     }
 
-    /// Takes two equal half steps whose error is within the tolerance. After a rejection, both are repeated with a smaller size.
+    /// Takes two equal half steps whose error is within the tolerance. After a rejection, both half steps are repeated with a smaller size.
     pub(super) fn adapt(
         &mut self,
         adaptive: &mut Adaptive,
@@ -120,7 +120,8 @@ impl Simulation {
         }
     }
 
-    /// Takes a whole step and its two halves. If one of them has no solution, all are repeated with constant kinks under contact forces.
+    /// Takes a whole step and its two halves.
+    /// If one of the three steps has no solution, all three are repeated with constant kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,
@@ -166,7 +167,7 @@ impl Simulation {
             .is_some_and(Resampling::is_paused)
     }
 
-    /// Restores the start of a paused step; does nothing otherwise.
+    /// Restores the start of a paused step. The function has no effect if no step is paused.
     pub fn restore_step_start(&mut self) {
         if let Some(adaptive) = &mut self.adaptive
             && adaptive.resampling.as_mut().is_some_and(Resampling::abandon)

@@ -9,16 +9,16 @@ use crate::simulation::{SimulationError, WorkCounts};
 use crate::system::SystemState;
 
 impl Simulation {
-    /// Stores a snapshot after every step, within a memory limit in bytes.
-    /// If the limit is exceeded, the oldest snapshots are discarded, except the first one. A limit of zero disables snapshots.
-    /// A reduced limit applies immediately.
+    /// Enables a snapshot after every step, within a memory limit [bytes].
+    /// Above the memory limit, the oldest snapshots are discarded, except the first one. A limit of zero disables snapshots.
+    /// A reduced memory limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
         self.snapshots = snapshots;
     }
 
-    /// Memory limit of snapshots [bytes]; zero if disabled.
+    /// Memory limit of snapshots [bytes]; zero if snapshots are disabled.
     pub fn snapshot_limit(&self) -> usize {
         self.snapshots.limit()
     }
@@ -32,7 +32,7 @@ impl Simulation {
     /// Additional end times of steps, which the caller has requested, are not removed.
     ///
     /// # Errors
-    /// Fails if fewer steps have been taken, or the state is not stored.
+    /// Fails if fewer steps have been taken, or if the earlier state is not stored.
     pub fn back(&mut self, steps: usize) -> Result<(), SimulationError> {
         let taken = self.progress.counts.steps;
         match taken.checked_sub(steps) {
@@ -41,10 +41,10 @@ impl Simulation {
         }
     }
 
-    /// Returns to the end of the last step at or before a time, bit for bit. This may be the present state.
+    /// Returns to the end of the last step at or before a time, bit for bit. This state may be the present state.
     ///
     /// # Errors
-    /// Fails if the time is outside the run, or the state is not stored.
+    /// Fails if the time is outside the run, or if the state at this time is not stored.
     pub fn rewind(&mut self, time: f64) -> Result<(), SimulationError> {
         let (now, slack) = (self.time(), self.slack());
         let begun = self.history().samples().first().map_or(0.0, |row| row.measures.time);
@@ -88,7 +88,7 @@ impl Simulation {
     fn dry_run_back_to(&mut self, steps: usize) {
         let Some(first) = self.snapshots.first().map(Snapshot::steps) else { return };
         if self.restore_step(steps.max(first)).is_err() {
-            // The restoration cannot fail, because the first snapshot is always kept.
+            // The restoration of the first snapshot cannot fail, because the first snapshot is always kept.
             let _: Result<(), SimulationError> = self.restore_step(first);
         }
     }
@@ -154,7 +154,6 @@ impl Simulation {
         }
     }
 
-    /// Stores a snapshot of the present state if snapshots are enabled.
     pub(super) fn store_snapshot(&mut self) {
         let Some(blank) = self.snapshots.blank() else { return };
         self.clock.grid.mark_reached(self.time());
@@ -188,10 +187,6 @@ impl Simulation {
         Ok(fork)
     }
 
-    /// Returns an independent copy without snapshots.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again, although it was built before.
     pub(super) fn fork_without_snapshots(&self) -> Result<Self, SimulationError> {
         let mut fork = Self::start(self.scene.clone(), self.settings)?;
         fork.restore_releases(&self.progress.releases)?;

@@ -20,7 +20,7 @@ const MOST_COUNTED: u64 = 1 << 52;
 /// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Stored data of a simulation. All other data of the simulation are computed from them.
+/// Stored data of a simulation, from which all other data of the simulation are computed.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,
@@ -39,7 +39,6 @@ struct Content<'a> {
     releases: Cow<'a, [ReleaseEvent]>,
     counts: WorkCounts,
     cuts: Cow<'a, [f64]>,
-    /// Contents of a [`StepRetry`].
     retry: Option<((f64, f64), u64, u32, usize)>,
     step_size: Option<StepSizeState>,
 }
@@ -52,7 +51,7 @@ impl Simulation {
     /// Serialises the simulation and its name for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
-    /// Fails if the schedule of a load is a script function, or a script function triggers a release.
+    /// Fails if the schedule of a load is a script function, or if a script function triggers a release.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {
@@ -90,7 +89,8 @@ impl Simulation {
         Ok(wrap(&bytes))
     }
 
-    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes). The continued simulation is bit for bit the same.
+    /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes).
+    /// A restored run continues bit for bit like the original run.
     ///
     /// # Errors
     /// Fails if the file is truncated or damaged, has a later format or a different type, or has invalid content.

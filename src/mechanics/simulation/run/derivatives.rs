@@ -9,7 +9,7 @@ use crate::system::{Scene, System};
 
 impl Simulation {
     /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters.
-    /// Each step also computes the derivatives; the other results of the step do not change.
+    /// Each step also computes the derivatives. The other results of the step do not change.
     ///
     /// # Errors
     /// Fails in the same cases as [`start`](Self::start), if the method provides no derivatives, or if the scenes differ in more than numbers.
@@ -30,10 +30,10 @@ impl Simulation {
     }
 
     /// Perturbed run for a parameter. Its state is the present state plus or minus the derivative times the perturbation.
-    /// The derivative of any result is the difference between the results of both runs, divided by twice the perturbation.
+    /// The derivative of any result is the difference between the results of the two perturbed runs, divided by twice the perturbation.
     ///
     /// # Errors
-    /// Fails if there are no derivatives.
+    /// Fails if the run has no derivatives.
     pub fn perturbed(
         &self,
         parameter: usize,
@@ -46,7 +46,7 @@ impl Simulation {
     /// Perturbed run for a parameter, for queries that need mutable access.
     ///
     /// # Errors
-    /// Fails if there are no derivatives.
+    /// Fails if the run has no derivatives.
     pub fn perturbed_mut(
         &mut self,
         parameter: usize,
@@ -56,7 +56,7 @@ impl Simulation {
         known.perturbed_mut(parameter, side)
     }
 
-    /// History of a perturbed run between two times. It remains available after the end of the derivatives.
+    /// History of a perturbed run between two times. It remains available after the derivatives have ended.
     ///
     /// # Errors
     /// Fails if some of the requested rows have no derivatives.
@@ -80,7 +80,7 @@ impl Simulation {
     /// Derivative of a quantity of the simulation with respect to a parameter.
     ///
     /// # Errors
-    /// Fails if there are no derivatives.
+    /// Fails if the run has no derivatives.
     pub fn derivative(
         &self,
         parameter: usize,
@@ -101,7 +101,6 @@ impl Simulation {
         &mut self.model
     }
 
-    /// Ends the computation of derivatives at an event after which they are undefined.
     pub(super) fn disable_derivatives(&mut self, event: &'static str) {
         let time = self.time();
         if let Some(sensitivities) = &mut self.stepper.sensitivities {

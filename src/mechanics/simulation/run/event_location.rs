@@ -1,4 +1,5 @@
-//! Location of the arrivals of sliders at the ends of their masters, of landings, take-offs and friction transitions, and execution of these events.
+//! Location and execution of the events of sliders within a step.
+//! Events are arrivals at the ends of masters, landings, take-offs and friction transitions.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -15,15 +16,15 @@ use crate::system::{
 /// Largest number of attempts to find the time of an arrival. A few attempts are usual.
 const MOST_TRIES: usize = 60;
 
-/// Distance from an end, as a fraction of the length of the master, below which an approaching slider has reached the end.
+/// Distance from an end below which an approaching slider has reached the end, as a fraction of the length of the master.
 /// A step over a very short distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Fraction of a step. An end of slip or a take-off within this fraction of the start of the step is moved to the start.
+/// Fraction of a step within which an end of slip or a take-off is moved to the start of the step.
 /// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
-/// Number of halvings of a step in the test whether a slider at an end leaves it temporarily.
+/// Number of halvings of a step in the search for a temporary motion of a slider away from its end.
 const PROBES: i32 = 12;
 
 /// Number of impacts at the same end, within as many steps, after which the stop holds the slider.
@@ -76,7 +77,6 @@ impl TimeBracket {
         Self { before, after, last: None, shortest: 0.0 }
     }
 
-    /// Sets the duration below which no step is tried [time].
     fn with_shortest(self, shortest: f64) -> Self {
         Self { shortest, ..self }
     }
@@ -96,7 +96,7 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
-    /// Returns true if the event is closer to the start than the shortest step.
+    /// Returns true if the event is closer to the start of the bracket than the shortest step.
     fn is_at_start(&self) -> bool {
         self.after.0 <= self.shortest
     }
@@ -202,7 +202,7 @@ impl Simulation {
         }
     }
 
-    /// Searches for a step that ends before the arrival. A step that ends after the arrival is given.
+    /// Searches for a step that ends before the arrival. The given step ends after the arrival.
     fn bracket_arrival(
         &mut self,
         interval: Interval,
@@ -228,7 +228,7 @@ impl Simulation {
         number: usize,
         mut after: (f64, f64),
     ) -> Result<ArrivalEstimate, StepError> {
-        // If the slider hardly moves in the whole step, it is held at the limit. Shorter steps would only show rounding errors.
+        // A slider that hardly moves in the whole step is held at the limit. Shorter steps would only show rounding errors.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -278,7 +278,7 @@ impl Simulation {
         matches!(self.model.slider_state(limit.slider), SliderState::Held(_))
     }
 
-    /// Attempts a step. A step that misses its target is counted but not accepted.
+    /// Attempts a step. A step that misses its target event is counted but not accepted.
     fn attempt(&mut self, cut: Interval) -> Result<Result<NewtonReport, Overshoot>, StepError> {
         match self.stepper.integrator.step(&mut self.model, cut) {
             Ok(report) => Ok(Ok(report)),
@@ -315,7 +315,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Records take-offs and landings since the last call.
     pub(super) fn record_contact_changes(&mut self) {
         for slider in 0..self.scene.sliders.len() {
             let Some(change) = self.model.take_contact_change(slider) else { continue };
@@ -389,8 +388,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts kinks at ends with the present contact forces. If the previous impact was less than a step ago, the kinks start without load.
-    /// The forces between such impacts belong to vibrations that the steps do not resolve.
+    /// Starts kinks at ends with the present contact forces.
+    /// If the previous impact was less than a step ago, the kinks start without load.
+    /// Contact forces between two impacts within a step belong to vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
@@ -401,7 +401,7 @@ impl Simulation {
 
     /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
     /// The stop holds the slider after repeated impacts within few steps, and for an elastic contact that the next steps resolve.
-    /// The stop also holds the slider if a step from the limit would pass it, although the velocity at the limit does not point beyond it.
+    /// The stop also holds a slider that would pass the limit in a step from the limit, although its velocity does not point beyond the limit.
     fn stays_held(
         &mut self,
         limit: MasterLimit,
@@ -415,15 +415,15 @@ impl Simulation {
         Ok(located.step.is_none() && !self.model.approaches(limit, dt)?)
     }
 
-    /// Returns true if a slider is held at a seam instead of passing it.
-    /// A slider is held if both sides of the seam return it at once, or if it oscillates about the seam within few steps.
+    /// Returns true if a slider is held at a seam instead of passing the seam.
+    /// A slider is held if both sides of the seam immediately return it to the seam, or if it oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
         let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
     /// Time within which repeated impacts or oscillations are not resolved by steps of length `dt` [time].
-    /// Between impacts, variable steps become longer. For variable steps, the time in which a wave passes a span replaces the step length.
+    /// Variable steps become longer between impacts. Therefore, the time in which a wave passes a span replaces the step length.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {
@@ -434,7 +434,7 @@ impl Simulation {
             }
     }
 
-    /// Returns true if the steps do not resolve the motion of a slider at a seam: the slider has passed the seam several times within as many steps.
+    /// Returns true if a slider has passed a seam several times within as many steps, so that the steps do not resolve its motion.
     fn oscillates_at_seam(&self, limit: MasterLimit, dt: f64) -> bool {
         let since = self.time() - self.unresolved(dt);
         let own = self.progress.arrivals.iter().rev();
@@ -457,7 +457,7 @@ impl Simulation {
         Arrival { time: self.model.time(), slider, end, beam, kind, impulse: Vec2::zeros() }
     }
 
-    /// Returns true if the steps do not resolve the impacts of a slider at an end: the slider has struck the end several times within as many steps.
+    /// Returns true if a slider has struck an end several times within as many steps, so that the steps do not resolve its impacts.
     fn chatters(&self, limit: MasterLimit, dt: f64) -> bool {
         let own = self.progress.arrivals.iter().rev();
         let mut last = own.filter(|arrival| arrival.slider == limit.slider).take(CHATTER);

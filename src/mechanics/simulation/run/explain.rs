@@ -55,7 +55,7 @@ impl Simulation {
         }
     }
 
-    /// Describes the treatment of failed and rejected steps, with their number.
+    /// Description of the treatment of failed and rejected steps, with the number of these steps.
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {

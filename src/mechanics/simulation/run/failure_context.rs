@@ -9,10 +9,10 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Ratio of deformed to initial length of the axis at a point, below which the axis counts as crushed.
+/// Ratio of deformed to initial length of the axis at a point below which the axis is crushed.
 const COMPRESSED: f64 = 0.5;
 
-/// Ratio of deformed to initial length of the axis at a point, above which the axis counts as torn.
+/// Ratio of deformed to initial length of the axis at a point above which the axis is torn.
 const STRETCHED: f64 = 1.5;
 
 /// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.

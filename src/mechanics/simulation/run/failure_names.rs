@@ -5,7 +5,6 @@ use crate::beams::Station;
 use crate::integrators::{FailureSource, StepError};
 use crate::joints::CONTACT_UNKNOWNS;
 
-/// Names of the components of a control point.
 const MOVEMENTS: [&str; 3] = ["x", "y", "the angle"];
 
 impl Simulation {

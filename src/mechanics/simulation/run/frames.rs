@@ -32,7 +32,7 @@ impl Simulation {
         self.model.control_points().map(of_body).collect()
     }
 
-    /// Outlines of the beams, followed by those of rigid bodies with points off the centre.
+    /// Outlines of the beams, followed by the outlines of rigid bodies with points off the centre.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -8,29 +8,29 @@ use crate::geometry::larger;
 use crate::integrators::Method;
 use crate::simulation::{StepSize, Warning};
 
-/// Error of positions, as a fraction of the amplitude of the motion, above which a warning is given [-].
+/// Error of positions above which a warning is given, as a fraction of the amplitude of the motion [-].
 const LARGEST_ERROR: f64 = 0.02;
 
-/// Error of positions for the advised step size, as a fraction of the amplitude of the motion [-].
+/// Error of positions for the recommended step size, as a fraction of the amplitude of the motion [-].
 const ADVISED_ERROR: f64 = 0.007;
 
 /// Smallest share of the vibration in the kinetic energy for which a warning is given.
 const LEAST_SHARE: f64 = 0.125;
 
-/// Error of positions, as a fraction of the size of the scene, up to which no warning is given [-].
+/// Error of positions up to which no warning is given, as a fraction of the size of the scene [-].
 const NEGLIGIBLE_ERROR: f64 = 5e-3;
 
-/// Largest phase per step for which the vibration counts as resolved [rad]. Above it, other warnings are given.
+/// Largest phase per step for which the steps resolve the vibration [rad]. For larger phases, other warnings are given.
 const RESOLVED_ANGLE: f64 = 1.8;
 
-/// Largest error of positions by a phase error, as a multiple of the amplitude.
+/// Largest error of positions due to a phase error, as a multiple of the amplitude.
 const OPPOSITE: f64 = 2.0;
 
 impl Simulation {
     /// Warning about the accumulated phase error of fixed steps.
-    /// The measures of resolution are those of one vibration with a share of the kinetic energy.
+    /// The measures of resolution are attributed to a single vibration with a part of the kinetic energy.
     ///
-    /// Drives and controllers impose the phase of the motion, so their scenes are not checked.
+    /// Scenes with drives and controllers are not checked, because drives and controllers impose the phase of the motion.
     pub(super) fn phase_error(&self) -> Option<Warning> {
         let StepSize::Fixed(dt) = self.settings.dt else { return None };
         let is_imposed = !self.scene.drives.is_empty()
@@ -65,8 +65,8 @@ impl Simulation {
 
     /// Sums the phase errors of a vibration over the rows of the history.
     ///
-    /// Energy that dampers have dissipated no longer carries its phase error.
-    /// The result is the largest phase error, weighted by the present amplitude relative to the largest one.
+    /// Energy that dampers have dissipated does not contribute to the phase error.
+    /// The largest phase error is weighted by the present amplitude relative to the largest amplitude.
     fn phase_sum(&self, frequency: f64) -> PhaseSum {
         let rows = self.history().samples();
         let largest = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
@@ -90,14 +90,12 @@ impl Simulation {
     }
 }
 
-/// Errors of a vibration in one step.
 #[derive(Debug, Clone, Copy, Default)]
 struct StepErrors {
     /// Length of the step [time].
     dt: f64,
     /// Phase error [rad].
     phase: f64,
-    /// Unresolved fraction of the kinetic energy.
     unresolved: f64,
 }
 
@@ -109,15 +107,12 @@ impl StepErrors {
     }
 }
 
-/// Sums over the steps of a run.
 #[derive(Debug, Clone, Copy, Default)]
 struct PhaseSum {
     /// Largest phase error [rad].
     phase: f64,
-    /// Unresolved fractions of the kinetic energy of one vibration.
     unresolved: f64,
     /// Kinetic energies [energy].
     kinetic: f64,
-    /// Number of steps.
     steps: f64,
 }

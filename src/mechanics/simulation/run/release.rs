@@ -15,7 +15,7 @@ impl Simulation {
         &self.progress.releases
     }
 
-    /// Returns true if the caller triggers this release and it has not been executed yet.
+    /// Returns true if the caller triggers this release and the release has not been executed yet.
     pub fn waits_for_release(&self, release: usize) -> bool {
         let described = self.scene.releases.get(release);
         described.is_some_and(|described| described.trigger == Trigger::Outside)
@@ -26,7 +26,7 @@ impl Simulation {
         self.releases().iter().any(|gone| gone.release == release)
     }
 
-    /// Executes a release of the scene at the present time, unless it has been executed already.
+    /// Executes a release of the scene at the present time, unless the release has already been executed.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again, although it was built before.
@@ -56,7 +56,6 @@ impl Simulation {
         }
     }
 
-    /// Executes the releases that are due at the present time, before the next step.
     pub(super) fn execute_due_releases(&mut self) -> Result<(), SimulationError> {
         for release in 0..self.scene.releases.len() {
             if let Trigger::Time(time) = self.scene.releases[release].trigger
@@ -68,7 +67,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Marks the given objects as released before a state is restored.
     pub(super) fn restore_releases(
         &mut self,
         let_go: &Rc<[ReleaseEvent]>,

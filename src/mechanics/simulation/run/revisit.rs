@@ -23,7 +23,7 @@ impl Simulation {
         kept.chain([(steps, self.time())]).collect()
     }
 
-    /// Restores, in this copy, the state of the original simulation after a number of steps. Returns false if the state is not stored.
+    /// Restores the state of the original simulation after a number of steps in this copy. Returns false if the state is not stored.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again, although it was built before.
@@ -63,8 +63,8 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats, in this copy, the original run up to a row of its history.
-    /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original.
+    /// Repeats the original run up to a row of its history in this copy.
+    /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original run.
     /// The repeated run may differ from the original run if script functions were called during the original run.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ impl Simulation {
         Ok(self.model.section_forces(&at))
     }
 
-    /// Section forces along a beam in the present configuration, from start to end.
+    /// Section forces along a beam in the present configuration, from its start to its end.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.
@@ -34,7 +34,7 @@ impl Simulation {
         self.model.places_along(&self.scene, beam, within_a_span)
     }
 
-    /// Samples a beam in the present configuration, from start to end.
+    /// Samples a beam in the present configuration, from its start to its end.
     pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
         self.model.sample_along(along)
     }
@@ -42,7 +42,7 @@ impl Simulation {
     /// Instantaneous accelerations and forces: see [`System::instant`](crate::system::System::instant).
     ///
     /// # Errors
-    /// Fails if a load has no value, or contact forces are undetermined.
+    /// Fails if a load has no value, or if contact forces are undetermined.
     pub fn instant(&mut self) -> Result<Instant, SystemError> {
         self.model.instant()
     }

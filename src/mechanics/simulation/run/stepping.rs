@@ -1,4 +1,4 @@
-//! Steps of the time grid. Failed steps are halved. Steps end at arrivals of sliders and are recorded.
+//! Steps of the time grid. Failed steps are halved. Steps end at arrivals of sliders.
 
 use super::Simulation;
 use super::event_location::MOST_ARRIVALS;
@@ -104,7 +104,7 @@ impl Simulation {
 
     fn step_or_freeze_contacts(&mut self, interval: Interval) -> Result<NewtonReport, StepError> {
         // Kinks and friction forces that were kept constant in the last step become variable again.
-        // The constant kinks were kept until now, because queries of the last step depend on them.
+        // Constant kinks are kept until the start of the next step, because queries of the last step depend on them.
         self.model.unfreeze_contacts();
         let stepped = self.stepper.step(&mut self.model, interval);
         let stepped = match stepped {
@@ -115,7 +115,7 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_contacts() {
-            // The perturbed runs may have been solved without constant kinks. Their equations would then differ from those of the main run.
+            // The equations of perturbed runs that were solved without constant kinks would differ from the equations of the main run.
             self.disable_derivatives(
                 "the kink under a slider or its friction force is kept constant in a step",
             );
@@ -123,7 +123,8 @@ impl Simulation {
         stepped
     }
 
-    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step. Returns true if this changes the equations of the step.
+    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step.
+    /// Returns true if the equations of the step change.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

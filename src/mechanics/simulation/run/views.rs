@@ -17,14 +17,16 @@ impl Simulation {
         self.scene.place(station, self.model.meshes())
     }
 
-    /// Returns true if a column of the history contains means over the last step, such as contact forces. False if it contains present values.
+    /// Returns true if a column of the history contains means over the last step, such as contact forces.
+    /// Returns false if the column contains present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
         let mut sensors = self.record.sensors.iter();
         let sensor = sensors.find(|sensor| sensor.name == column);
         sensor.is_some_and(|sensor| sensor.is_step_mean(self.settings.method))
     }
 
-    /// Lowest natural modes about the present configuration, which is treated as an equilibrium with its section forces and constraint forces.
+    /// Lowest natural modes about the present configuration.
+    /// The present configuration is treated as an equilibrium with its section forces and constraint forces.
     ///
     /// # Errors
     /// Fails if there are too few modes, a load is a follower load, forces are undetermined, or the search is stopped.
@@ -38,7 +40,7 @@ impl Simulation {
             .map_err(|error| VibrationError::NoForces(error.to_string()))?
     }
 
-    /// Path of a point of a body: times and positions of all recorded configurations.
+    /// Path of a point of a body: times and positions in all recorded configurations.
     pub fn path(&self, place: &BodyPoint) -> Vec<(f64, Vec2)> {
         let counts: Vec<usize> = self.model.control_points().map(<[Vec2]>::len).collect();
         let offset = counts[..place.body].iter().sum::<usize>();

@@ -16,14 +16,14 @@ use crate::system::{
 };
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy, above which a warning states that the steps are too long.
-/// The constant is the unresolved fraction of a single vibration with 3.5 steps per period, whose computed period is 20 % too long.
+/// Unresolved fraction of the kinetic energy above which a warning states that the steps are too long.
+/// A single vibration with 3.5 steps per period has an unresolved fraction of 0.2. Its computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Unresolved fraction of the kinetic energy, above which a warning is given if also the phase exceeds [`HIDDEN_TURN`].
+/// Unresolved fraction of the kinetic energy above which a warning is given if the phase per step also exceeds [`HIDDEN_TURN`].
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// Phase of a vibration per step, above which a small unresolved fraction causes a warning [rad].
+/// Phase of a vibration per step above which a small unresolved fraction causes a warning [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
 /// Smallest kinetic energy of the damped beams that are checked, as a fraction of the total kinetic energy.
@@ -44,7 +44,8 @@ const MOST_UNKNOWNS: usize = 1200;
 /// Numbers of modes that are computed one after the other, until a mode is not a rigid-body mode.
 const MODES: [usize; 3] = [4, 8, 16];
 
-/// Largest strain of the elastic wave of an impact that counts as zero [-]. The rates of prescribed motions have errors of finite differences.
+/// Largest strain of the elastic wave of an impact that counts as zero [-].
+/// The tolerance covers the errors of rates of prescribed motions, which are computed by finite differences.
 const NEGLIGIBLE_STRAIN: f64 = 1e-8;
 
 const RECENT_STEPS: usize = 200;
@@ -52,17 +53,16 @@ const RECENT_STEPS: usize = 200;
 /// Smallest relative change of the step length from one step to the next that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
-/// Number of alternations of the step length among the recent steps, above which a warning is given.
+/// Number of alternations of the step length among the recent steps above which a warning is given.
 const MOST_TURNS: usize = 20;
 
-/// Number of adaptive steps, above which a warning about their number may be given.
+/// Number of adaptive steps above which a warning about their number may be given.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that resolves the motion of the scene to the mean step size, above which a warning is given.
-/// Steps shorter by this ratio follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Ratio of the step size that resolves the motion of the scene to the mean step size above which a warning is given.
+/// Steps that are shorter by `MUCH_SHORTER` follow a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
-/// Largest number of sliders whose resolution is described.
 const SLIDERS: usize = 6;
 
 impl Simulation {
@@ -164,7 +164,7 @@ impl Simulation {
     }
 
     /// Adds a warning for each obstacle, about the body whose contact stores the largest energy.
-    /// The penetrations are sorted by decreasing energy.
+    /// The penetrations must be sorted by decreasing energy.
     pub(super) fn warn_of_penetrations(&mut self, penetrations: Vec<(String, Penetration)>) {
         for (obstacle, Penetration { body, depth, energy, .. }) in penetrations {
             let obstacle = self.scene.contact_object(&obstacle).unwrap_or(obstacle);
@@ -176,7 +176,6 @@ impl Simulation {
         }
     }
 
-    /// Adds a warning for each drive that starts with a speed at a beam at rest.
     pub(super) fn warn_of_start_impacts(&mut self) {
         let impacts = self.model.start_impacts(NEGLIGIBLE_STRAIN * self.scene.fastest_wave());
         for StartImpact { drive, beam, component, rate } in impacts {
@@ -204,7 +203,8 @@ impl Simulation {
     }
 
     /// Warnings about damped beams.
-    /// A step size [time] may not resolve the motion of a damped beam, although it resolves the motion of the whole scene.
+    /// The steps may not resolve the motion of a damped beam, although they resolve the motion of the whole scene.
+    /// `dt` is the step size [time].
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -217,8 +217,9 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors. Each step multiplies the velocity errors by -1.
-    /// Because the steps have different lengths, the resulting position errors do not cancel.
+    /// Warning about alternating long and short steps in scenes with persistent velocity errors.
+    /// Each step multiplies the velocity errors by -1.
+    /// In steps of different lengths, the position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -237,7 +238,7 @@ impl Simulation {
         (turns >= MOST_TURNS).then_some(Warning::Uneven { shortest, longest })
     }
 
-    /// Lengths of the recent steps of the time grid [time]. The parts of a step that a failure or an event of a slider divides are added.
+    /// Lengths of the recent steps of the time grid [time]. The parts of a divided step are added.
     fn recent_grid_steps(&self) -> Vec<f64> {
         let rows = self.history().samples();
         let last = &rows[rows.len().saturating_sub(RECENT_STEPS)..];
@@ -259,7 +260,7 @@ impl Simulation {
         lengths
     }
 
-    /// Warning about many adaptive steps. The method is of first order, or the steps are much shorter than the motion of the whole scene requires.
+    /// Warning about many adaptive steps, due to a method of first order or to steps much shorter than the motion of the scene requires.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -300,7 +301,7 @@ impl Simulation {
         (drift > LARGEST_DRIFT).then_some(drift)
     }
 
-    /// Name of a method with numerical damping; `None` if this method is already used or would have no effect.
+    /// Name of a method with numerical damping; `None` if such a method is already used or would have no effect.
     /// Numerical damping acts on strains of beams and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
@@ -365,7 +366,7 @@ impl Simulation {
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
-    /// Lowest period of the initial configuration [time]. It is not computed for scenes with sliders, without vibration, or with many unknowns.
+    /// Lowest period of the initial configuration [time]; `None` for scenes with sliders, without vibration, or with many unknowns.
     fn lowest_period(&self) -> Option<f64> {
         self.initial_geometry.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();

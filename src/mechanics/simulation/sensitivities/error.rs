@@ -18,7 +18,7 @@ pub enum DerivativeError {
         "'{name}' has a controller, whose output has no derivatives with respect to parameters"
     )]
     Controlled { name: String },
-    /// A mean joint force is recorded. It has no derivative because it is accumulated over the step.
+    /// The recording of a mean joint force, which has no derivative because it is accumulated over the step.
     #[error(
         "'{sensor}' is a mean over a step, which has no derivatives with respect to parameters"
     )]

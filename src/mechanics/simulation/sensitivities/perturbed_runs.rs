@@ -36,7 +36,7 @@ impl PerturbedRuns {
         Ok(perturbation)
     }
 
-    /// Executes a release in both runs. Afterwards, their states have the same structure as `state`.
+    /// Executes a release in both perturbed runs. Afterwards, their states have the same structure as `state`.
     pub(super) fn release(
         &mut self,
         release: usize,
@@ -50,7 +50,6 @@ impl PerturbedRuns {
         Ok(())
     }
 
-    /// Computes the derivative of the state from the difference between the states of both runs.
     pub(super) fn differentiate(&mut self) {
         let Self { runs, states, derivative, distance, .. } = self;
         for (run, state) in runs.iter().zip(states.iter_mut()) {
@@ -60,7 +59,7 @@ impl PerturbedRuns {
         plus.change_from(minus, 2.0 * *distance, derivative);
     }
 
-    /// Sets the states of the two runs: `state` plus and minus the derivative times the perturbation.
+    /// Sets the states of the two perturbed runs to `state` plus and minus the derivative times the perturbation.
     pub(super) fn set_perturbed_states(&mut self, state: &SystemState) {
         let Self { runs, states, derivative, distance, .. } = self;
         for ((run, beside), amount) in

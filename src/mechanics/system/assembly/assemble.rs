@@ -18,7 +18,8 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// The rounding error of a strain exceeds the machine precision. Strains are differences of coordinates, which may be much larger than a span.
+/// Strains are differences of coordinates, which may be much larger than a span.
+/// The rounding error of strains is therefore larger than the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 /// Bodies of a scene with the meshes of the beams, from which the model is built.
@@ -28,7 +29,6 @@ pub struct Assembly<'a> {
     pub bodies: Vec<Box<dyn BodyDynamics>>,
 }
 
-/// Checks that the contact forces at the start have a direction.
 fn check_contact_directions(model: &System, scene: &Scene) -> Result<(), SystemError> {
     let Some((name, body)) = model.undirected_contact() else { return Ok(()) };
     let object = scene.contact_object(name).unwrap_or_else(|| name.to_owned());
@@ -44,8 +44,8 @@ impl System {
         Self::assemble_while(scene, &mut || true)
     }
 
-    /// Builds the mechanism of a scene in its initial state. The caller can stop the assembly.
-    /// The callback `goes_on` is called between beams and between phases. If it returns false, the assembly fails.
+    /// Builds the mechanism of a scene in its initial state, with a callback that can stop the assembly.
+    /// The callback `goes_on` is called between beams and between phases. If the callback returns false, the assembly fails.
     ///
     /// # Errors
     /// Fails in the same cases as [`assemble`](Self::assemble), or if the assembly is stopped.
@@ -59,7 +59,8 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at the start of a run. The initial kinks under sliders are those of the initial contact forces.
+    /// Builds the mechanism of a scene at the start of a run.
+    /// The initial kinks under sliders are those of the initial contact forces.
     ///
     /// # Errors
     /// Fails in the same cases as [`assemble_while`](Self::assemble_while).
@@ -86,10 +87,10 @@ impl System {
     }
 
     /// Builds the mechanism of a scene in the given static state at the given time.
-    /// Velocities are checked against the positions of the sliders in this state, not against their initial positions.
+    /// Velocities are checked against the positions of the sliders in the static state, not against their initial positions.
     ///
     /// # Errors
-    /// Fails in the same cases as [`assemble`](Self::assemble), or if a function has no value at that time.
+    /// Fails in the same cases as [`assemble`](Self::assemble), or if a function has no value at the given time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
@@ -190,7 +191,7 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// Control points of all bodies in the initial configuration. The slaves of sliders are moved onto the meshes of their masters.
+    /// Control points of all bodies in the initial configuration, with the slaves of sliders moved onto the meshes of their masters.
     fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             query(self.scene, goes_on)?;
@@ -200,7 +201,7 @@ impl<'a> Assembly<'a> {
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, SystemError>>()?;
-        // A master may also be a slave of another slider, so the placement is repeated until no slave moves.
+        // A master may also be a slave of another slider. Therefore, the placement of slaves is repeated until no slave moves.
         let place = |slider: &Slider| {
             Ok((
                 self.place_at(slider.master, self.slider_parameter(slider)?)?,

@@ -6,10 +6,10 @@ use crate::system::elements::{Dragged, Element};
 use crate::system::{Scene, SpringKind, System, SystemError};
 
 impl System {
-    /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint. Its acceleration would be undetermined.
+    /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration is undetermined.
     ///
     /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point.
-    /// An object at a point of a rigid body restrains its angle only if the point is off the centre or rotates with the body.
+    /// An object at a point of a rigid body restrains the angle of the body only if the point is off the centre or rotates with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Number that stands for "no unknown", for a component whose motion is given.
+/// Placeholder for the missing unknown of a component whose motion is given.
 const NONE: usize = usize::MAX;
 
 /// Unknowns in the order of the bodies, before bandwidth reduction.

@@ -1,18 +1,18 @@
-//! Check that the forces of rigid links and inclined rollers are determined. Redundant constraints have no unique forces.
+//! Check that the forces of rigid links and inclined rollers are unique. Redundant constraints have no unique forces.
 
 use crate::elementary::square;
 use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Constraint force per unit of gap, above which the force counts as undetermined.
+/// Constraint force per unit of gap above which the constraint force is not unique.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
     /// Rejects redundant constraints of rigid bodies and rollers.
     ///
     /// The check closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
-    /// A force that is determined is at most the gap times the square of the number of bodies in a chain.
+    /// A unique constraint force is at most the gap times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());

@@ -1,4 +1,4 @@
-//! Assembly of a model from a scene: meshes with nodes at joints, numbering, elements, sliders and start velocities. It does not take steps.
+//! Assembly of a model from a scene: meshes with nodes at joints, numbering, elements, sliders and start velocities.
 
 mod assemble;
 mod contact_blocks;

@@ -1,4 +1,4 @@
-//! Numbering of the degrees of freedom. Some degrees of freedom are tied to each other or to the ground.
+//! Numbering of the degrees of freedom, some of which are tied to each other or to the ground.
 
 use super::initial_numbering::InitialNumbering;
 use super::tied_components::{GROUND, TiedComponents};
@@ -17,7 +17,7 @@ pub struct LinkPlace {
     pub force: [usize; 2],
 }
 
-/// Degree of freedom of every component of every control point. Unknowns come first, and supported degrees of freedom last.
+/// Degree of freedom of every component of every control point. Unknowns have the lowest numbers, supported degrees of freedom the highest.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -34,7 +34,7 @@ pub struct Numbering {
 
 impl Numbering {
     /// Numbers the degrees of freedom of bodies. `place` locates stations on the meshes.
-    /// The contact unknowns are numbered between the unknowns and the supported degrees of freedom. Their number is `border`.
+    /// The `border` contact unknowns are numbered between the unknowns and the supported degrees of freedom.
     /// Joints and drives in the list `released` have no effect.
     pub fn new(
         scene: &Scene,
@@ -77,7 +77,8 @@ impl Numbering {
             });
             degrees_of_freedom.push(points.collect());
         }
-        // Elements at a point, such as drag, couple its components. Consecutive numbers keep the bandwidth of the tangent small.
+        // Elements at a point, such as drag, couple the components of the point.
+        // Consecutive numbers keep the bandwidth of the tangent small.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));

@@ -1,12 +1,12 @@
-//! Check that the contact forces of sliders are determined. Redundant contacts have no unique forces.
+//! Check that the contact forces of sliders are unique. Redundant contacts have no unique forces.
 //!
 //! The check computes the velocities of slaves across their masters due to contact impulses.
-//! If the matrix of these velocities is singular, some impulses have no effect, and the contact forces are undetermined.
+//! If the matrix of the velocity responses is singular, some contact impulses have no effect, and the contact forces are not unique.
 
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
 
-/// Ratio of a pivot of the Cholesky factorisation to the diagonal entry, below which the pivot is due to rounding.
+/// Ratio of a pivot of the Cholesky factorisation to the diagonal entry below which the pivot is due to rounding.
 const ROUNDING_PIVOT: f64 = 1e-13;
 
 /// Largest velocity change of a slider due to a unit impulse that counts as zero, as a fraction of the velocity change of the total mass.

@@ -9,8 +9,9 @@ use crate::system::mechanism::DofNumbers;
 use crate::system::{Scene, System, SystemError};
 
 impl System {
-    /// Releases an object of the scene at the present time. Positions and rates are continuous. `released` lists the objects released earlier.
-    /// The energy stored in a released spring counts as dissipated. The caller must allocate a new work space of the integrator afterwards.
+    /// Releases an object of the scene at the present time. Positions and rates are continuous.
+    /// `released` lists the objects released earlier. The energy stored in a released spring counts as dissipated.
+    /// The caller must allocate a new work space of the integrator afterwards.
     ///
     /// # Errors
     /// Fails if a station lies outside its beam, which cannot occur in a checked scene.

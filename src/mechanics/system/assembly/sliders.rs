@@ -15,7 +15,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
-/// The limit is about the size of the rounding errors of velocities at a dead centre of a mechanism.
+/// The constant `SAME_VELOCITY` is about the size of the rounding errors of velocities at a dead centre of a mechanism.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
@@ -72,7 +72,7 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// Contact path of a beam. Computed paths are stored in `found`.
+    /// Contact path of a beam. Computed contact paths are stored in `found`.
     fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
@@ -96,7 +96,8 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of a master with a kink under the contact force; `None` if the sliding rule has no kink or the mesh of the master is not smooth.
+    /// Axis of a master with a kink under the contact force.
+    /// Returns `None` if the sliding rule has no kink or the mesh of the master is not smooth.
     /// Kink lengths are computed once per master and stored in `found`.
     fn kinked_axis(
         &self,
@@ -105,7 +106,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C0 mesh represents the kink at its nodes, so no compliance is missing at the nodes, and the kink could not pass a node.
+        // A C0 mesh represents kinks at its nodes without missing compliance, but a kink cannot pass a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -142,7 +143,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 }
 
 impl System {
-    /// Applies the rule of each slider for start velocities: the velocity across the master is either checked or projected to zero.
+    /// Checks the start velocity of each slave across its master or projects it to zero, depending on the option of the slider.
     /// A velocity counts as zero if it would cause a wave with a strain below the rounding error of strains.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
@@ -166,7 +167,7 @@ impl System {
     /// Points of rigid bodies receive the rates that follow from the rates of their bodies.
     ///
     /// # Errors
-    /// Fails if a function has no value at that time, or velocities contradict the sliders.
+    /// Fails if a function has no value at the given time, or if velocities contradict the sliders.
     pub(super) fn begin_at(&mut self, time: f64, scene: &Scene) -> Result<(), SystemError> {
         self.set_time(time);
         self.set_prescribed_motion(time)
@@ -178,7 +179,7 @@ impl System {
         SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
     }
 
-    /// Checks the velocity of the slave across the master.
+    /// Checks the start velocity of the slave across the master.
     /// A slider that only pushes starts in flight if its slave moves away from the axis to the side on which it can fly.
     fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);

@@ -1,4 +1,4 @@
-//! Start velocities: rigid motions of beams and bodies, and velocities of single nodes. Joints tie the velocities of different bodies.
+//! Start velocities: rigid motions of beams and bodies, and velocities of single nodes.
 
 use super::{Assembly, Numbering};
 use crate::beams::{BodyDynamics, BodyIndex, Station};
@@ -7,11 +7,11 @@ use crate::system::elements::AssemblyContext;
 use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
-/// Largest difference of two start velocities tied by a joint that count as equal, as a fraction of the velocities of the beam.
+/// Largest difference of two start velocities tied by a joint that counts as zero, as a fraction of the velocities of the beam.
 const SAME_VELOCITY: f64 = 1e-9;
 
 /// Largest accepted difference between a start velocity and the initial rate of a prescribed motion, as a fraction of this rate.
-/// The initial rate is computed by finite differences, which have an error.
+/// The tolerance covers the error of the initial rate, which is computed by finite differences.
 const SAME_START: f64 = 1e-6;
 
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
@@ -27,7 +27,7 @@ struct SharedRates<'a> {
     requested: Vec<Option<RequestedRate<'a>>>,
 }
 
-/// Requested rate of a node [length/time, 1/time].
+/// Requested start rate of a node [length/time, 1/time].
 #[derive(Clone, Copy)]
 struct RequestedRate<'a> {
     rate: f64,
@@ -104,7 +104,7 @@ impl Assembly<'_> {
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // If all points of a body are at its centre, the body shares no rotation with other bodies.
-            // If all points of a body coincide, the size of the body has no effect and can have any value.
+            // The size of a body whose points are all at its centre has no effect and can have any value.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }
@@ -161,7 +161,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // A body with zero start velocity is accepted. An impact at the start sets it in motion.
+                    // A prescribed motion of a body at rest is accepted. An impact at the start sets the body in motion.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),

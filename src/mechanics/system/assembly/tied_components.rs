@@ -1,4 +1,4 @@
-//! Components (x, y and angle) of control points that move equally because joints tie them to each other. Tied components form a class.
+//! Components (x, y and angle) of control points that joints tie to each other. Tied components form a class and move equally.
 
 use crate::beams::{BodyDynamics, BodyPoint, Station};
 use crate::joints::{Component, Partner, Releasable};

@@ -7,7 +7,7 @@ use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{BodyPoint, Mesh, Movement};
 use crate::geometry::{Vec2, larger};
 
-/// Value of a basis function at a node, below which the function counts as zero at the node.
+/// Value of a basis function at a node below which the function counts as zero at the node.
 const NO_WEIGHT: f64 = 1e-12;
 
 /// Bodies of a model: beams, then particles, then rigid bodies. The type dereferences to a slice of bodies.
@@ -19,7 +19,7 @@ pub struct Bodies {
     /// Mass of the beams [mass].
     mass: f64,
     pub(super) threads: usize,
-    /// Division into two halves for two threads; `None` for a small number of bodies.
+    /// Division of the bodies into two halves for two threads; `None` for a small number of bodies.
     pub(super) halves: Option<BodyHalves>,
 }
 
@@ -120,7 +120,7 @@ impl Bodies {
         all
     }
 
-    /// Writes the values of [`by_control_point`](Self::by_control_point) to a buffer.
+    /// Writes the values of [`by_control_point`](Self::by_control_point) for all bodies to a buffer.
     pub fn write_by_control_point(&self, values: &[f64], all: &mut Vec<Vec<Movement>>) {
         all.resize_with(self.len(), Vec::new);
         for (body, own) in self.iter().zip(all) {

@@ -69,7 +69,7 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` concurrent parts, and returns their number. Results do not change.
+    /// Divides the body into at most `most` concurrent parts, and returns the number of parts. Results do not change.
     /// A body is not divided if it is small, or if the rows of its parts are interleaved.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
@@ -209,13 +209,14 @@ impl Body {
         self.dynamics.correct_section_forces(&self.movements);
     }
 
-    /// Accumulates the inertia forces `factor · M · rates`.
+    /// Accumulates the inertia forces `factor · M · rates`, where `M` is the mass matrix of the body.
     pub fn add_inertia_forces(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.movements, &mut self.forces);
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M`. Values for the same row and column must be added up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`, where `M` is the mass matrix of the body.
+    /// The caller must add up values for the same row and column.
     pub fn inertia_entries(&self, factor: f64, add: &mut impl FnMut(usize, usize, f64)) {
         self.inertia_entries_of(0..self.degrees_of_freedom.len(), factor, add);
     }
@@ -231,7 +232,6 @@ impl Body {
         });
     }
 
-    /// Calls `add` with the inertia entries of one control point.
     fn entries_of(
         &self,
         point: usize,
@@ -253,7 +253,7 @@ impl Body {
         }
     }
 
-    /// Adds `factor · M` to the given rows of the tangent.
+    /// Adds `factor · M` to the given rows of the tangent, where `M` is the mass matrix of the body.
     pub fn add_inertia_tangent(&self, factor: f64, rows: BandRows<'_>) {
         let add = |points: Range<usize>, mut rows: BandRows<'_>| {
             let at_hand = rows.rows();

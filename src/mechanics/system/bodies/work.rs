@@ -7,7 +7,8 @@ use crate::linalg::{BandRows, BandedMatrix};
 use crate::threads::run_concurrently;
 
 impl Bodies {
-    /// Sets the number of threads for a large body or many bodies. Results do not change. Returns the largest number of threads in use.
+    /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
+    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.threads = threads;
         let parts = self.all.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1);
@@ -33,7 +34,8 @@ impl Bodies {
         self.each(|body| body.dynamics.begin_step());
     }
 
-    /// Adds the internal forces of all bodies to `out`. Returns the largest force, moment, rotation and strain residual.
+    /// Adds the internal forces of all bodies to `out`.
+    /// Returns the largest force, moment, rotation and strain residual of all bodies.
     pub fn add_forces(
         &mut self,
         at: Collocation,
@@ -117,7 +119,7 @@ impl Bodies {
         self.each(|body| body.correct_section_forces(correction));
     }
 
-    /// Adds `factor · M · rates` to `out`, one entry per unknown.
+    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of all bodies.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.each(|body| body.add_inertia_forces(factor, rates));
         self.scatter(out);

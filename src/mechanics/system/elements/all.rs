@@ -73,7 +73,8 @@ impl Elements {
         }
     }
 
-    /// Prepares all elements for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
+    /// Prepares all elements for the start of a simulation.
+    /// `inertia` is the diagonal of the inertia matrix, from which the elements compute effective masses at points.
     pub fn begin(&mut self, bodies: &[Body], inertia: &[f64]) {
         self.resistances.iter_mut().for_each(|one| one.begin(bodies, inertia));
     }
@@ -81,7 +82,7 @@ impl Elements {
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the reason.
+    /// Returns the name of the first element whose value is not finite, and the reason of the failure.
     pub fn begin_step(
         &mut self,
         (interval, stages): (Interval, &[Stage]),
@@ -99,7 +100,7 @@ impl Elements {
     /// Evaluates all loads just after a time. If a load jumps at this time, the value after the jump is used.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the reason.
+    /// Returns the name of the first element whose value is not finite, and the reason of the failure.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
             force.evaluate_after(time).map_err(|error| (force.name().to_owned(), error))
@@ -114,7 +115,7 @@ impl Elements {
         self.forces.iter().map(|force| force.tracked_sections()).sum()
     }
 
-    /// Adds `factor · M · rates` of all point masses to `out`, one entry per unknown.
+    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of all point masses.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
@@ -153,17 +154,18 @@ impl Elements {
         })
     }
 
-    /// Adds the tangent stiffness of all forces to the `unknowns` rows of the tangent. It is the negative derivative with respect to the increments.
+    /// Adds the tangent stiffness of all element forces to `tangent`.
+    /// The tangent stiffness is the negative derivative of the forces with respect to the increments of the unknowns.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// Contacts between bodies that exist at present.
+    /// Appends the data of all existing contacts between bodies to `contacts`.
     pub fn save_contacts(&self, contacts: &mut Vec<f64>) {
         self.resistances.iter().for_each(|resistance| resistance.save_contacts(contacts));
     }
 
-    /// Restores the contacts of a saved state. Returns `None` if they are not contacts of these elements.
+    /// Restores the contacts between bodies from a saved state. Returns `None` if the saved contacts do not fit the elements.
     pub fn restore_contacts(&mut self, bodies: &[Body], contacts: &[f64]) -> Option<()> {
         let mut numbers = contacts.iter().copied();
         let next = &mut || numbers.next();
@@ -214,7 +216,7 @@ impl Elements {
         }
     }
 
-    /// Adds `weight` times the forces that would remove the present residuals of the force laws.
+    /// Adds `weight` times the force corrections that would satisfy all force laws in the present iterate to `out`.
     pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         self.resistances.iter().for_each(|resistance| {
             resistance.add_mismatch_forces(bodies, weight, out);

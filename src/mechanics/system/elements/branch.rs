@@ -3,7 +3,8 @@
 /// Present segment of a spring on a piecewise linear law, and the rate of its elongation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// Number of sharp corners of the law below the present elongation. It changes, for example, when the contact of a bumper begins.
+    /// Number of sharp corners of the law below the present elongation.
+    /// The number of corners below the elongation changes, for example, when the contact of a bumper begins.
     pub index: usize,
     /// Rate of the elongation [length/time, rad/time].
     pub rate: f64,

@@ -1,4 +1,4 @@
-//! Duration of contact for springs that can be slack, such as bumpers and ropes. The steps do not resolve contacts shorter than a few steps.
+//! Detection of contacts that last only a few steps, for springs that can be slack, such as bumpers and ropes.
 
 /// Largest number of steps of an unresolved bounce. Three steps cover half of the contact period.
 const FEW: f64 = 3.0;
@@ -9,10 +9,10 @@ const TURNED: f64 = 0.5;
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring, with a contact that is too short to be resolved by the steps.
+/// Bounce on a spring whose contact phase is too short to be resolved by the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps during the contact [-]. Steps at whose start or end the spring is slack are included.
+    /// Number of steps during the contact [-], including steps at whose start or end the spring is slack.
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
@@ -23,13 +23,13 @@ pub struct ShortBounce {
 /// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// Number of steps since contact began; zero while the spring is slack.
+    /// Number of steps since the contact began; zero while the spring is slack.
     steps: f64,
-    /// Rate of elongation when contact began [length/time, rad/time].
+    /// Rate of elongation at the beginning of the contact [length/time, rad/time].
     entry: f64,
-    /// Largest force so far in this contact [force, force·length].
+    /// Largest force of the present contact so far [force, force·length].
     force: f64,
-    /// Time since contact began [time].
+    /// Time since the contact began [time].
     duration: f64,
     /// Largest force of a bounce that is attributed to rounding [force, force·length].
     noise: f64,
@@ -43,7 +43,7 @@ impl ContactWatch {
 
     /// Records a step.
     /// The flags are true if the spring is slack at the start and at the end of the step.
-    /// The rates of elongation are those of the previous step and of this step.
+    /// The rates of elongation are those of the previous step and of the recorded step.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

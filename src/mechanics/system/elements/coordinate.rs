@@ -3,7 +3,7 @@
 /// Largest rounding error of increments, as a multiple of the machine precision.
 const MOST_ROUNDING: f64 = 16.0;
 
-/// Largest rounding error of a change that is computed from increments up to the given magnitude.
+/// Bound of the rounding error of a sum of increments, each of them at most `largest_increment` in magnitude.
 pub fn rounding_error(largest_increment: f64) -> f64 {
     MOST_ROUNDING * f64::EPSILON * largest_increment
 }
@@ -32,7 +32,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference between the sum and a number. The rounding error is relative to this difference, not to the sum.
+    /// Difference between the accumulated sum and a number, with a rounding error relative to the difference.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

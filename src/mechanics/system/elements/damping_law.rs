@@ -9,7 +9,7 @@ use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
 /// Largest force that is attributed to rounding, as a fraction of the largest force of the law.
-/// A law may have a force of this size at zero rate, or in a direction in which the force adds energy.
+/// The limit `ROUNDING` applies to forces at zero rate, and to forces that add energy.
 const ROUNDING: f64 = 1e-12;
 
 /// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
@@ -33,10 +33,10 @@ impl From<f64> for DampingLaw {
     }
 }
 
-/// Range in which a damping law adds energy.
+/// Range of rates in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
-    /// Point of the law that adds energy: its rate [length/time, rad/time] and its force [force, force·length].
+    /// Point of the law at which the force adds energy: rate [length/time, rad/time] and force [force, force·length].
     At { rate: f64, force: f64 },
     /// Linear extrapolation of the law beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },
@@ -58,10 +58,10 @@ impl fmt::Display for NegativeDamping {
 }
 
 impl DampingLaw {
-    /// Samples a damping force over a range of rates that contains zero. `SpringLaw::sampled` samples each side of zero separately.
+    /// Samples a damping force over a range of rates that contains zero. Each side of zero is sampled separately.
     ///
     /// # Errors
-    /// Fails if the function fails.
+    /// Fails if the sampled function fails.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -88,7 +88,7 @@ impl DampingLaw {
         }
     }
 
-    /// Record of rates outside the range of the law; `None` if the law is defined everywhere.
+    /// Monitor of rates outside the range of the law; `None` if the law is defined at all rates.
     pub fn watch(&self) -> Option<LawRange> {
         match self {
             Self::Linear(_) => None,
@@ -96,12 +96,12 @@ impl DampingLaw {
         }
     }
 
-    /// Returns true if the law is not zero.
+    /// Returns true if the law has a nonzero force at some rate.
     pub fn is_active(&self) -> bool {
         *self != Self::Linear(0.0)
     }
 
-    /// Range in which the law adds energy or has a force at zero rate.
+    /// Range of rates in which the law adds energy or has a force at zero rate.
     /// Returns `None` if the law and its extrapolation dissipate energy at every rate.
     pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
@@ -146,7 +146,7 @@ impl DampingLaw {
     }
 
     /// Derivative of the force with respect to the rate [force·time/length, force·length·time/rad].
-    /// At a corner, the slope of the segment above the corner is returned.
+    /// Slope at a corner of the law: the slope of the segment above the corner.
     pub fn slope(&self, rate: f64) -> f64 {
         match self {
             Self::Linear(constant) => *constant,

@@ -14,25 +14,25 @@ use crate::system::errors::finite;
 /// Object that experiences drag, with its drag law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Dragged {
-    /// A beam with drag along its whole length. There are separate laws across and along the axis.
+    /// A beam with drag along its whole length, with separate drag laws across and along its axis.
     Beam {
-        /// Index of the beam.
+        /// Index of the beam with drag.
         beam: usize,
         /// Force per length across the axis.
         normal: SpeedLaw,
         /// Force per length along the axis.
         tangent: SpeedLaw,
     },
-    /// A particle or a station of a beam. The drag is the same in every direction.
+    /// A particle or a station of a beam, with the same drag law in every direction.
     Point {
         /// Station with drag.
         station: Station,
-        /// Force opposite to the velocity.
+        /// Drag law: force opposite to the velocity as a function of the speed.
         law: SpeedLaw,
     },
 }
 
-/// Drag force opposite to the velocity relative to a medium. The medium has a uniform velocity.
+/// Drag force opposite to the velocity relative to a medium that moves at a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
     /// Name in messages and columns.

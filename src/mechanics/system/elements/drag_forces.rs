@@ -1,7 +1,7 @@
 //! Drag in a step (docs/theory.md, section 9.3).
 //!
 //! The dissipated power is computed from the force alone by means of the drag law, so that rounding cannot change its sign.
-//! The work of the wind follows from the work of the drag force and the dissipated energy, so that the energy balance is exact.
+//! The work of the wind is the work of the drag force plus the dissipated energy, so that the energy balance is exact.
 
 use super::drag_law::DragLaw;
 use super::drag_point::{DragPoint, Medium};
@@ -109,7 +109,6 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Drag is evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         for point in &self.points {
             point.scatter(&bodies[point.body], point.missing(), out);
@@ -120,7 +119,6 @@ impl InternalForce for DragForces {
         self.points.iter_mut().for_each(|point| point.correct(&bodies[point.body], correction));
     }
 
-    /// The impulse acts at the mean position of the point. A flowing medium does work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for point in &self.points {
@@ -165,7 +163,6 @@ impl InternalForce for DragForces {
         }
     }
 
-    /// Only the linear part of the law damps small vibrations.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let damping = self.medium.law.linear();
         for point in &self.points {

@@ -18,7 +18,7 @@ impl SpeedLaw {
         (self.linear + self.quadratic * speed.abs()) * speed
     }
 
-    /// Power at a speed, computed from the force alone, so that it is never negative.
+    /// Dissipated power at a force, computed from the force alone, so that rounding cannot make the power negative.
     fn power(&self, force: f64) -> f64 {
         let force = force.abs();
         if force == 0.0 {
@@ -39,10 +39,10 @@ pub enum DragLaw {
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of the body on the medium with its derivatives, in components across and along a line.
+/// Force of a body on the medium with the derivatives of the force, in components across and along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
-    /// Components of the force across and along the line [force, or force/length].
+    /// Components of the drag force across and along the line [force, or force/length].
     pub force: Vec2,
     pub by_velocity: [Vec2; 2],
     pub by_angle: Vec2,
@@ -79,7 +79,7 @@ impl DragLaw {
         }
     }
 
-    /// Dissipated power at the given force components [power, or power/length].
+    /// Power dissipated by the given components of the drag force [power, or power/length].
     pub fn power(&self, force: Vec2) -> f64 {
         match self {
             Self::Point(law) => law.power(force.norm()),

@@ -1,7 +1,7 @@
 //! Drag at a point of a body in a step.
 //!
 //! The drag force is an independent unknown, in components across and along the line.
-//! If the force were computed from velocities, it would have their rounding error times the damping coefficient `c`.
+//! A force computed from velocities would have the rounding error of the velocities times the damping coefficient `c`.
 //! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
@@ -23,7 +23,6 @@ pub struct DragPoint {
     slope: Vec<f64>,
     /// Quadrature weight [length]; 1 for a point.
     weight: f64,
-    /// Velocity in the previous step [length/time].
     last_velocity: Vec2,
     speed: f64,
     /// Force components across and along the line in the present iterate [force, or force/length].
@@ -51,7 +50,6 @@ impl DragTrial {
         Self { tangent: Vec2::x(), response, angle_by_gradient: none, rates: (0.0, 0.0) }
     }
 
-    /// Drag force at a velocity, for a line in the direction of `gradient`.
     fn new(law: &DragLaw, velocity: Vec2, gradient: Vec2, rates: (f64, f64)) -> Self {
         let (tangent, inverse) = unit_tangent(gradient);
         let response = law.force(velocity, tangent);
@@ -98,14 +96,13 @@ impl DragPoint {
         Self::new((place.body, place.first), shape, slope, 1.0)
     }
 
-    /// Sum of control point values, weighted by the basis functions or their derivatives.
     fn combine(&self, by: &[f64], value: impl Fn(usize) -> Vec2) -> Vec2 {
         by.iter()
             .enumerate()
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// Largest term in a sum over the basis functions. It determines the rounding error of the sum.
+    /// Largest term in a sum over the basis functions, which determines the rounding error of the sum.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
@@ -125,7 +122,6 @@ impl DragPoint {
         self.weight
     }
 
-    /// Derivative of the position with respect to arc length at the start of the step.
     fn gradient(&self, body: &Body) -> Vec2 {
         let points = body.dynamics.control_points();
         let origin = points[self.first];
@@ -204,8 +200,8 @@ impl DragPoint {
         in_space(tangent, resisted.force) * self.weight
     }
 
-    /// Calls `give` with the derivatives of the nodal forces with respect to nodal increments.
-    /// The derivatives include the rotation of the line under the present force.
+    /// Calls `give` with the derivatives of the nodal forces with respect to the nodal increments.
+    /// The derivatives include the rotation of the line under the present drag force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,
@@ -244,17 +240,17 @@ impl DragPoint {
         self.force += self.mismatch + Vec2::new(across, along) + resisted.by_angle * turn;
     }
 
-    /// Drag force that was applied in the last iterate, in components along x and y [force].
+    /// Drag force applied in the last iterate, in components along x and y [force].
     pub fn applied_force(&self) -> Vec2 {
         self.applied_force
     }
 
-    /// Dissipated power, computed from the force of the last iterate [power]. It contains no rounding error of velocities.
+    /// Dissipated power, computed from the drag force of the last iterate without rounding errors of velocities [power].
     pub fn power(&self, law: &DragLaw) -> f64 {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point minus the product of `duration` and the velocity that the drag law uses [length].
+    /// Displacement of the point minus the product of `duration` and the velocity in the drag law [length].
     pub fn displacement_remainder(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

@@ -9,9 +9,9 @@ use crate::loads::{PrescribedMotion, Schedule};
 /// Type of a prescribed motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum DriveKind {
-    /// Components of the position of a station follow functions of time.
+    /// Prescribed x position, y position or both of a station, as functions of time.
     Move,
-    /// The angle of a section relative to the ground follows a function of time.
+    /// Prescribed angle of a section relative to the ground, as a function of time.
     Motor,
 }
 
@@ -34,7 +34,8 @@ pub struct Drive {
     pub kind: DriveKind,
     /// Station whose motion is prescribed.
     pub station: Station,
-    /// Prescribed motions of x, y and the angle; `None` for a free component. Displacements are relative to the initial position.
+    /// Prescribed motions of x, y and the angle; `None` for a free component.
+    /// Prescribed displacements are relative to the initial position.
     pub motions: [Option<PrescribedMotion>; 3],
 }
 

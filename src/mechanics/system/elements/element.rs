@@ -14,8 +14,8 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// To add a type, add a variant and a file in `system/elements` with its [`ElementDef`].
-/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) that the definition builds.
+/// A new type of element needs a variant of this enum and a file in `system/elements` with its [`ElementDef`].
+/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) of the built element.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.
@@ -75,23 +75,24 @@ impl Element {
 
 /// Definition of an element in a scene.
 pub trait ElementDef {
-    /// Checks numbers and stations.
+    /// Checks the numbers and the stations of the element.
     ///
     /// # Errors
-    /// Fails if a number is out of range or a station does not exist.
+    /// Fails if a number is out of range or a station of the element does not exist.
     fn check(&self, setting: &dyn SceneChecks) -> Result<(), SystemError>;
 
-    /// Stations that need a node of the mesh.
+    /// Stations of the element that need a node of the mesh.
     fn nodes(&self) -> Vec<Station> {
         Vec::new()
     }
 
-    /// Groups of stations that the element couples. The unknowns of a group get neighbouring numbers, for a small bandwidth.
+    /// Groups of stations that the element couples.
+    /// The unknowns of a group of stations get neighbouring numbers, for a small bandwidth.
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         Vec::new()
     }
 
-    /// Schedule of the element and name of the element; `None` without a schedule. Steps end where the schedule or its derivative jumps.
+    /// Name and schedule of the element; `None` without a schedule. Steps end at jumps of the schedule and of its derivative.
     fn schedule(&self) -> Option<(&str, &Schedule)> {
         None
     }
@@ -115,13 +116,13 @@ pub trait SceneChecks {
 
     fn describe(&self, station: &Station) -> String;
 
-    /// Returns true if a joint or a slider connects both bodies, or if they are points of the same body.
+    /// Returns true if a joint or a slider connects the bodies `a` and `b`, or if they are points of the same body.
     fn are_connected(&self, a: BodyIndex, b: BodyIndex) -> bool;
 
     /// Checks that a station exists. `object` describes the object at the station, for the error message.
     ///
     /// # Errors
-    /// Fails if the body does not exist or the station lies outside its beam.
+    /// Fails if the body of the station does not exist, or the station lies outside its beam.
     fn check_station(&self, object: &'static str, station: &Station) -> Result<(), SystemError>;
 }
 

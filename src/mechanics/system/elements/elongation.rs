@@ -46,26 +46,26 @@ impl ElongationEnd {
 enum Measure {
     Length(Vec<Vec2>),
     Angle,
-    /// Component of the vector between two terminals: x (0) or y (1).
+    /// Component of the vector between two terminals: 0 for x, 1 for y.
     Component(usize),
 }
 
 /// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
-/// The coordinates of a length are the x and y increments of its terminals, those of an angle the rotation increments.
+/// The coordinates of a length are the x and y increments of its terminals. The coordinates of an angle are the rotation increments.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
     terminals: Vec<ElongationEnd>,
     shares: Vec<CoordinateShare>,
-    /// Elongation in the initial configuration on the meshes [length, rad].
+    /// Elongation in the initial configuration of the meshed bodies [length, rad].
     initial: f64,
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
     pub change: f64,
     settled: (f64, f64),
-    /// Secant [-]: the elongation change is the scalar product of the secant and the coordinate changes.
-    /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end.
+    /// Secant [-]: the vector whose scalar product with the coordinate changes equals the elongation change.
+    /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end of the step.
     pub secant: Vec<f64>,
     /// Derivative of the elongation change with respect to the coordinates [-].
     pub slope: Vec<f64>,
@@ -91,7 +91,7 @@ impl Elongation {
         Self::new(Measure::Component(component), start, terminals.into(), 2)
     }
 
-    /// Creates the angle from the first terminal to the second, with its initial value [rad].
+    /// Creates the angle from the first terminal to the second terminal, with its initial value [rad].
     pub fn angle(terminals: [ElongationEnd; 2], angle: f64) -> Self {
         Self::new(Measure::Angle, angle, terminals.into(), 1)
     }
@@ -130,7 +130,7 @@ impl Elongation {
         self.initial + self.growth.value
     }
 
-    /// Elongation in the initial configuration on the meshes [length, rad].
+    /// Elongation in the initial configuration of the meshed bodies [length, rad].
     pub fn drawn(&self) -> f64 {
         self.initial
     }

@@ -7,7 +7,8 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
-/// Collocation of the forces at a stage. At the ends of a step, rotation increments are increments of the angle.
+/// Collocation of the forces at a stage.
+/// For a stage at the start or the end of a step, rotation increments are increments of the angle.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -46,10 +47,11 @@ pub struct LoadAccount {
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares a step by evaluating time-dependent values. `_stages` lists the stages at which the integrator evaluates forces.
+    /// Prepares a step by evaluating time-dependent values.
+    /// `_stages` lists the stages at which the integrator evaluates forces.
     ///
     /// # Errors
-    /// Fails if a value is not finite.
+    /// Fails if a value of the element is not finite.
     fn begin_step(&mut self, _interval: Interval, _stages: &[Stage]) -> Result<(), LoadError> {
         Ok(())
     }
@@ -67,18 +69,21 @@ pub trait ExternalForce {
         false
     }
 
-    /// Largest change of a schedule that the steps so far have missed because they are too long.
+    /// Largest change of the schedule that the steps so far have not resolved.
     fn missed_change(&self) -> Option<UnsampledChange> {
         None
     }
 
-    /// Subtracts the forces on bodies in an iterate from `out`. Returns the largest force and the largest moment on a control point.
+    /// Subtracts the forces on bodies in an iterate from `out`.
+    /// Returns the largest force and the largest moment on a control point.
     fn subtract_from(&mut self, at: TrialState<'_>, out: &mut [f64]) -> (f64, f64);
 
-    /// Adds the tangent stiffness to the tangent. It is the negative derivative of the forces with respect to the increments.
+    /// Adds the tangent stiffness of the element to the tangent.
+    /// The tangent stiffness is the negative derivative of the forces with respect to the increments.
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
-    /// Work and impulse in the step whose increments are stored in the bodies. Changes of the potential are not included in the work.
+    /// Work and impulse of the element in the step whose increments are stored in the bodies.
+    /// The work does not include changes of the potential.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Potential energy at the start of the step [energy].
@@ -86,7 +91,7 @@ pub trait ExternalForce {
         None
     }
 
-    /// Work and value of the element, if it is a named load.
+    /// Work and value of a named load; `None` for other elements.
     fn account(&self) -> Option<LoadAccount> {
         None
     }

@@ -11,11 +11,11 @@ use crate::system::bodies::Body;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringTrialState {
-    /// Length [length] or angle [rad] at the start of the step.
+    /// Length [length] or angle [rad] of the spring at the start of the step.
     pub elongation: f64,
     /// Force or moment in the last step, averaged over the step [force, force·length].
     pub force: f64,
-    /// Stiffness at the start of the step; zero for a damper [force/length, force·length/rad].
+    /// Stiffness of the spring at the start of the step; zero for a damper [force/length, force·length/rad].
     pub stiffness: f64,
 }
 
@@ -23,18 +23,21 @@ pub struct SpringTrialState {
 ///
 /// Residuals use the present value of the force.
 /// Linearisations eliminate the force. Corrections update the force together with the increments.
-/// A force that is an unknown contains no rounding error of the configuration times the stiffness. The number of iterations does not increase with the stiffness.
+/// A force that is an unknown does not contain the rounding error of the configuration times the stiffness.
+/// With the force as an unknown, the number of iterations does not increase with the stiffness.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
 
-    /// Prepares the element for the start of a simulation. The diagonal of the inertia matrix determines effective masses at points.
+    /// Prepares the element for the start of a simulation.
+    /// `inertia` is the diagonal of the inertia matrix, from which effective masses at points are computed.
     fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
 
-    /// Writes the contacts that exist at present. Their number changes during a simulation.
+    /// Appends the data of the existing contacts of the element. The number of contacts changes during a simulation.
     fn save_contacts(&self, _contacts: &mut Vec<f64>) {}
 
-    /// Restores the contacts of a saved state. The bodies must already be in this state. Returns `None` if the contacts do not belong to the element.
+    /// Restores the contacts of a saved state. The bodies must already be in this state.
+    /// Returns `None` if the saved contacts do not belong to the element.
     fn restore_contacts(
         &mut self,
         _bodies: &[Body],
@@ -49,13 +52,14 @@ pub trait InternalForce {
     /// Prepares an increment of zero duration, such as a static load step, without damping.
     fn begin_movement(&mut self, bodies: &[Body]);
 
-    /// Discards the rates of the last step. Called after a jump of the rates.
+    /// Discards the rates of the last step after a jump of the rates.
     fn clear_rate_history(&mut self) {}
 
-    /// Adds `at.weight` times the present forces on bodies to `out`. Returns the largest force and the largest difference from a force law.
+    /// Adds `at.weight` times the present forces on bodies to `out`.
+    /// Returns the largest force and the largest difference between a force and its law.
     fn add_forces(&mut self, at: TrialState<'_>, out: &mut [f64]) -> ForceSummary;
 
-    /// Adds `at.weight` times the forces with the force unknowns eliminated, and their derivatives with respect to the increments.
+    /// Adds `at.weight` times the forces and their derivatives with respect to the increments. Force unknowns are eliminated.
     fn add_linearised_forces(
         &mut self,
         at: TrialState<'_>,
@@ -64,8 +68,8 @@ pub trait InternalForce {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the forces that would remove the present residuals of the force laws.
-    /// The directions of the forces are those of the last linearisation.
+    /// Adds `weight` times the force corrections that would satisfy the force laws in the present iterate to `out`.
+    /// The directions of the force corrections are those of the last linearisation.
     fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]);
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]);
@@ -85,12 +89,12 @@ pub trait InternalForce {
     /// Dissipated energy since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
 
-    /// Work of the wind since the start; `None` for elements without a wind [energy].
+    /// Work of the wind since the start [energy]; `None` for elements without a wind.
     fn wind_work(&self) -> Option<f64> {
         None
     }
 
-    /// Elongation and force of a spring; `None` for other elements.
+    /// Elongation and force of a spring; `None` for elements that are not springs.
     fn stretched(&self) -> Option<SpringTrialState> {
         None
     }
@@ -109,12 +113,12 @@ pub trait InternalForce {
         Vec::new()
     }
 
-    /// Returns true if the straight path of a point in the step leads through this obstacle.
+    /// Returns true if the straight path of a point in the step leads through the obstacle.
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
         false
     }
 
-    /// Branch of the law at the end of the last step; `None` for laws without sharp corners, or other elements.
+    /// Branch of the spring law at the end of the last step; `None` for laws without sharp corners, or other elements.
     fn branch(&self, _bodies: &[Body], _rates: &[f64]) -> Option<Branch> {
         None
     }
@@ -128,7 +132,7 @@ pub trait InternalForce {
     }
 
     /// Damping force [force] and damping moment [force·length] at a section of a beam, computed from the given rates at the start of the step.
-    /// Returns `None` if the element does not damp this beam.
+    /// Returns `None` if the element does not damp the beam.
     fn transmitted(
         &self,
         _bodies: &[Body],
@@ -146,19 +150,20 @@ pub trait InternalForce {
     fn add_forces_at_start(&self, bodies: &[Body], rates: &[Vec<Movement>], out: &mut [f64]);
 
     /// Calls `take` with each damped rate at the start of the step, and with the damping coefficient of this rate for small rates.
-    /// The coefficient times the squared rate is the dissipated power. The number and order of calls do not depend on the rates.
+    /// The dissipated power is the damping coefficient times the squared rate.
+    /// The number and the order of the calls do not depend on the rates.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64));
 
     /// Calls `take` with the degrees of freedom of the element and its static stiffness.
     fn static_stiffness(&self, _bodies: &[Body], _take: &mut dyn FnMut(&[usize], &SpanStiffness)) {}
 
-    /// Releases the element at the start of a step. Its stored energy counts as dissipated. The default does nothing.
+    /// Releases the element at the start of a step. The stored energy of a released element counts as dissipated.
     fn release(&mut self) {}
 
-    /// Marks the element as released before a released state is restored.
+    /// Marks the element as released before a state with a released element is restored.
     fn detach(&mut self) {}
 
-    /// Marks the element as attached before an attached state is restored.
+    /// Marks the element as attached before a state with an attached element is restored.
     fn attach(&mut self) {}
 
     fn save(&self, state: &mut Vec<f64>);

@@ -20,9 +20,9 @@ pub struct OutsideLaw {
     /// Argument that left the range.
     pub argument: LawArgument,
     /// Smallest and largest argument in the table of the law [length or rad; for rates length/time or rad/time].
-    /// An entry is infinite if the force is constant at this end of the table.
+    /// A limit of the range is infinite if the force is constant at this limit of the table.
     pub range: [f64; 2],
-    /// Value farthest outside the range.
+    /// Value of the argument farthest outside the range.
     pub reached: f64,
 }
 
@@ -34,12 +34,12 @@ pub struct LawRange {
 }
 
 impl LawRange {
-    /// Creates the record of the elongations of a spring law; `None` for laws that are defined everywhere.
+    /// Creates the monitor of the elongations of a spring law; `None` for laws that are defined everywhere.
     pub fn of_elongations(law: &SpringLaw) -> Option<Self> {
         Self::of(law, LawArgument::Elongation)
     }
 
-    /// Creates the record of the rates of a damping law; `None` for laws that are defined everywhere.
+    /// Creates the monitor of the rates of a damping law; `None` for laws that are defined everywhere.
     pub fn of_rates(law: &SpringLaw) -> Option<Self> {
         Self::of(law, LawArgument::Rate)
     }
@@ -58,7 +58,7 @@ impl LawRange {
         }
     }
 
-    /// Value farthest outside the range; `None` if it is outside only by rounding.
+    /// Value farthest outside the range of the law; `None` if no value is outside by more than rounding.
     pub fn outside(&self) -> Option<OutsideLaw> {
         let [from, to] = self.farthest.range;
         let ends = [from, to].into_iter().filter(|end| end.is_finite());

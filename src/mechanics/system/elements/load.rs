@@ -115,7 +115,6 @@ enum Action {
     Follower(Vec<Follower>),
 }
 
-/// Load of a model, with its values in the current step.
 struct AppliedLoad {
     name: String,
     schedule: Schedule,
@@ -168,7 +167,7 @@ impl AppliedLoad {
 
     fn calls(&self, methods: &[Method]) -> String {
         let functions = self.schedule.functions();
-        // The caller samples a controller once per step, so the load does not call the controller.
+        // A controller is sampled once per step by the caller. Therefore, the load does not call the controller.
         if functions == 0 || self.schedule.is_sampled() {
             return String::new();
         }

@@ -39,7 +39,7 @@ impl LoadVector {
         }
     }
 
-    /// Largest nodal force [force] and moment [force·length], times `factor`.
+    /// Largest nodal force [force] and largest nodal moment [force·length], times `factor`.
     pub fn largest(&self, factor: f64) -> (f64, f64) {
         (factor.abs() * self.largest.0, factor.abs() * self.largest.1)
     }

@@ -18,7 +18,7 @@ use crate::system::bodies::Body;
 /// Definition of material damping in a scene: the relaxation times of a beam.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MaterialDamping {
-    /// Name of the beam, which also names the columns of its damping.
+    /// Name of the beam, which is also used in the columns of its damping.
     pub name: String,
     /// Index of the beam.
     pub beam: usize,
@@ -135,7 +135,6 @@ impl InternalForce for DampedMaterial {
         self.dashpots.add_linearised_forces(rates, &self.movements, give, &mut add);
     }
 
-    /// Dashpots are evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         let degrees = &bodies[self.beam].degrees_of_freedom;
         self.dashpots.add_mismatch_forces(&mut scatter(degrees, out));

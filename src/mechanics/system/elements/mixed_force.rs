@@ -1,5 +1,5 @@
 //! Force of an element as an independent unknown.
-//! The iterations make the force equal to the target, which is the force required by the law of the element.
+//! The iterations make the force equal to the target force, which the law of the element requires.
 
 use crate::geometry::larger;
 
@@ -20,10 +20,10 @@ struct IterationState {
 }
 
 /// Force tolerance for laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
-/// For a linear law, the residual is zero after the next iteration. For a law with corners, it is not zero.
+/// For a linear law, the residual of the law is zero after one iteration. For a law with corners, a residual remains.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 
-/// Number of linearisations after which a secant estimate of the impedance is used. Smooth laws usually converge earlier.
+/// Number of linearisations after which the impedance is estimated from secants. Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,8 +41,8 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Elongation change for which the target would equal the present force, to first order.
-    /// The result is infinite if the slope is not positive.
+    /// Elongation change for which the target force would equal the present force, to first order.
+    /// The elongation change is infinite if the slope of the law is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
             true => 0.0,
@@ -74,13 +74,13 @@ impl MixedForce {
     }
 }
 
-/// Largest number of bisections, after which the result is accurate to rounding.
+/// Largest number of bisections, after which the intersection is accurate to rounding.
 const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
-    /// Target of a linearisation at `change`: the intersection of an increasing law with a line of negative slope.
+    /// Target force and slope at the intersection of an increasing law with a line of negative slope.
     /// The slope of the line is the impedance of all other objects of the scene.
-    /// If no intersection were used, Newton's method would alternate between the segments at a corner of a stiff law.
+    /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,
         force: f64,

@@ -1,4 +1,5 @@
-//! Elements that act on bodies: point masses, weight, loads, springs and supports. To add a type, add a file here and a variant of [`Element`].
+//! Elements that act on bodies: point masses, weight, loads, springs and supports.
+//! A new type of element needs a file in this folder and a variant of [`Element`].
 
 mod all;
 mod branch;

@@ -6,19 +6,19 @@ use crate::loads::{MotionInStep, PrescribedMotion};
 /// Largest change of the rate of a smooth motion from one step to the next, as a fraction of the rate.
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion: change of its rate within a step. The integration of a step assumes a smooth motion.
+/// Kink of a prescribed motion: change of the prescribed rate within a step. Integrators assume a smooth motion within each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start of the step [time].
     pub time: f64,
-    /// Rate at the end of the previous step, and rate at the start of this step [length/time, rad/time].
+    /// Prescribed rates at the end of the previous step and at the start of this step [length/time, rad/time].
     pub rates: [f64; 2],
 }
 
 impl MotionCurvature {
     /// Detects a kink of a script function at the start of a step or within it.
     /// For a smooth motion, the rates at the end of a step and at the start of the next step agree up to the fifth power of the step length.
-    /// The rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks of the function are exempt.
+    /// The two rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks of the function are exempt.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,

@@ -1,8 +1,8 @@
-//! Damper along the line between two points, whose distance may pass through zero.
+//! Damper along the line between two points whose distance may pass through zero.
 //!
-//! The rate of the distance would be zero for ends that pass each other within a step and exchange their sides.
-//! The rate along the mean connecting vector is correct also for ends that pass each other.
-//! The force acts along the mean line, so that angular momentum is conserved.
+//! If two points pass each other within a step, the mean rate of their distance can be zero although they move.
+//! The damper uses the rate along the mean connecting vector, which is correct also for points that pass each other.
+//! The damping force acts along the mean line, so that angular momentum is conserved.
 
 use super::damping_law::DampingLaw;
 use super::elongation::ElongationEnd;
@@ -122,7 +122,6 @@ impl PointDamper {
         }
     }
 
-    /// Adds a force on the second terminal and the opposite force on the first terminal to `out`.
     fn scatter(&self, bodies: &[Body], force: Vec2, out: &mut [f64]) {
         for (terminal, sign) in self.terminals.iter().zip([-1.0, 1.0]) {
             let ElongationEnd::Moving(place) = terminal else { continue };
@@ -224,7 +223,6 @@ impl InternalForce for PointDamper {
         }
     }
 
-    /// The damper is evaluated once per step, so the weight of a stage has no effect.
     fn add_mismatch_forces(&self, bodies: &[Body], _weight: f64, out: &mut [f64]) {
         self.scatter(bodies, self.linearised.direction * self.force.mismatch, out);
     }
@@ -235,7 +233,6 @@ impl InternalForce for PointDamper {
         self.force.correct(change);
     }
 
-    /// The ground does not move, so it does no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for (ground, sign) in self.grounds.iter().zip([-1.0, 1.0]) {
@@ -282,7 +279,7 @@ impl InternalForce for PointDamper {
         self.scatter(bodies, self.force_at_start(velocity), out);
     }
 
-    /// If both ends coincide, the damper acts on small vibrations in both directions.
+    /// If both points coincide, the damper acts on small vibrations in both directions.
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         if !self.law.is_active() {
             return;

@@ -70,7 +70,7 @@ impl NodalMass {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    /// Adds `factor · M · rates` to `out`, one entry per unknown.
+    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of the point mass.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         let body = &bodies[self.place.body];
         let rate = body.at(&self.place, rates);
@@ -83,7 +83,8 @@ impl NodalMass {
         }
     }
 
-    /// Calls `add` with the row, column and value of each entry of `factor · M`. Values for the same row and column must be added up.
+    /// Calls `add` with the row, column and value of each entry of `factor · M`, where `M` is the mass matrix of the point mass.
+    /// The caller must add up values for the same row and column.
     pub fn inertia_entries(
         &self,
         bodies: &[Body],

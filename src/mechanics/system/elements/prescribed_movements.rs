@@ -37,7 +37,7 @@ struct PresentMotion {
     step_curvature: MotionCurvature,
     /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.
     check: Option<ScheduleCheck>,
-    /// Reaction [force, force·length]. A moment is conjugate to the angle.
+    /// Reaction of the drive [force, force·length]. A reaction moment is conjugate to the angle of the section.
     reaction: StepMean<f64>,
     impact_momentum: f64,
     /// Static position or angle under the full load [length, rad].
@@ -68,7 +68,7 @@ pub struct DriveState {
     pub moment: f64,
 }
 
-/// Ratio of a rotation increment to the rotation angle, which converts moments between both measures of rotation.
+/// Ratio of a rotation increment to the rotation angle, which converts moments between the two measures of rotation.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
@@ -119,7 +119,7 @@ impl PrescribedMovements {
     /// Evaluates prescribed rates and accelerations just after a time.
     ///
     /// # Errors
-    /// Returns the name of a drive whose function has no value at this time, and the reason.
+    /// Returns the name of the drive whose function has no value at this time, and the reason of the failure.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -152,7 +152,7 @@ impl PrescribedMovements {
         self.movements.len()
     }
 
-    /// Prescribed movements with the indices of their drives and of their rates in the vector of all rates.
+    /// Prescribed movements with the index of the drive and the index of the movement in the vector of all rates.
     pub fn numbered(&self) -> impl Iterator<Item = (&Support, usize, usize)> {
         let movements = self.movements.iter().zip(self.first..);
         movements.map(|(movement, rate)| (&movement.support, movement.drive, rate))
@@ -184,7 +184,7 @@ impl PrescribedMovements {
         self.drives.iter().map(|drive| drive.work)
     }
 
-    /// Power of each prescribed movement, as the product of its reaction and its rate, with the index of its drive [energy/time].
+    /// Power of each prescribed movement as the product of its reaction and its rate [energy/time], with the index of its drive.
     pub fn powers(&self, rates: &[f64]) -> impl Iterator<Item = (usize, f64)> {
         let own = self.movements.iter().zip(&self.present).zip(rates.iter().skip(self.first));
         own.map(|((movement, present), rate)| (movement.drive, present.reaction.value * rate))
@@ -201,7 +201,7 @@ impl PrescribedMovements {
         DriveState { work: self.drives[drive].work, force, moment }
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each drive.
+    /// Names of the drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -210,7 +210,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Drives with a prescribed rate that changes within a step between the samples, with the largest such change of each drive.
+    /// Names of the drives whose prescribed rate changes between the samples of a step, with the largest such change of each drive.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -219,10 +219,10 @@ impl PrescribedMovements {
         })
     }
 
-    /// Evaluates the prescribed increments in a step, and the rates at its start.
+    /// Evaluates the prescribed increments in a step, and the prescribed rates at the start of the step.
     ///
     /// # Errors
-    /// Returns the name of a drive whose function has no finite value, and the reason.
+    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
     pub fn begin_step(
         &mut self,
         interval: Interval,
@@ -258,11 +258,11 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Jumps of prescribed rates at the start of a step, by number of the degree of freedom; `None` without a jump.
+    /// Jumps of prescribed rates at the start of a step, indexed by the degree of freedom; `None` without a jump.
     /// Rates may jump at declared breaks of a function and at samples of a controller.
     ///
     /// # Errors
-    /// Fails if a function has no finite value.
+    /// Fails if the function of a drive has no finite value.
     pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
         let mut found = None;
         for (at, movement) in self.movements.iter().enumerate() {
@@ -283,14 +283,14 @@ impl PrescribedMovements {
         &self.scratch
     }
 
-    /// Prescribed accelerations at the start of the step, by number of the degree of freedom; zero for unknowns.
+    /// Prescribed accelerations at the start of the step, indexed by the degree of freedom; zero for unknowns.
     pub fn accelerations(&self) -> impl Iterator<Item = f64> {
         let behind = self.present.iter().map(|present| present.acceleration);
         let ahead = if self.movements.is_empty() { 0 } else { self.first };
         std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
-    /// Stores the momentum changes of a step at the prescribed degrees of freedom.
+    /// Stores the momentum changes of an impact at the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;
@@ -361,7 +361,8 @@ impl PrescribedMovements {
         self.present.iter_mut().for_each(|present| present.reaction.end_step());
     }
 
-    /// Impulse and work of the drives in an impact. The work is the reaction impulse times the mean of the rates before and after the impact.
+    /// Impulse and work of the drives in an impact.
+    /// The work of a drive in an impact is the reaction impulse times the mean of the rates before and after the impact.
     pub fn impact_exchange(
         &mut self,
         bodies: &[Body],

@@ -4,7 +4,7 @@ use super::collocation;
 use crate::beams::RateCollocation;
 use crate::integrators::Stage;
 
-/// Durations of the present step and the previous step [time]. An increment of zero duration has no rates.
+/// Durations of the present step and the previous step [time]. In an increment of zero duration, there are no rates.
 #[derive(Debug, Clone, Copy)]
 pub struct RateHistory {
     duration: f64,
@@ -31,10 +31,10 @@ impl RateHistory {
         self.before = if self.duration.is_finite() { self.duration } else { 0.0 };
     }
 
-    /// Coefficients of the rates for a stage with a weight; `None` at the start of a step, where rates are not used.
+    /// Coefficients of the rates for a stage and its weight; `None` at the start of a step, where rates are not used.
     ///
-    /// Rates are evaluated once per step, at the fraction `weight` of the step.
-    /// The rate is extrapolated from the mean rates of the present step and of the previous step.
+    /// Rates are evaluated once per step, after the fraction `weight` of the step.
+    /// The evaluated rate is extrapolated from the mean rates of the present step and of the previous step.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

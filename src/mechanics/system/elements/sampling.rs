@@ -1,21 +1,20 @@
-//! Sampling of force functions into tables. The stored energy of a table is known exactly.
+//! Sampling of force functions into piecewise linear tables, whose stored energy can be integrated exactly.
 
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Allowed deviation of the table from the function, as a fraction of the largest force.
+/// Allowed deviation of the table from the sampled function, as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-7;
 
-/// Initial number of segments.
 const SEGMENTS: usize = 32;
 
-/// Largest number of points of a sampled function.
 const MOST_POINTS: usize = 20_000;
 
-/// Second test point of a segment, as a fraction of its length [-]. At the middle alone, an oscillating function may match the polygon by chance.
+/// Second test point of a segment, as a fraction of its length [-].
+/// At the middle of a segment, an oscillating function may match the polygon by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
-/// Factor by which the tolerance is larger at the second test point.
+/// Factor by which the allowed deviation is larger at the second test point than at the middle of a segment.
 const OFF_MIDDLE_MARGIN: f64 = 4.0;
 
 type Polygon = Vec<(f64, f64)>;
@@ -25,7 +24,7 @@ impl SpringLaw {
     /// Points are added until the polygon deviates from the function by at most 1e-7 of its largest value, up to 20 000 points.
     ///
     /// # Errors
-    /// Fails if the function fails.
+    /// Fails if the sampled function fails.
     pub fn sampled<E>(
         (from, to): (f64, f64),
         mut force: impl FnMut(f64) -> Result<f64, E>,
@@ -54,7 +53,7 @@ impl SpringLaw {
         }
     }
 
-    /// Deviation of the polygon from the function [force], and the largest force; `None` if the deviation is within the tolerance.
+    /// Deviation of the polygon from the sampled function and largest force [force]; `None` if the deviation is within the tolerance.
     pub fn sampling_error(&self) -> Option<(f64, f64)> {
         let Self::Sampled { points, error } = self else { return None };
         let largest = largest_force(points);

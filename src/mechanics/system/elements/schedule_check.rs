@@ -3,9 +3,9 @@
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Difference between two quadrature rules for the mean over a step, above which the steps do not resolve a schedule.
-/// The unit is the largest value of the schedule.
-/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, the difference equals this constant.
+/// Relative difference between two quadrature rules for the mean of a schedule over a step, above which the step is too long.
+/// The difference is relative to the largest value of the schedule.
+/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it equals `LARGEST_MISS`.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.
@@ -13,11 +13,11 @@ const LARGEST_MISS: f64 = 0.01;
 pub struct UnsampledChange {
     /// Middle of the step with the largest difference [time].
     pub time: f64,
-    /// Difference, as a fraction of the largest value of the schedule [-].
+    /// Difference between two quadrature rules for the mean, as a fraction of the largest value of the schedule [-].
     pub sampling_error: f64,
 }
 
-/// Record of the largest difference so far between two quadrature rules. For schedules with exact means, the saved state contains no record.
+/// Record of the largest difference so far between two quadrature rules for the mean of a schedule.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ScheduleCheck {
     time: f64,
@@ -33,7 +33,7 @@ struct MissedInStep {
 }
 
 impl ScheduleCheck {
-    /// Creates the check of a schedule; `None` if the means of the schedule are exact.
+    /// Creates the check of a schedule; `None` if the means of the schedule over steps are exact.
     pub fn of(schedule: &Schedule) -> Option<Self> {
         schedule.is_sampled_in_steps().then(Self::default)
     }
@@ -51,7 +51,7 @@ impl ScheduleCheck {
         self.largest = self.largest.max(largest);
     }
 
-    /// Largest change between the samples in the steps so far; `None` if the steps resolve the schedule.
+    /// Largest change of the schedule between the samples of a step so far; `None` if the steps resolve the schedule.
     pub fn missed(&self) -> Option<UnsampledChange> {
         let is_missed = self.sampling_error > LARGEST_MISS * self.largest;
         is_missed.then(|| UnsampledChange {

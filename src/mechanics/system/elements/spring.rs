@@ -26,13 +26,13 @@ pub enum Anchor {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SpringKind {
     /// Length of the path through the given points. A spring or damper has two points.
-    /// A tendon has more than two points, and slides over intermediate points without friction.
+    /// A tendon has more than two points, and slides over its intermediate points without friction.
     Length(Vec<Anchor>),
     /// Angle of the section at the second point minus the angle of the section at the first point. The ground does not rotate.
     Torsion([Anchor; 2]),
 }
 
-/// Configuration in which the elongation in a force law is zero.
+/// Configuration of zero elongation in a force law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Origin {
     /// The argument of the law is the length or angle.
@@ -220,7 +220,7 @@ impl ElementDef for Spring {
     }
 }
 
-/// Index of the first point whose abscissa does not increase.
+/// Index of the first point whose abscissa is not larger than the previous abscissa.
 fn first_non_increasing(points: &[(f64, f64)]) -> Option<usize> {
     points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
 }
@@ -251,7 +251,7 @@ impl Spring {
         })
     }
 
-    /// Rejects springs whose ends cannot move relative to each other. Their stations are equal, or all their points are on the ground.
+    /// Rejects springs whose terminals are the same station, and springs with all points on the ground.
     fn check_movable(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {

@@ -22,7 +22,7 @@ pub struct SpringDamper {
     name: String,
     elongation: Elongation,
     linearised: [Vec<f64>; 3],
-    /// Derivative of the force with respect to the coordinates, row by row.
+    /// Derivative of the force with respect to the coordinates of the elongation, row by row.
     tangent: Vec<f64>,
     /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: Vec<Option<Vec2>>,
@@ -36,7 +36,6 @@ pub struct SpringDamper {
     offset: f64,
     ranges: [Option<LawRange>; 2],
     law_text: Option<String>,
-    /// Damping law `d(q̇)`.
     damping: DampingLaw,
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
@@ -241,7 +240,6 @@ impl InternalForce for SpringDamper {
         self.damper.correct(change);
     }
 
-    /// The ground does not move, so the forces on it do no work.
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let given = |at: usize| (self.force_coordinates[at] + self.current[at]) * duration;
         let mut sum = WorkAndImpulse::default();

@@ -8,7 +8,7 @@ use crate::geometry::larger;
 /// Largest force that counts as zero, as a fraction of the largest force of the law.
 const ROUNDING: f64 = 1e-12;
 
-/// Change of the stiffness above which a corner is sharp, as a fraction of the largest stiffness.
+/// Change of the stiffness at a sharp corner, as a fraction of the largest stiffness of the law.
 const SHARP_CORNER: f64 = 0.5;
 
 /// Restoring force as a function of an elongation `q`, which is a length or an angle.
@@ -23,7 +23,7 @@ pub enum SpringLaw {
     },
     /// Polygon through points, extrapolated by the lines of its first and last segments.
     Table {
-        /// Increasing elongations `q` [length, rad] with forces [force, force·length]; at least two.
+        /// Increasing elongations `q` [length, rad] with forces [force, force·length]; at least two points.
         points: Vec<(f64, f64)>,
     },
     /// Function that was sampled when the scene was built.
@@ -51,8 +51,8 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // The interpolation starts at the end of the segment with the smaller force.
-                // An interpolation from the other end would have the rounding error of the larger force.
+                // The interpolation starts at the point of the segment with the smaller force.
+                // An interpolation from the point with the larger force would have the rounding error of the larger force.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -60,7 +60,8 @@ impl SpringLaw {
         }
     }
 
-    /// Stiffness at an elongation [force/length, force·length/rad]. At a corner, the stiffness of the segment above the corner is returned.
+    /// Stiffness at an elongation [force/length, force·length/rad].
+    /// At a corner of the law, the stiffness of the segment above the corner is returned.
     pub fn slope(&self, q: impl Into<Coordinate>) -> f64 {
         match self {
             Self::Linear { stiffness, .. } => *stiffness,
@@ -92,7 +93,7 @@ impl SpringLaw {
     }
 
     /// Range of elongations in which the law is given. Outside the range, the law is extrapolated linearly.
-    /// An end of the range is infinite if the force is constant at this end of the table.
+    /// A limit of the range is infinite if the force is constant at this limit of the table.
     /// Returns `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
@@ -115,7 +116,7 @@ impl SpringLaw {
         }
     }
 
-    /// Elongations at which the stiffness jumps by more than half of its largest value [length, rad].
+    /// Elongations at which the stiffness jumps by more than half of the largest stiffness [length, rad].
     pub(crate) fn sharp_corners(&self) -> Vec<f64> {
         match self {
             Self::Linear { .. } => Vec::new(),
@@ -131,7 +132,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force is zero in a whole segment (slack, or no contact).
+    /// Returns true if the force is zero in a whole segment of the law.
     pub(crate) fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -141,7 +142,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force is zero at an elongation, within rounding and sampling error.
+    /// Returns true if the force is zero at an elongation, within rounding and sampling errors.
     pub(crate) fn is_unloaded_at(&self, q: f64) -> bool {
         let off = match self {
             Self::Linear { stiffness, natural } => ROUNDING * (stiffness * natural).abs(),
@@ -151,7 +152,8 @@ impl SpringLaw {
         self.force(q).abs() <= off
     }
 
-    /// Stored energy at an elongation [energy]. It is zero where the force is zero, or at the first point of a table whose force has no zero.
+    /// Stored energy at an elongation [energy].
+    /// The stored energy is zero where the force is zero, or at the first point of a table whose force has no zero.
     pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {
@@ -253,7 +255,7 @@ fn largest(points: &[(f64, f64)]) -> f64 {
     points.iter().map(|(_, force)| force.abs()).fold(0.0, larger)
 }
 
-/// Slope of a segment [force/length, force·length/rad]; zero for a segment of zero length, which checked laws do not have.
+/// Slope of a segment of the law [force/length, force·length/rad]; zero for a segment of zero length.
 fn slope([a, b]: [(f64, f64); 2]) -> f64 {
     if b.0 > a.0 { (b.1 - a.1) / (b.0 - a.0) } else { 0.0 }
 }
@@ -277,7 +279,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
 }
 
 /// Elongation of least energy, at which the force of a table or its extrapolation changes from negative to positive.
-/// If there is no such elongation, the abscissa of the first point is returned.
+/// If the force does not change from negative to positive, the function returns the abscissa of the first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

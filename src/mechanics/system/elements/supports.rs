@@ -92,8 +92,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on the given nodes (body and control point) and on the angles of the rigid bodies `turning`.
-    /// Returns `None` if none of the nodes and angles is supported.
+    /// Reaction force [force] and moment [force·length] on the given nodes and on the angles of the rigid bodies `turning`.
+    /// Each node is a pair of body and control point. Returns `None` if none of the nodes and angles is supported.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

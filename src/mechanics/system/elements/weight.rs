@@ -49,7 +49,7 @@ impl ExternalForce for Weight {
         self.forces.largest(1.0)
     }
 
-    /// The work of the weight is not included, because it appears as the change of the potential.
+    /// Excludes the work of the weight, which appears as the change of the potential.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         WorkAndImpulse { work: 0.0, ..self.forces.exchange(bodies, 1.0, duration) }
     }

@@ -2,7 +2,7 @@
 //!
 //! A linear spring of zero natural length is a pair of springs along x and y.
 //! A single force along the connecting vector would change its direction infinitely fast where the ends meet.
-//! Nonlinear laws act on the length.
+//! Nonlinear force laws of the spring are functions of the distance between its ends.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};
@@ -41,8 +41,7 @@ impl ZeroLengthSpring {
         Self::beside(name, along, terminals, at, grounds, damping)
     }
 
-    /// Creates a spring with a law for the length, and a damper, between two terminals.
-    /// The initial positions of the terminals are also given [length].
+    /// Creates a spring with a law for the length, and a damper, between two terminals with given initial positions [length].
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],
@@ -82,7 +81,7 @@ impl ZeroLengthSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
     }
 
-    /// Elongation and force as magnitudes of vectors, computed from their components along x and y.
+    /// Magnitudes of elongation and force, computed from their components along x and y.
     fn magnitudes(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);

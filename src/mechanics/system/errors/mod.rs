@@ -1,4 +1,4 @@
-//! Errors of a model, rules for names, and number formats for messages. Hints in the syntax of scripts belong to the crate `withy`.
+//! Errors of a model, rules for names, and number formats for messages.
 
 mod error;
 mod names;

@@ -1,4 +1,4 @@
-//! Rules for names. Names appear in messages and column heads, and users type them.
+//! Rules for names of objects, which appear in messages and column heads and are typed by users.
 
 use std::ops::RangeInclusive;
 
@@ -6,10 +6,9 @@ use unicode_normalization::is_nfc;
 
 use super::SystemError;
 
-/// Largest number of characters of a name.
 const LONGEST: usize = 100;
 
-/// Characters with which spreadsheets recognise formulas. Names must not begin with them.
+/// Initial characters with which spreadsheets recognise formulas. A name must not begin with such a character.
 const FORMULA: [char; 4] = ['=', '+', '-', '@'];
 
 /// Characters that are invisible or look like ordinary letters (Unicode 16).

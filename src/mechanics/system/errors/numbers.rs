@@ -17,7 +17,7 @@ pub fn written(at: Vec2) -> String {
     format!("({}, {})", rounded(at.x), rounded(at.y))
 }
 
-/// Lists the first times in words; `None` if there are no times.
+/// Formats the first times of a list as text; `None` if the list is empty.
 pub fn in_words(times: &[f64]) -> Option<String> {
     match times {
         [] => None,

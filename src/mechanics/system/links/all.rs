@@ -47,7 +47,7 @@ impl Links {
         self.rigid.iter()
     }
 
-    /// Largest arm of a rigid link; zero without links [length].
+    /// Largest arm of a rigid link [length]; zero without links.
     pub fn largest_arm(&self) -> f64 {
         self.rigid.iter().map(|link| link.arm().norm()).fold(0.0, larger)
     }
@@ -70,7 +70,7 @@ impl Links {
         there.map(|(index, _)| force(index)).reduce(|sum, force| sum + force)
     }
 
-    /// Prepares a step of a duration [time].
+    /// Prepares a step of the given duration [time].
     pub fn begin_step(&mut self, duration: f64) {
         self.force_unknowns = ForceUnknowns::Step(duration);
     }
@@ -194,7 +194,7 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Calls `take` with the static stiffness of each constraint. A spring of the given penalty stiffness replaces the constraint [force/length].
+    /// Calls `take` with the static stiffness of each constraint, which is replaced by a spring of the given penalty stiffness [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

@@ -1,7 +1,7 @@
 //! Inclined roller in a step: a point on a straight line, with a constraint force across the line (docs/theory.md, section 9.5).
 //!
-//! The constraint force does no work in any increment that satisfies the constraint.
-//! The impulse of the roller acts at the mean position of the point, like impulses of other supports.
+//! The constraint force of the roller does no work in any increment that satisfies the constraint.
+//! The impulse of the roller acts at the mean position of its point, like impulses of other supports.
 
 use super::rigid_link::ForceUnknowns;
 use crate::beams::{ForceSummary, SpanStiffness};
@@ -15,7 +15,7 @@ pub struct InclinedRoller {
     pub joint: usize,
     /// Body and control point of the constrained point.
     pub node: (usize, usize),
-    /// Force unknown; `None` after a release.
+    /// Force unknown of the roller; `None` after a release.
     pub unknown: Option<usize>,
     normal: Vec2,
     origin: Vec2,
@@ -48,12 +48,12 @@ impl InclinedRoller {
         self.normal * -unknown
     }
 
-    /// Force on the point in the last step or static solution; zero after a release [force].
+    /// Force of the roller on its point in the last step or static solution [force]; zero after a release.
     pub fn force(&self) -> Vec2 {
         self.force_of(if self.unknown.is_some() { self.force } else { 0.0 })
     }
 
-    /// Multiplier of the last step or static solution [force].
+    /// Multiplier of the constraint in the last step or static solution [force].
     pub fn multiplier(&self) -> f64 {
         self.force
     }
@@ -103,7 +103,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Adds `force` times the unit normal to the residual at the point.
+    /// Adds `force` times the unit normal of the line to the residual at the point.
     pub fn transmit(&self, bodies: &Bodies, force: f64, out: &mut [f64]) {
         let [x, y] = self.degrees(bodies);
         out[x] += force * self.normal.x;
@@ -115,7 +115,6 @@ impl InclinedRoller {
         if off == 0.0 { 0.0 } else { off / (self.size + self.movement) }
     }
 
-    /// Distance of the point from its line [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         match self.unknown {
             Some(_) => self.normal.dot(&(self.place(bodies) - self.origin)).abs(),
@@ -123,7 +122,7 @@ impl InclinedRoller {
         }
     }
 
-    /// Position of the point at the start of a step [length].
+    /// Position of the point of the roller at the start of a step [length].
     pub fn place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         bodies[body].dynamics.control_points()[point]
@@ -136,7 +135,7 @@ impl InclinedRoller {
         self.place(bodies) + 0.5 * Vec2::new(x, y)
     }
 
-    /// Velocity of the point across its line [length/time].
+    /// Velocity of the point of the roller across its line [length/time].
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> f64 {
         self.normal.dot(&self.values_at(bodies, rates))
     }

@@ -1,6 +1,6 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force (docs/theory.md, section 9.4).
 //!
-//! The point keeps its position in the body at the end of every step.
+//! The linked point keeps its position in the body at the end of every step.
 //! With tangent-scaled rotation increments, the constraint force does no work in a step, and its moments balance.
 
 use std::ops::{Add, Div};
@@ -12,7 +12,7 @@ use crate::system::bodies::Bodies;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step, the unknown is the impulse of the force. The value in the variant is the duration of the step [time].
+    /// In a step, the unknown is the impulse of the force. The value of this variant is the duration of the step [time].
     Step(f64),
     /// In a displacement between two equilibria, the unknown is the change of the force.
     AtRest,
@@ -29,7 +29,7 @@ impl ForceUnknowns {
         }
     }
 
-    /// Derivative of the force with respect to the unknown [1/time, -].
+    /// Derivative of the constraint force with respect to its unknown [1/time, -].
     pub fn force_derivative(self) -> f64 {
         match self {
             Self::Step(duration) => 1.0 / duration,
@@ -38,7 +38,7 @@ impl ForceUnknowns {
     }
 }
 
-/// Fraction of a step at which a method evaluates the arms of the forces of rigid links.
+/// Fraction of a step at which an integrator evaluates the arms of the forces of rigid links.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
@@ -50,7 +50,7 @@ pub struct ArmRule {
 #[derive(Debug, Clone)]
 pub struct RigidLink {
     pub body: usize,
-    /// Control point of the linked point. The centre of mass is the first control point.
+    /// Control point that is linked to the centre of mass, which is the first control point.
     pub point: usize,
     pub unknowns: [usize; 2],
     arm: Vec2,
@@ -64,7 +64,6 @@ struct Iterated {
     end: Vec2,
     force_arm: Vec2,
     force: Vec2,
-    /// Derivative of the force with respect to its unknown.
     fraction: f64,
     rate: f64,
     increment: f64,
@@ -78,12 +77,12 @@ impl RigidLink {
         Self { body, point, unknowns, arm, rotation, force: Vec2::zeros(), size: arm.norm() }
     }
 
-    /// Arm from the centre to the point at the start of the step [length].
+    /// Arm from the centre of mass to the linked point at the start of the step [length].
     pub fn arm(&self) -> Vec2 {
         self.rotation.to_space(self.arm)
     }
 
-    /// Force in the last step or static solution [force].
+    /// Constraint force of the link in the last step or static solution [force].
     pub fn force(&self) -> Vec2 {
         self.force
     }
@@ -198,7 +197,7 @@ impl RigidLink {
         }
     }
 
-    /// Adds a force on the point, and the opposite force with its moment on the body, to a residual.
+    /// Adds a force on the linked point, and the opposite force with its moment on the body, to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: Vec2, arm: Vec2, out: &mut [f64]) {
         let ([x, y, rotation], [point_x, point_y, _]) = self.degrees(bodies);
         out[point_x] += force.x;
@@ -208,26 +207,26 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// Constraint violation in a residual, as a fraction of increments and arm [-].
+    /// Constraint violation of the link in a residual, as a fraction of increments and arm [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }
     }
 
-    /// Distance of the point from its position in the body [length].
+    /// Distance of the linked point from its position in the body [length].
     pub fn gap(&self, bodies: &Bodies) -> f64 {
         let points = bodies[self.body].dynamics.control_points();
         ((points[self.point] - points[0]) - self.arm()).norm()
     }
 
-    /// Centripetal acceleration of the point about the centre of mass [length/time²].
+    /// Centripetal acceleration of the linked point about the centre of mass [length/time²].
     pub fn centripetal(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let ([.., rotation], _) = self.degrees(bodies);
         let spin = rates.get(rotation).copied().unwrap_or(0.0);
         self.arm() * (-spin * spin)
     }
 
-    /// Difference between the velocity of the linked point and the velocity of the body at this point [length/time].
+    /// Difference between the velocity of the linked point and the velocity of the body at the place of this point [length/time].
     /// At the end of a step, the velocity difference is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
@@ -251,8 +250,8 @@ impl RigidLink {
     }
 
     /// Calls `take` with the static stiffness of the link.
-    /// The stiffness consists of the geometric stiffness of the force and a penalty stiffness [force/length].
-    /// The penalty stiffness holds the point at its position in the body.
+    /// The stiffness of the link is the geometric stiffness of its force plus a penalty stiffness [force/length].
+    /// The penalty stiffness holds the linked point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

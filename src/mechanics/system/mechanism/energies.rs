@@ -13,7 +13,7 @@ pub struct BodyEnergy {
     pub shear: f64,
     /// Bending strain energy.
     pub bending: f64,
-    /// Potential energy in gravity, relative to the origin.
+    /// Potential energy in gravity, relative to the origin of coordinates.
     pub potential: f64,
 }
 

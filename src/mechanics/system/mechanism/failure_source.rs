@@ -1,4 +1,4 @@
-//! Cause of a failed step: the object with the largest residual. It is evaluated only after a failure.
+//! Search for the object with the largest residual after a failed step.
 
 use super::System;
 use crate::integrators::FailureSource;

@@ -9,11 +9,10 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::state::InertiaSolver;
 
-/// Velocity along the master, as a fraction of the velocity of the fastest point of the model, below which a slider sticks at the start.
+/// Velocity along the master below which a slider sticks at the start, as a fraction of the velocity of the fastest point of the model.
 const AT_REST: f64 = 1e-9;
 
 impl System {
-    /// Returns true if a slider has friction.
     pub(crate) fn has_friction(&self) -> bool {
         self.sliders.iter().any(|slider| slider.active_friction().is_some())
     }
@@ -30,7 +29,8 @@ impl System {
         }
     }
 
-    /// Computes the inertia across the master of every slider with friction. The inertia is zero if the slider does not respond to an impulse.
+    /// Computes the inertia across the master of every slider with friction.
+    /// The inertia is zero if the slider does not respond to an impulse.
     pub(super) fn measure_inertia_across(&mut self) {
         let Ok(mut solver) = self.take_inertia_solver() else { return };
         let Self { sliders, bodies, .. } = self;
@@ -46,23 +46,24 @@ impl System {
         self.step.inertia_solver = Some(solver);
     }
 
-    /// Takes the solver with the factors of the present inertia. The caller must put it back after use.
+    /// Takes the solver with the factors of the present inertia out of the model. The caller must put the solver back after use.
     ///
     /// # Errors
-    /// Fails if the inertia is singular.
+    /// Fails if the inertia matrix is singular.
     pub(super) fn take_inertia_solver(&mut self) -> Result<Box<InertiaSolver>, LinearError> {
         let mut solver = self.step.inertia_solver.take().unwrap_or_else(|| {
             let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());
             Box::new(InertiaSolver::new(unknowns, half_bandwidth, self.degrees_of_freedom()))
         });
-        // Without rigid links the inertia is constant.
+        // Without rigid links, the inertia matrix is constant.
         if !solver.is_factorised() || self.links.count() > 0 {
             solver.factorise(|inertia| self.fill_banded_inertia(inertia))?;
         }
         Ok(solver)
     }
 
-    /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit. Returns true if a slider starts to slip.
+    /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit.
+    /// Returns true if a slider starts to slip.
     pub(super) fn start_overloaded_slips(&mut self, now: &Instant) -> bool {
         let mut starts = false;
         for at in 0..self.sliders.len() {
@@ -72,7 +73,7 @@ impl System {
         starts
     }
 
-    /// Starts the sticking of a slider. An impulse removes its remaining velocity along the master. The work of the impulse is lost.
+    /// Starts the sticking of a slider. An impulse removes the remaining velocity along the master, and its work counts as lost energy.
     ///
     /// # Errors
     /// Fails if the impulse is not determined.
@@ -81,7 +82,6 @@ impl System {
         self.stop_along(&[slider]).map_err(|_| self.sliders.overdetermined())
     }
 
-    /// Starts the slip of a slider in the direction of the force along its master.
     pub(crate) fn start_slip(&mut self, slider: usize) {
         self.sliders[slider].slip();
         self.motion.accelerations.mark_unknown();
@@ -90,7 +90,7 @@ impl System {
     /// Starts the sticking of all sliders whose velocity along the master is opposite to their slip.
     ///
     /// # Errors
-    /// Fails if the impulses are not determined.
+    /// Fails if the impulses at the sliders are not determined.
     pub(crate) fn end_reversed_slips(&mut self) -> Result<(), SystemError> {
         let is_reversed =
             |at: &usize| self.sliders[*at].is_slip_reversed(&self.bodies, &self.motion.rates);

@@ -12,16 +12,15 @@ use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::system::SystemError;
 use crate::system::elements::WorkAndImpulse;
 
-/// Slider, and direction of an impulse that changes its relative velocity.
 pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Smallest ratio of the velocity response with only the included deformations to the velocity response with all deformations.
-/// With a smaller ratio of these two responses, the bodies count as rigid in the direction of the impulse.
+/// Ratio of two velocity responses to an impulse below which the bodies are rigid in the direction of the impulse.
+/// The first response is computed with the included deformations only, the second response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Forces of a unit impulse in one direction, with the resulting velocities.
+/// Generalised forces of a unit impulse in one direction, with the resulting velocities.
 pub(super) struct ImpulseResponse {
     pub(super) forces: Vec<f64>,
     pub(super) rates: Vec<f64>,
@@ -42,7 +41,7 @@ impl ImpulseResponse {
         Self { forces, rates, touched, transmitted }
     }
 
-    /// Component of the relative velocity in the direction of the impulse, for given rates.
+    /// Component of the relative velocity at the contact in the direction of the impulse, for given rates.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
@@ -53,7 +52,7 @@ impl ImpulseResponse {
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// Laws of stops use the mean velocity in the same impact without stop impulses.
-/// Velocities across masters are excluded, because they change their signs from step to step.
+/// Velocities across masters are excluded, because their signs change from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -89,7 +88,7 @@ pub(super) struct ImpactProblem {
     responses: Vec<ImpulseResponse>,
     /// Velocity changes in all contact directions due to unit impulses in these directions, one row per direction [1/mass].
     pub(super) response: Vec<Vec<f64>>,
-    /// Relative velocities before the impact [length/time].
+    /// Relative velocities in the contact directions before the impact [length/time].
     before: Vec<f64>,
     change: Vec<f64>,
     /// Jumps of prescribed rates, indexed by degree of freedom; empty without jumps.
@@ -98,9 +97,9 @@ pub(super) struct ImpactProblem {
 
 #[derive(Debug, Clone)]
 pub(super) struct ImpactImpulses {
-    /// Impulse in each direction [mass·length/time].
+    /// Impulse in each contact direction [mass·length/time].
     pub(super) values: Vec<f64>,
-    /// Mean of the velocities in each direction before and after the impact [length/time].
+    /// Mean of the velocities in each contact direction before and after the impact [length/time].
     pub(super) mean_velocities: Vec<f64>,
 }
 
@@ -110,7 +109,6 @@ impl ImpactImpulses {
         self.values.iter().zip(&self.mean_velocities).map(|(impulse, velocity)| impulse * velocity)
     }
 
-    /// Impulses without the first `count`.
     pub(super) fn without_first(mut self, count: usize) -> Self {
         Self {
             values: self.values.split_off(count),
@@ -200,7 +198,7 @@ impl System {
     /// Sets the velocities of all slaves across their masters to zero by the smallest change (Gauss's principle of least constraint).
     ///
     /// # Errors
-    /// Fails if the impulses are not determined.
+    /// Fails if the impulses at the sliders are not determined.
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
         self.apply_transverse_impact().map_err(|_| self.sliders.overdetermined())
     }
@@ -213,8 +211,9 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives. Differences below `negligible` are ignored [length/time].
-    /// If the velocities differed at the start, the sign of the difference would alternate from step to step.
+    /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
+    /// Velocity differences below `negligible` are ignored [length/time].
+    /// Without this adjustment, the sign of the velocity difference would alternate from step to step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -225,7 +224,7 @@ impl System {
             return;
         }
         // The adjusting impulse acts before the start time, so it is not added to the accumulated impulses.
-        // A singular matrix is ignored, because the first step reports it.
+        // A singular matrix is ignored here, because the first step reports it.
         let before = std::mem::take(&mut self.exchanged);
         let struck = self.apply_transverse_impact();
         self.exchanged = before;
@@ -235,20 +234,20 @@ impl System {
     }
 
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
-    /// If no impact were computed, the violation of the velocity constraints would alternate in sign from step to step.
+    /// Without the impact at a jump, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
-    /// Returns true if there was a jump.
+    /// Returns true if a prescribed rate jumps.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
         }
-        // A function without a value is ignored, because the following step reports it.
+        // A drive function without a value is ignored here, because the following step reports it.
         let prescribed = self.supports.prescribed();
         let Ok(Some(jumps)) = prescribed.jumps(interval, &self.motion.rates) else { return false };
         let directions: Vec<ImpactDirection> = self.sliders.directions(&self.bodies).collect();
         let laws: Vec<ImpactLaw> =
             directions.iter().map(|(slider, _)| self.law_across(*slider)).collect();
-        // A singular matrix is ignored, because the following step reports it.
+        // A singular matrix is ignored here, because the following step reports it.
         let Ok(problem) =
             self.impact_problem_with_jumps(&[(&directions, Deformation::All)], -2.0, jumps)
         else {
@@ -261,7 +260,7 @@ impl System {
         true
     }
 
-    /// Speeds of the slave and of the contact point of the master in a direction [length/time].
+    /// Speeds of the slave and of the contact point of the master in an impact direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
         let (slave, relative) = (
@@ -288,7 +287,7 @@ impl System {
         closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
     }
 
-    /// Generalised forces of a unit impulse in a direction, at all degrees of freedom.
+    /// Generalised forces of a unit impulse in an impact direction, at all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
@@ -307,7 +306,7 @@ impl System {
         directions.iter().map(answer).collect()
     }
 
-    /// Computes the velocity responses to unit impulses. The argument `deformation` selects the deformations that the bodies can have in the impact.
+    /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
     /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
     ///
     /// # Errors
@@ -336,9 +335,9 @@ impl System {
         Ok(directions.iter().map(&mut answer).collect())
     }
 
-    /// Creates the impact problem for the given directions.
+    /// Creates the impact problem for the given contact directions.
     /// The argument `links` is the factor by which the velocity violation of each rigid link changes.
-    /// A factor of -2 reverses the violations. The links then do no work.
+    /// With a factor of -2, the violations are reversed, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -1,8 +1,8 @@
-//! Impulses of joints and supports in the last step. They are accumulated if mean forces over a step are requested.
+//! Impulses of joints and supports in the last step, accumulated if mean forces over a step are requested.
 //!
-//! After a step has been solved, its balance is evaluated again with separate degrees of freedom for every control point.
+//! After a step has been solved, the balance is evaluated again with separate degrees of freedom for every control point.
 //! The residual at each control point is the force of joints and supports. Impulses of impacts are added.
-//! Methods that balance accelerations instead of momenta do not provide mean forces.
+//! Integrators that balance accelerations instead of momenta do not provide mean forces.
 
 use super::rigidity::add_transmitted_impulses;
 use super::step_power::StepPower;
@@ -20,7 +20,7 @@ pub struct ExchangeLedger {
     pub total: WorkAndImpulse,
     /// Impulses of joints and supports; `None` unless requested.
     pub impulses: Option<Box<Impulses>>,
-    /// Powers of all drives, then of all loads; `None` unless requested.
+    /// Powers of all drives, followed by the powers of all loads; `None` unless requested.
     pub powers: Option<Vec<StepPower>>,
 }
 
@@ -34,7 +34,7 @@ pub struct Impulses {
     /// Residual of the balance, with additional space for contact equations.
     residual: Vec<f64>,
     /// Impulses since the end of the last step [force·time, force·length·time].
-    /// Impulses on control points are followed by impulses of inclined rollers.
+    /// The impulses on control points are stored first, followed by the impulses of inclined rollers.
     present: Vec<f64>,
     means: Vec<f64>,
 }
@@ -124,7 +124,7 @@ impl System {
         }
     }
 
-    /// Ends a step of a duration [time]. Later impulses belong to the next step.
+    /// Ends a step of the given duration [time]. Later impulses belong to the next step.
     pub(crate) fn end_step(&mut self, duration: f64) {
         self.sliders.iter_mut().for_each(SliderContact::end_step);
         self.supports.prescribed_mut().end_step();
@@ -138,7 +138,7 @@ impl System {
     }
 
     /// Mean forces of joints and supports in the last step, including impacts. Before the first step, the present forces are returned.
-    /// Returns `None` unless the accumulation is [enabled](Self::accumulate_impulses).
+    /// Returns `None` unless the accumulation of impulses is [enabled](Self::accumulate_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { means, .. } = &**self.exchanged.impulses.as_ref()?;
         let (left, across) = means.split_at(means.len() - self.links.all_rollers().len());

@@ -18,7 +18,8 @@ impl Inertia for System {
 }
 
 impl System {
-    /// Calls `add` with the row, column and value of each entry of the inertia matrix. Values for the same row and column must be added up.
+    /// Calls `add` with the row, column and value of each entry of the inertia matrix.
+    /// The caller must add up values for the same row and column.
     pub(super) fn inertia_entries(&self, add: &mut impl FnMut(usize, usize, f64)) {
         self.bodies.iter().for_each(|body| body.inertia_entries(1.0, add));
         self.elements.inertia_entries(&self.bodies, 1.0, self.unknowns.count(), add);
@@ -33,8 +34,8 @@ impl System {
         })
     }
 
-    /// Forces at the unknowns divided by the diagonal of the inertia matrix [length/time², 1/time²]. The coupling by inertia is ignored.
-    /// Zero for unknowns without inertia.
+    /// Forces at the unknowns divided by the diagonal of the inertia matrix [length/time², 1/time²].
+    /// The coupling by inertia is ignored. The result is zero for unknowns without inertia.
     pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
         let inertia = self.diagonal_of_inertia();
         let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };
@@ -42,7 +43,7 @@ impl System {
     }
 
     /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²].
-    /// A solution of this matrix contains accelerations and link forces.
+    /// A solution vector of the bordered matrix contains accelerations and link forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());

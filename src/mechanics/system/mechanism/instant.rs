@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Accelerations and forces contain vibrations that the steps do not resolve. Means over two consecutive steps do not contain these vibrations.
+//! Accelerations and forces at one time contain vibrations that the steps do not resolve, unlike means over two consecutive steps.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};
@@ -41,10 +41,11 @@ impl Instant {
 }
 
 impl System {
-    /// Computes the accelerations and forces at the present time, with loads just after this time. The state of motion is unchanged.
+    /// Computes the accelerations and forces at the present time, with loads just after this time.
+    /// The state of motion does not change.
     ///
     /// # Errors
-    /// Fails if a load has no value, or contact forces are not determined.
+    /// Fails if a load has no value, or if the contact forces are not determined.
     pub fn instant(&mut self) -> Result<Instant, SystemError> {
         let mut present = self.step.present.take().unwrap_or_default();
         self.bodies.write_by_control_point(&self.motion.rates, &mut present.rates);
@@ -86,7 +87,8 @@ impl System {
         })
     }
 
-    /// Computes the present contact forces in `self.step.present`. Nothing is allocated after the first call, unless the number of contacts grows.
+    /// Computes the present contact forces in `self.step.present`.
+    /// Nothing is allocated after the first call, unless the number of contacts grows.
     ///
     /// # Errors
     /// Fails in the same cases as [`instant`](Self::instant).
@@ -108,7 +110,7 @@ impl System {
     }
 
     /// Adds all forces at the present time except inertia and contacts to `out`, in the present numbering of the bodies.
-    /// `rates` contains the rates by control point.
+    /// The argument `rates` contains the rates by control point.
     fn add_present_forces(
         &mut self,
         rates: &[Vec<Movement>],
@@ -124,8 +126,8 @@ impl System {
         Ok(())
     }
 
-    /// Calls a function while the model stores the present forces of its rigid links.
-    /// During other calls, the model stores the forces of the last step, which are zero before the first step.
+    /// Calls a function while the model stores the present forces of its rigid links instead of the forces of the last step.
+    /// Before the first step, the stored forces of rigid links are zero.
     ///
     /// # Errors
     /// Fails in the same cases as [`instant`](Self::instant), if the model has rigid links.
@@ -146,7 +148,7 @@ impl System {
         Ok(seen)
     }
 
-    /// Solves the equations of motion for the accelerations and the contact forces. The residual contains the other forces.
+    /// Solves the equations of motion for the accelerations and the contact forces, from a residual with all other forces.
     fn solve_present_forces(&mut self, present: &mut PresentForces) -> Result<(), SystemError> {
         present.prescribed.clear();
         present.prescribed.extend(self.supports.prescribed().accelerations());
@@ -166,7 +168,8 @@ impl System {
         Ok(())
     }
 
-    /// Solves `M a + residual = Gᵀ λ` for the accelerations and the forces on the masters.
+    /// Solves `M a + residual = Gᵀ λ` for the accelerations `a` and the contact forces `λ` on the masters.
+    /// `M` is the inertia matrix, and `Gᵀ` transmits contact forces to the unknowns.
     fn solve_accelerations(&mut self, present: &mut PresentForces) -> Result<(), LinearError> {
         let solver = self.take_inertia_solver()?;
         let (inertia, unknowns) = (solver.factors(), self.unknowns());
@@ -229,8 +232,9 @@ impl System {
         });
     }
 
-    /// Adds the friction of sliders that slip to the responses to forces across their masters.
-    /// The direction of friction depends on the sign of the force across the master in the solution without friction. Returns true if a slider slips.
+    /// Adds the friction of slipping sliders to the responses to forces across their masters.
+    /// The direction of friction depends on the sign of the force across the master in the solution without friction.
+    /// Returns true if a slider slips.
     fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {
         let PresentForces { directions, responses, magnitudes, .. } = present;
         let mut slips = false;

@@ -15,11 +15,12 @@ use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
-    /// Slaves and masters are moved apart by the displacement of their kinks. At ends of masters, velocities are rotated onto the kinked axis.
+    /// Slaves and masters are moved apart by the displacement of their kinks.
+    /// At ends of masters, velocities are rotated onto the kinked axis.
     /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
     ///
     /// # Errors
-    /// Fails if velocities after the rotation are undetermined.
+    /// Fails if the velocities after the rotation are undetermined.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let slow = |slider: &SliderContact| slider.has_kink() && slider.is_slow(bodies, rates);
@@ -46,10 +47,10 @@ impl System {
         self.rotate_onto_kinks(&starting)
     }
 
-    /// Starts the kinks of sliders that begin to slide at an end of their masters. Kinks have no energy at the ends.
+    /// Starts the kinks of sliders that begin to slide at an end of their masters. Kinks have no energy at the ends of a master.
     ///
     /// # Errors
-    /// Fails if velocities after the rotation are undetermined.
+    /// Fails if the velocities after the rotation are undetermined.
     pub fn restart_kinks_at_ends(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let starting = |at: &usize| self.sliders[*at].is_straight_at_end(bodies, rates);
@@ -64,8 +65,8 @@ impl System {
         self.rotate_onto_kinks(&starting)
     }
 
-    /// Rotates the relative velocities of sliders at ends from the axis onto the kinked axis, without work.
-    /// Kinks receive the speeds of their sliders.
+    /// Rotates the relative velocities of sliders at ends from the axis of the master onto the kinked axis, without work.
+    /// Sets the speeds of kinks to the speeds of their sliders.
     fn rotate_onto_kinks(&mut self, starting: &[usize]) -> Result<(), SystemError> {
         let at_ends = starting.iter().filter(|at| !self.sliders[**at].is_compliant());
         let corners = at_ends.map(|&at| {
@@ -82,7 +83,7 @@ impl System {
     }
 
     /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// The mean of the later motion does not change, because an unloaded kink would oscillate about the new position.
+    /// The displacement leaves the mean of the later motion unchanged, because an unloaded kink would oscillate about the new position.
     /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {

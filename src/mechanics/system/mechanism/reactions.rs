@@ -9,7 +9,6 @@ use crate::integrators::Mechanism;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reactions {
     residual: Vec<f64>,
-    /// Forces of joints and supports on each control point of each body [force, force·length].
     nodes: Vec<Vec<Movement>>,
     /// Forces of inclined rollers, which are not contained in `residual` and `nodes` [force].
     roller_forces: Vec<Vec2>,
@@ -21,7 +20,7 @@ impl Reactions {
         self.nodes[body][point]
     }
 
-    /// Support forces: the residual at each degree of freedom [force, force·length].
+    /// Residual of the balance at each degree of freedom, which is the support force [force, force·length].
     pub(super) fn residual(&self) -> &[f64] {
         &self.residual
     }

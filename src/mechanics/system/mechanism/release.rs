@@ -1,4 +1,4 @@
-//! Releases of joints and drives. Degrees of freedom that are tied by a joint have a common number. A release gives them separate numbers.
+//! Releases of joints and drives. Degrees of freedom tied by a joint have a common number. A release gives them separate numbers.
 //!
 //! A release changes neither positions nor rates. Energy and momenta of the bodies are unchanged to the last bit.
 

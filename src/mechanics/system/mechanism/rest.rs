@@ -1,4 +1,4 @@
-//! Statics of a mechanism: residual of the static equations, and its derivatives.
+//! Statics of a mechanism: residual of the static equations, and derivatives of the residual.
 //!
 //! Displacements are relative to the present configuration.
 //! Rotation increments are increments of the angle, so that the stiffness is the Hessian of the potential energy.
@@ -18,7 +18,7 @@ pub struct StaticForces {
     pub force: f64,
     /// Largest section moment or moment of a load [force·length].
     pub moment: f64,
-    /// Largest strain residual: strain of the configuration minus strain that belongs to the section force [-].
+    /// Largest strain residual: strain of the configuration minus the strain that belongs to the section force [-].
     pub strain_mismatch: f64,
 }
 
@@ -35,7 +35,7 @@ impl System {
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces for the present section forces, minus `load_factor` times the loads. Adds also the contact equations.
+    /// Adds the internal forces for the present section forces, minus `load_factor` times the loads, and the contact equations.
     /// The unknowns are displacements followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
@@ -57,7 +57,7 @@ impl System {
     }
 
     /// Adds the internal forces with the section force unknowns eliminated, minus `load_factor` times the loads.
-    /// Adds also the derivatives of all added forces with respect to the displacements.
+    /// Adds the derivatives of all added forces with respect to the displacements to the tangent.
     pub fn add_linearised_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -107,7 +107,7 @@ impl System {
 
     /// Accepts a static solution.
     /// The solution contains displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
-    /// After a static solution, all velocities are zero.
+    /// Sets all velocities to zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);
@@ -128,7 +128,7 @@ impl System {
 
     /// Support reaction at a point in equilibrium: force [force] and moment [force·length]; `None` without a support at the point.
     ///
-    /// If several bodies are joined at the point, the reaction acts on all of them together.
+    /// If several bodies are joined at the point, the reaction acts on all joined bodies together.
     pub(crate) fn support_force(&self, place: &BodyPoint, forces: &[f64]) -> Option<(Vec2, f64)> {
         self.held_by(place, forces, |roller| self.links.all_rollers()[roller].force())
     }

@@ -11,26 +11,24 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
-/// With the largest ratio, the deformation is rigid to at least five digits.
+/// With the ratio `MOST`, a suppressed deformation is zero to at least five digits.
 const MOST: f64 = 1e10;
 
-/// Smallest number of corrections of a solution.
 const CORRECTIONS: usize = 4;
 
-/// Largest number of corrections that reduce suppressed strains to zero.
+/// Largest number of corrections that reduce the suppressed strains to zero.
 const MOST_CORRECTIONS: usize = 60;
 
 /// Energy of the suppressed strains at which the corrections end, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
-/// Deformations that an impact includes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     /// All deformations: only inertia resists the impulse.
     All,
     /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
-    /// Deformations that steps of the given length resolve [time], without axial strain.
+    /// Deformations without axial strain that steps of the given length resolve [time].
     Inextensible(f64),
 }
 
@@ -143,7 +141,6 @@ impl Rigidity {
     }
 }
 
-/// Largest ratio of weighted stiffness to inertia over the degrees of freedom.
 fn fastest<'r>(inertia: &[f64], resistances: impl Iterator<Item = &'r StrainResistance>) -> f64 {
     let mut resistance = vec![0.0; inertia.len()];
     for StrainResistance { degrees, strain, weight, .. } in resistances {

@@ -1,8 +1,8 @@
 //! Impacts of sliders at corners of a track, where they pass from beam to beam (docs/theory.md, section 10.3).
 //!
-//! A corner is the limit of a rounded corner: the contact acts by impulses normal to the rotating tangent, which do no work.
+//! A corner of a track is the limit of a rounded corner: the contact impulses are normal to the rotating tangent and do no work.
 //! The relative velocity of the slave rotates with the tangent, in a metric that depends on the masses.
-//! The rotation consists of the rotation of the section direction and of the difference of the shear angles.
+//! The rotation of the velocity consists of the rotation of the section direction and of the difference of the shear angles.
 //! For vibrations that the steps do not resolve, only the difference of the shear angles is applied.
 
 use super::System;
@@ -13,7 +13,7 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
 use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 
-/// Angle below which two tangents count as parallel [rad].
+/// Angle between two tangents below which they are parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
 /// Smallest determinant of the velocity response, as a fraction of its squared trace.
@@ -26,10 +26,10 @@ const CORRECTIONS: usize = 40;
 /// Tolerance of the rotation angle at a corner [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Plausible range for the estimated derivative of the rotation angle with respect to its parameter. Estimates outside the range are not used.
+/// Plausible range of the estimated derivative of the rotation angle with respect to its parameter. Other estimates are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
-/// Corner that a slider passes, with the directions before and after the corner [-].
+/// Corner of a track that a slider passes, with the directions before and after the corner [-].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeamCorner {
     pub(super) slider: usize,
@@ -96,12 +96,11 @@ impl Response {
 }
 
 impl System {
-    /// Returns true if the track of a slider continues beyond a limit.
+    /// Returns true if the track of a slider continues beyond a limit of the present beam.
     pub(crate) fn continues_beyond(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }
 
-    /// Returns true if a slider reached or left a seam at the present time.
     pub(crate) fn is_at_seam_event(&self, slider: usize) -> bool {
         self.sliders[slider].crossed_seam_at(self.motion.time)
     }
@@ -133,7 +132,8 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of sliders at the ends of masters with a kink. The velocity along the kinked axis is rotated to the smooth axis.
+    /// Adjusts the velocities of sliders at the ends of masters with a kink.
+    /// The velocity along the kinked axis is rotated to the smooth axis.
     /// The kink has no energy at an end. The motion of the kink becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
@@ -185,9 +185,9 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 }
 
 /// Computes the impulses of an impact in which corners rotate the velocities of sliders (docs/theory.md, section 10.3).
-/// All contacts without a corner have impact laws.
-/// The rotation angle of each corner is reached to 1e-12, or as accurately as possible.
-/// Returns `None` if the angles are not reached in a case where sliders also strike stops.
+/// All contacts without a corner follow their impact laws.
+/// The rotation angle of each corner is reached to 1e-12 rad, or as accurately as possible.
+/// Returns `None` if the rotation angles are not reached while sliders also strike stops.
 pub(super) fn deflect_at_corners(
     problem: &ImpactProblem,
     corners: &[SeamCorner],
@@ -262,7 +262,6 @@ fn own_responses(
 
 struct TurnSearch {
     own: Response,
-    /// Required angle [rad].
     required_angle: f64,
     angle: f64,
     before: Option<(f64, f64)>,

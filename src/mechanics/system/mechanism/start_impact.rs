@@ -1,4 +1,4 @@
-//! Impacts of drives on beams at rest, at the start.
+//! Impacts of drives on beams that are at rest at the start of a simulation.
 
 use super::System;
 use crate::joints::Component;
@@ -10,7 +10,7 @@ pub struct StartImpact {
     pub drive: usize,
     /// Index of the beam.
     pub beam: usize,
-    /// Prescribed component.
+    /// Component of the motion that the drive prescribes.
     pub component: Component,
     /// Initial rate [length/time, 1/time].
     pub rate: f64,

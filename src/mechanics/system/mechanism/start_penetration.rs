@@ -5,14 +5,14 @@ use crate::geometry::Vec2;
 use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
 
-/// Largest ratio of the contact force to the other forces on a body for which these forces explain the penetration.
+/// Largest ratio of the contact force on a body to its other forces at which the other forces explain the penetration.
 const EXPLAINED: f64 = 2.0;
 
-/// Penetration that the approximation of a curved axis by the mesh explains, as a fraction of the largest coordinate of the body.
+/// Penetration due to the approximation of a curved axis by the mesh, as a fraction of the largest coordinate of the body.
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
-    /// Name of a contact whose force has no direction at the start, and the index of the body in it.
+    /// Name of a contact whose force has no direction at the start, and the index of the body in the contact.
     /// The body lies on the axis of a body that it touches, or at the centre of a disc.
     pub(in crate::system) fn undirected_contact(&self) -> Option<(&str, usize)> {
         self.elements.resistances().find_map(|contact| {
@@ -23,7 +23,7 @@ impl System {
     }
 
     /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.
-    /// Penetrations that weight, loads and springs explain are left out.
+    /// Penetrations due to weight, loads and springs are left out.
     pub(crate) fn start_penetrations(&mut self) -> Vec<(String, Penetration)> {
         let bodies = &self.bodies;
         let inside = self.elements.resistances().flat_map(|obstacle| {
@@ -32,7 +32,7 @@ impl System {
         });
         let mut inside: Vec<_> =
             inside.filter(|(_, one)| one.depth > self.tolerance(one)).collect();
-        // A load without a value is reported by the first step.
+        // A load without a value is ignored here, because the first step reports it.
         if !inside.is_empty() && self.elements.evaluate_after(self.motion.time).is_ok() {
             let others = self.resultants_without_contact();
             inside.retain(|(_, one)| one.force > EXPLAINED * others[one.body].norm());

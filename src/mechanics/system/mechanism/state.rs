@@ -16,12 +16,12 @@ pub struct SystemState {
     prediction: Prediction,
     knows_accelerations: bool,
     sliders: Vec<SliderState>,
-    /// Contacts between bodies. Their number changes during a simulation.
+    /// Contacts between bodies. The number of contacts changes during a simulation.
     contacts: Vec<f64>,
 }
 
 impl SystemState {
-    /// Returns an empty state with the same capacity.
+    /// Returns an empty state with the capacity of this state.
     pub fn blank(&self) -> Self {
         Self {
             numbers: Vec::with_capacity(self.numbers.len()),
@@ -37,7 +37,7 @@ impl SystemState {
             && self.contacts.len() == other.contacts.len()
     }
 
-    /// Sets the state to `from` plus `amount` times the vector `change`.
+    /// Sets the state to the state `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders, contacts } = self;
         numbers.clear();
@@ -51,7 +51,7 @@ impl SystemState {
         contacts.extend(from.contacts.iter().zip(of_contacts).map(moved));
     }
 
-    /// Writes the difference between this state and `other`, divided by `distance`, to `change`.
+    /// Writes the difference between this state and the state `other`, divided by `distance`, to `change`.
     pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,

@@ -4,17 +4,17 @@ use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
 /// Order of the unknowns in static and modal matrices. Without sliders and contact between bodies, it is the order in time steps.
-/// Otherwise the positions of the sliders are additional unknowns, and all unknowns are reordered for a small bandwidth.
+/// Positions of sliders are additional unknowns. With sliders or contact between bodies, all unknowns are reordered for a small bandwidth.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
-    /// Position of each unknown in the order; `None` if the order is that of time steps.
+    /// Position of each unknown in the static order; `None` if the order is that of time steps.
     position: Option<Vec<usize>>,
 }
 
 impl StaticOrder {
-    /// Number of unknowns, including slider positions.
+    /// Number of unknowns of static matrices, including slider positions.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -24,7 +24,7 @@ impl StaticOrder {
         self.half_bandwidth
     }
 
-    /// Position of an unknown in the order of unknowns. Supported degrees of freedom follow all unknowns.
+    /// Position of an unknown in this order. Supported degrees of freedom follow all unknowns.
     pub fn place(&self, unknown: usize) -> usize {
         let position = |position: &Vec<usize>| position.get(unknown).copied();
         match &self.position {
@@ -33,7 +33,7 @@ impl StaticOrder {
         }
     }
 
-    /// Returns true if the order is that of time steps.
+    /// Returns true if this order is the order of unknowns in time steps.
     pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }

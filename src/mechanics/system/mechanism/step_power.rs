@@ -1,11 +1,11 @@
-//! Powers of drives and loads over a step. They are computed if a sensor requests them.
+//! Powers of drives and loads over a step, computed if a sensor requests them.
 
 use super::System;
 use crate::system::elements::ExternalForce;
 
 /// Power of a drive or a load over the last step.
 pub struct StepPower {
-    /// Work in the step divided by its duration [energy/time]. Before the first step, it is the present power for a drive.
+    /// Work in the step divided by its duration [energy/time]. Before the first step, the value is the present power of a drive.
     pub power: f64,
     /// Work since the start of the run, at the end of the step [energy].
     pub work: f64,
@@ -34,7 +34,7 @@ impl System {
         }
     }
 
-    /// Computes the powers of a step of a duration [time].
+    /// Computes the powers of a step of the given duration [time].
     pub(super) fn update_powers(&mut self, duration: f64) {
         let Some(mut powers) = self.exchanged.powers.take() else { return };
         for (step, work) in powers.iter_mut().zip(self.works()) {

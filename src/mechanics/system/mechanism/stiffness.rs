@@ -1,6 +1,7 @@
 //! Stiffness, inertia and damping matrices of the present configuration.
 //!
-//! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy. Loads of fixed direction have no stiffness.
+//! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy.
+//! Loads of fixed direction have no stiffness.
 //! The stiffness of follower loads is neglected.
 
 use super::{StaticOrder, System};
@@ -12,8 +13,8 @@ use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
 /// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
-/// The penalty stiffness changes frequencies by a relative amount below the inverse of the constant.
-/// Rounding does not affect other stiffnesses, because the matrices have 32 digits.
+/// The penalty stiffness changes frequencies by a relative amount below 1/`RIGID`.
+/// Rounding of the penalty stiffness does not affect other stiffnesses, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
 
 impl System {
@@ -31,7 +32,7 @@ impl System {
         self.elements.for_each_static_stiffness(&self.bodies, take);
     }
 
-    /// Calls `take` with the stiffness of every span of every body and its degrees of freedom.
+    /// Calls `take` with the degrees of freedom and the stiffness of every span of every body.
     pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
@@ -96,7 +97,7 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of degrees of freedom with mass that rigid links and contacts remove by their constraints.
+    /// Number of degrees of freedom with mass that the constraints of rigid links and contacts remove.
     pub(crate) fn constrained_movements(
         &self,
         order: &StaticOrder,

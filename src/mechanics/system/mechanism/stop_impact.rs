@@ -2,7 +2,7 @@
 //!
 //! A slider that comes to rest at a stop and is held there receives an impulse, which reduces its speed along the master to zero.
 //! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
-//! With a coefficient of restitution below one, the lost kinetic energy is not returned.
+//! With a coefficient of restitution below one, the stop does not return the lost kinetic energy.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -15,10 +15,10 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of a second slider from the end of its master that counts as simultaneous arrival, as a fraction of the parameter range of the master.
+/// Largest distance of a second slider from the end of its master at a simultaneous arrival, as a fraction of the parameter range of the master.
 const TOGETHER: f64 = 1e-12;
 
-/// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations count as rigid.
+/// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations are suppressed.
 pub(super) const RIGID: f64 = 4.0;
 
 /// Largest ratio of step length to impact duration for which the steps resolve the impact [-].
@@ -27,7 +27,6 @@ pub const RESOLVED_IMPACT: f64 = 0.125;
 /// Largest speed across a contact that counts as zero, as a fraction of the speed of the fastest point of the model.
 pub(super) const NEGLIGIBLE_SPEED: f64 = 1e-12;
 
-/// Direction of a contact impulse, with the law of the contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ImpactContact {
     pub(super) direction: ImpactDirection,
@@ -39,7 +38,7 @@ pub(super) struct ImpactContact {
 pub struct Arriving {
     /// Limits at which sliders bounce.
     pub strike: Vec<MasterLimit>,
-    /// Limits that sliders strike without rebound: the stop has zero restitution, and the steps do not resolve the impact.
+    /// Limits that sliders strike without rebound: the restitution is zero, and the steps do not resolve the impact.
     pub plastic: Vec<MasterLimit>,
     /// Limits at which the stop holds sliders.
     pub held: Vec<MasterLimit>,
@@ -48,7 +47,7 @@ pub struct Arriving {
 }
 
 impl Arriving {
-    /// Returns true if no slider arrives.
+    /// Returns true if no slider arrives at an end.
     pub fn is_empty(&self) -> bool {
         !self.has_impact_or_is_held() && self.crossing.is_empty()
     }
@@ -71,12 +70,12 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end points beyond the end.
+    /// Returns true if the velocity of a slider at an end of its master points beyond the end.
     /// The velocity contains only deformations that an impact with steps of length `dt` [time] includes.
-    /// Velocities across masters are excluded, because they change their signs from step to step.
+    /// Velocities across masters are excluded, because their signs change from step to step.
     ///
     /// # Errors
-    /// Fails if the impulse is undetermined.
+    /// Fails if the impulse at the end of the master is undetermined.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
@@ -98,7 +97,7 @@ impl System {
     /// The ratio of step length to impact duration is recorded.
     ///
     /// # Errors
-    /// Fails if the impulse is undetermined.
+    /// Fails if the impulse at the limit is undetermined.
     pub(crate) fn resolves_impact(
         &mut self,
         limit: MasterLimit,
@@ -109,7 +108,7 @@ impl System {
         Ok(lasts.is_finite() && dt <= RESOLVED_IMPACT * lasts)
     }
 
-    /// Duration of the impact of a slider at a limit [time]; infinite if both bodies are rigid.
+    /// Duration of the impact of a slider at a limit [time]; infinite if slave and master are rigid.
     fn impact_duration(&self, limit: MasterLimit) -> Result<f64, LinearError> {
         let direction = (limit.slider, self.stop_direction(limit));
         let mut inertia = self.banded_inertia();
@@ -136,12 +135,12 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks at all contact points and the friction forces of slipping sliders constant in the next step. Returns true if this changes the equations of the next step.
+    /// Keeps the kinks at all contact points and the friction forces of slipping sliders constant in the next step.
+    /// Returns true if the equations of the next step change.
     pub(crate) fn freeze_contacts(&mut self) -> bool {
         self.sliders.freeze_contacts()
     }
 
-    /// Makes kinks and friction forces variable again.
     pub(crate) fn unfreeze_contacts(&mut self) {
         self.sliders.unfreeze_contacts();
     }
@@ -156,15 +155,15 @@ impl System {
         self.sliders[limit.slider].along_contact(&self.bodies) * -limit.end.outward()
     }
 
-    /// Computes the impact of all sliders that are at ends of masters or at seams at the present time. The length of the steps is `dt` [time].
+    /// Computes the impact of all sliders that are at ends of masters or at seams, for steps of length `dt` [time].
     ///
     /// Stops have the law [`ImpactLaw::Restitution`] and do no positive work.
     /// A stop that holds a slider has no restitution. A corner at a seam rotates the velocity of the slider.
-    /// All other contacts are constraints.
+    /// All contacts that are not at a limit are constraints.
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
     /// # Errors
-    /// Fails if the impulses are undetermined.
+    /// Fails if the impulses of the impact are undetermined.
     pub fn solve_impact(&mut self, arriving: &Arriving, dt: f64) -> Result<(), SystemError> {
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
         let met = self.solve_simultaneous_impacts(arriving, dt);
@@ -202,9 +201,9 @@ impl System {
         self.pass_seams(&passages)
     }
 
-    /// Applies impulses at several contacts at once.
-    /// The velocity of a slider that passes a corner is rotated. All other contacts follow their impact laws.
-    /// A slider that only pushes takes off if the solution moves it away from its master.
+    /// Applies impulses at several contacts simultaneously.
+    /// The impulses rotate the velocity of a slider that passes a corner. All other contacts follow their impact laws.
+    /// A slider that only pushes takes off if the impulses move it away from its master.
     pub(super) fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -219,7 +218,7 @@ impl System {
         let met = [(&turned[..], at_corners), (&directions, at_stops)];
         let problem = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&problem, corners, &laws)? else {
-            // The rotation angles were not reached. The impacts at stops are therefore applied first, and the corners afterwards.
+            // Without a solution for the rotation angles, the impacts at stops are applied first, and the corners afterwards.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
@@ -246,10 +245,10 @@ impl System {
         self.sliders[slider].impulse
     }
 
-    /// Releases all sliders whose stop force is tensile, and returns the energy stored in the stops to them.
+    /// Releases all sliders whose stop force is tensile, and returns the energy stored in the stops to these sliders.
     ///
     /// # Errors
-    /// Fails if the impulses are undetermined.
+    /// Fails if the impulses of the released sliders are undetermined.
     pub fn leave_tensile_stops(&mut self) -> Result<(), SystemError> {
         let leaving = |slider: &usize| self.sliders[*slider].is_pulled_off();
         let leaving: Vec<usize> = (0..self.sliders.len()).filter(leaving).collect();
@@ -270,8 +269,8 @@ impl System {
         Ok(())
     }
 
-    /// Gives the stored energy of stops back to the sliders that leave the stops.
-    /// The speeds of the sliders are proportional to the square roots of their stored energies.
+    /// Returns the stored energy of stops to the sliders that leave the stops.
+    /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
     /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
     /// The returned energy is proportional to the square of the common factor of the speeds.
@@ -346,7 +345,7 @@ impl System {
     }
 }
 
-/// Nonnegative root of `a x² + b x + c`; `None` if there is none.
+/// Nonnegative root of `a x² + b x + c`; `None` if no root is nonnegative.
 fn nonnegative_root(a: f64, b: f64, c: f64) -> Option<f64> {
     let root = (square(b) - 4.0 * a * c).sqrt();
     // The form of the quotient depends on the sign of `b`, so that no cancellation occurs.

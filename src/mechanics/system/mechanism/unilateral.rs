@@ -10,7 +10,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{ContactChange, SliderEvent};
 
-/// Tensile contact force that counts as zero, as a fraction of the forces of the step.
+/// Largest tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
 /// Distance from the axis up to which a slider lands simultaneously with another slider, as a fraction of the size of the contact.
@@ -18,7 +18,7 @@ const TOGETHER: f64 = 1e-12;
 
 impl System {
     /// Checks the present contact forces of sliders that only push, at the end of a step that has converged.
-    /// A tensile force is a take-off. If the step has to end at a take-off, the force of that slider must be zero.
+    /// A tensile contact force is a take-off. If the step has to end at a take-off, the contact force of that slider must be zero.
     ///
     /// # Errors
     /// Fails if a slider takes off before the end of the step, or if it misses the take-off at which the step has to end.
@@ -60,7 +60,7 @@ impl System {
         contacts.map_or(0.0, |contacts| -contacts[slider].dot(&across))
     }
 
-    /// Distance of a slider in flight from the axis, as a fraction of the size of the contact [-].
+    /// Distance of a slider in flight from the axis of its master, as a fraction of the size of the contact [-].
     pub(crate) fn relative_gap(&mut self, slider: usize) -> f64 {
         self.sliders[slider].relative_gap(&self.bodies)
     }
@@ -93,10 +93,10 @@ impl System {
     }
 
     /// Ends the flight of a slider, and of all sliders that land simultaneously. The length of the steps is `dt` [time].
-    /// A slider that strikes its master bounces or stays in contact. A slider beyond an end of its master flies past.
+    /// A slider that strikes its master bounces or stays in contact. A slider beyond an end of its master passes the axis without contact.
     ///
     /// # Errors
-    /// Fails if the impulses are undetermined.
+    /// Fails if the impulses of the landing are undetermined.
     pub(crate) fn land(&mut self, slider: usize, dt: f64) -> Result<(), SystemError> {
         let mut striking = Vec::new();
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
@@ -130,7 +130,7 @@ impl System {
         self.leave_tensile_stops()
     }
 
-    /// Computes the impact of sliders that strike their masters. A slider without rebound slides along its master from now on.
+    /// Computes the impact of sliders that strike their masters. A slider without rebound then slides along its master.
     /// The impact includes the deformations that the steps resolve.
     /// A second impact with all deformations removes the remaining velocities of sliders without rebound.
     fn solve_landing(&mut self, striking: &[usize], dt: f64) -> Result<(), LinearError> {
@@ -166,8 +166,9 @@ impl System {
         landing.iter().map(across).chain(self.impulse_directions(|_, _| None)).collect()
     }
 
-    /// Law across the master for a slider that is in contact during an impact.
-    /// A slider with too many events stays in contact. Otherwise, two sliders could push each other off their masters alternately without end.
+    /// Impact law across the master for a slider that is in contact during an impact.
+    /// A slider with too many events stays in contact.
+    /// Without the limit of events, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {
@@ -177,7 +178,7 @@ impl System {
     }
 
     /// Starts the flight of sliders that an impact moves away from their masters.
-    /// The directions and laws are those of the given impulses.
+    /// The argument `laws` contains the directions and the laws of `impulses`.
     pub(super) fn separate_after_impact(
         &mut self,
         laws: impl Iterator<Item = (ImpactDirection, ImpactLaw)>,

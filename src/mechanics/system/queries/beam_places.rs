@@ -9,7 +9,7 @@ use crate::system::{Scene, System, SystemError};
 
 /// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
 /// A joint inside the beam has two positions with the same arc length.
-/// The first position is the end of the part before the joint, the second the start of the part after the joint.
+/// At a joint inside the beam, the first position belongs to the part before the joint, the second position to the part after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,
@@ -25,16 +25,16 @@ pub struct BeamSample {
     pub position: Vec2,
     /// Velocity [length/time].
     pub velocity: Vec2,
-    /// Section angle with whole turns, counted from the tracked angle at the start of the beam [rad].
+    /// Section angle [rad] with whole turns, counted from the tracked angle at the start of the beam.
     pub angle: f64,
-    /// Section forces, including the forces of material damping.
+    /// Section forces at the position, including the forces of material damping.
     pub forces: SectionForces,
     /// Strain energy per undeformed length [energy/length].
     pub strain_energy: f64,
 }
 
 impl BeamPlaces {
-    /// Number of positions between two knots that shows the variation of section forces sufficiently.
+    /// Number of positions between two knots that represents the variation of section forces.
     pub const WITHIN_A_SPAN: usize = 3;
 
     /// Removes, at each joint inside the beam, the first of the two positions with the same arc length.
@@ -79,7 +79,7 @@ impl System {
         Ok(BeamPlaces { beam, places: places.map_err(of_geometry)? })
     }
 
-    /// Samples a beam in the present configuration, from start to end.
+    /// Samples a beam in the present configuration, from its start to its end.
     pub fn sample_along(&self, along: &BeamPlaces) -> Vec<BeamSample> {
         let dynamics = &self.bodies()[along.beam].dynamics;
         let mut angle = self.end_angles(along.beam).0;
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// Angle nearest to `other` that differs from `angle` by whole turns [rad].
+/// Angle that differs from `angle` by whole turns and is nearest to `other` [rad].
 fn unwrap_to_nearest(angle: f64, other: f64) -> f64 {
     angle + 2.0 * PI * ((other - angle) / (2.0 * PI)).round()
 }

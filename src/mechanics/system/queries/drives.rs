@@ -13,12 +13,12 @@ impl System {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Drives whose motion has a kink within a step, with the largest kink of each drive.
+    /// Names of the drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }
 
-    /// Loads and drives whose schedule changes within a step between the samples, with the largest such change of each.
+    /// Loads and drives whose schedule changes between the samples of a step, with the largest such change of each load or drive.
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));

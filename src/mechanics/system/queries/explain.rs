@@ -23,9 +23,9 @@ pub struct SystemFeature {
 /// Use of a feature in a simulation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Usage {
-    /// The feature is used. The text describes its use.
+    /// Used feature. The text describes its use.
     Used(String),
-    /// The feature is omitted. The text describes the saved effort.
+    /// Omitted feature. The text describes the saved effort.
     Omitted(String),
 }
 
@@ -375,7 +375,7 @@ fn explain_masses(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// Text such as `2 hinges, 1 clamp`.
+/// Numbers of joints of each kind as text, such as `2 hinges, 1 clamp`.
 fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
     let mut kinds: Vec<(&str, usize)> = Vec::new();
     for joint in joints {

@@ -1,9 +1,9 @@
 //! Forces transmitted by joints.
 //!
 //! A joint connects two sets of nodes at one point. The forces of other joints within one set cancel in the sum over its nodes.
-//! The force of a joint on one side is the sum of the forces of joints and supports on all nodes of this side.
-//! If one side is the ground, the force on it is opposite to the force on the other side.
-//! Scenes reject redundant joints, so no other joint connects both sides.
+//! The force of a joint on one set is the sum of the forces of joints and supports on all nodes of this set.
+//! If one set of nodes is the ground, the force on the ground is opposite to the force on the other set.
+//! Scenes reject redundant joints, so no other joint connects the two sets.
 
 use crate::geometry::Vec2;
 use crate::joints::{Component, Joint, JointKind, Partner, Releasable};
@@ -18,7 +18,7 @@ struct JointSide {
     sign: f64,
 }
 
-/// Joint with the nodes on its sides, located for repeated queries.
+/// Joint with the nodes on its two sides, located for repeated queries.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transmission {
     sides: [Option<JointSide>; 3],
@@ -100,7 +100,7 @@ impl System {
     }
 }
 
-/// Nodes that are connected to `from` by chains of pairs without the ground.
+/// Nodes that are connected to the node `from` by chains of pairs without the ground.
 fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

@@ -33,7 +33,6 @@ impl Placement {
 }
 
 impl System {
-    /// Overwrites `placement` with the present configuration.
     pub(crate) fn write_placement(&self, placement: &mut Placement) {
         placement.points.clear();
         placement.normals.clear();
@@ -43,7 +42,6 @@ impl System {
         }
     }
 
-    /// Returns true if loads may jump at the present time.
     pub(crate) fn loads_may_jump(&self) -> bool {
         self.elements().may_jump_at(self.time())
     }

@@ -17,13 +17,11 @@ pub struct SensorReader {
     values: Vec<f64>,
 }
 
-/// Object of a sensor in the model.
 #[derive(Debug, Clone)]
 enum Located {
     Point(BodyPoint),
     Section(CrossSection),
     Joint(Transmission),
-    /// Number of a body or of a tracked section.
     Number(usize),
     Source(SensorSource),
 }
@@ -43,7 +41,7 @@ impl SensorReader {
         Ok(Self { located, needs_instant, needs_mean, values })
     }
 
-    /// Evaluates all sensors. Values that are unavailable or provided by the caller are NaN.
+    /// Evaluates all sensors. The values of unavailable quantities, and of quantities provided by the caller, are NaN.
     pub fn read(&mut self, model: &mut System) -> &[f64] {
         self.values.clear();
         let now = if self.needs_instant { model.instant().ok() } else { None };
@@ -116,7 +114,6 @@ impl Located {
 }
 
 impl System {
-    /// Enables the means over a step that sensors need.
     pub(crate) fn enable_means_for(&mut self, sensors: &[Sensor]) {
         for sensor in sensors.iter().filter(|sensor| sensor.is_summed()) {
             match sensor.source {

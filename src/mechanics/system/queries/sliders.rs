@@ -36,7 +36,7 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Number of steps in which the friction force of the slider was kept constant, because the step has no solution with the law of friction.
+    /// Number of steps with a constant friction force of the slider, because the law of friction had no solution in the step.
     pub fn steps_with_fixed_friction(&self, slider: usize) -> usize {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }
@@ -48,13 +48,13 @@ impl System {
 
     /// Mean force of a slider on its master in the last step [force].
     ///
-    /// Before the first step, the present force is returned. After a release, the force is zero.
+    /// Before the first step, the present contact force is returned. After a release of the slider, the contact force is zero.
     pub fn contact_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).contact_force()
     }
 
-    /// Present contact force of a slider, determined from the kink of its master, if the kink varies with the contact force [force].
-    /// Otherwise, the [`contact_force`](Self::contact_force) of the slider is returned.
+    /// Present contact force of a slider [force], determined from the kink of its master, if the kink varies with the contact force.
+    /// Without a kink, or with a constant kink, the function returns the [`contact_force`](Self::contact_force) of the slider.
     pub fn kink_force(&self, slider: usize) -> Vec2 {
         self.slider(slider).force_of_state()
     }
@@ -64,29 +64,32 @@ impl System {
         self.slider(slider).friction_force()
     }
 
-    /// Distance of a slave from the axis of its master, for a slider that only pushes [length]. The distance is positive on the side to which the slider can lift off, and zero in contact.
+    /// Distance of a slave from the axis of its master, for a slider that only pushes [length].
+    /// The distance is positive on the side to which the slider can lift off, and zero in contact.
     /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())
     }
 
-    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many take-offs and landings.
+    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many events.
     pub fn steps_with_kept_contact(&self, slider: usize) -> usize {
         self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
     }
 
-    /// Position of a slider along its initial master or track, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
+    /// Position of a slider along its initial master or track, from 0 at the start to 1 at the end [-].
+    /// On closed tracks, the number of completed rounds is added.
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// Arc length of a slider from the start of its initial master or track [length]. On closed tracks, completed rounds are added.
+    /// Arc length of a slider from the start of its initial master or track [length].
+    /// On closed tracks, the lengths of completed rounds are added.
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
     /// Speed of a slider along its initial master or track, positive towards the end [length/time].
-    /// The speed is computed from the present velocities. It is zero for a slider that is held or released.
+    /// The speed of the slider is computed from the present velocities. It is zero for a slider that is held or released.
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }
@@ -110,7 +113,7 @@ impl System {
         self.slider(slider).ends
     }
 
-    /// Coefficient of restitution at the ends of the master [-].
+    /// Coefficient of restitution at the ends of the master of a slider [-].
     pub fn restitution(&self, slider: usize) -> f64 {
         self.slider(slider).restitution
     }

@@ -12,8 +12,8 @@ const ROUNDING: f64 = 1e-14;
 pub struct SpringState {
     /// Length [length], or angle of a torsion spring [rad].
     pub elongation: f64,
-    /// Mean force (positive in tension) or moment in the last step [force, force·length].
-    /// For methods with forces at the ends of steps, the field contains the value at the end of the step.
+    /// Mean force (positive in tension) or mean moment in the last step [force, force·length].
+    /// For integrators with forces at the ends of steps, the field contains the force at the end of the step.
     pub force: f64,
     /// Stored energy [energy].
     pub stored: f64,
@@ -74,8 +74,8 @@ impl System {
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Dissipated energies of other elements since the start, in the order of the scene [energy].
-    /// Other elements are material damping, drag, contact with obstacles, impacts of sliders with restitution below 1, and friction.
+    /// Energies dissipated since the start by elements other than springs and dampers, in the order of the scene [energy].
+    /// The elements are material damping, drag, contact with obstacles, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

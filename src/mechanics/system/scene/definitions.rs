@@ -50,7 +50,7 @@ impl BeamDefinition {
         Self { name: name.into(), axis, mesh, section: section.into(), motion }
     }
 
-    /// Length of the axis on the mesh [length]. The mass in a run is computed from this length.
+    /// Length of the axis on the mesh [length], from which the mass in a run is computed.
     ///
     /// # Errors
     /// Fails if the mesh cannot interpolate the axis.
@@ -87,7 +87,8 @@ pub struct ParticleDefinition {
     pub position: Vec2,
 }
 
-/// Rigid body of a scene: a centre of mass and further points. Its mass and inertia are stored as a point mass of the scene.
+/// Rigid body of a scene: a centre of mass and further points.
+/// The mass and the inertia of the body are stored as a point mass of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidBodyDefinition {
     /// Name in messages and reports.
@@ -105,7 +106,7 @@ pub struct RigidBodyDefinition {
 }
 
 impl RigidBodyDefinition {
-    /// Index of the control point of a named point. Points at the centre of mass share index 0.
+    /// Index of the control point of a named point of the body. Points at the centre of mass share index 0.
     pub(crate) fn control_point(&self, name: &str) -> Option<usize> {
         let (at, (_, place)) = self.points.iter().enumerate().find(|(_, (own, _))| own == name)?;
         Some(if *place == Vec2::zeros() { 0 } else { at + 1 })
@@ -118,14 +119,14 @@ impl RigidBodyDefinition {
         std::iter::once(self.position).chain(points).collect()
     }
 
-    /// Indices of the control points off the centre of mass. Rigid links connect them to the centre of mass.
+    /// Indices of the control points off the centre of mass, which rigid links connect to the centre of mass.
     pub fn links(&self) -> impl Iterator<Item = usize> + '_ {
         let points = self.points.iter().enumerate();
         points.filter(|(_, (_, place))| *place != Vec2::zeros()).map(|(at, _)| at + 1)
     }
 
     /// Reason for rejecting the outline; `None` if it is accepted. The outline must be a polygon with at least three corners.
-    /// The body also needs a point off the centre of mass, to show its rotation.
+    /// A body with an outline also needs a point off the centre of mass, to show its rotation.
     pub(crate) fn outline_refused(&self) -> Option<&'static str> {
         match self.outline.len() {
             0 => None,

@@ -17,7 +17,7 @@ use crate::system::elements::{
 use crate::system::errors::{check_name, rounded};
 use crate::system::{Sensor, SystemError};
 
-/// Beams, particles, rigid bodies, joints, masses and loads to be simulated.
+/// Scene: beams, particles, rigid bodies, joints, masses and loads to be simulated.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
@@ -52,15 +52,16 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Length of the longest beam [length].
+    /// Length of the longest beam [length]; `None` without beams.
     pub fn longest_beam(&self) -> Option<f64> {
         self.beams.iter().map(|beam| beam.axis.length()).reduce(f64::max)
     }
 
-    /// Returns the scene with about `ratio` times as many spans in each beam. At least one span remains between two breaks of reduced continuity.
+    /// Returns the scene with about `ratio` times as many spans in each beam.
+    /// At least one span remains between two breaks of reduced continuity.
     ///
     /// # Errors
-    /// Fails if a beam has too many or too short spans.
+    /// Fails if a beam would have too many or too short spans.
     pub fn with_span_ratio(&self, ratio: f64) -> Result<Self, SystemError> {
         let mut scaled = self.clone();
         for beam in &mut scaled.beams {
@@ -70,7 +71,7 @@ impl Scene {
         Ok(scaled)
     }
 
-    /// Total mass [mass].
+    /// Total mass of the scene [mass].
     pub fn mass(&self) -> f64 {
         let beams: f64 = self.beams.iter().map(BeamDefinition::mass).sum();
         beams + self.masses().map(|mass| mass.mass).sum::<f64>()
@@ -150,7 +151,7 @@ impl Scene {
     /// Adds a beam and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken, empty or not printable.
+    /// Fails if the name of the beam is taken, empty or not printable.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, SystemError> {
         self.check_name("beam", &beam.name)?;
         self.beams.push(beam);
@@ -160,7 +161,7 @@ impl Scene {
     /// Adds a particle and returns its station.
     ///
     /// # Errors
-    /// Fails if the name is taken, empty or not printable, or the mass is not positive and finite.
+    /// Fails if the name is taken, empty or not printable, or if the mass is not positive and finite.
     pub fn add_particle(
         &mut self,
         particle: ParticleDefinition,
@@ -178,8 +179,9 @@ impl Scene {
     /// Adds a sliding joint and returns its index.
     ///
     /// # Errors
-    /// Fails if the name is taken. Fails if the slave is a station of the master, does not lie on it, or already slides on it.
-    /// Fails if the sliding rule does not allow the track or the friction, or if a coefficient of restitution or friction is outside its range.
+    /// Fails if the name is taken, or if the slave is a station of the master, does not lie on it, or already slides on it.
+    /// Fails if the sliding rule does not allow the track or the friction.
+    /// Fails if a coefficient of restitution or friction is outside its range.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
         self.check_slider(&slider)?;
@@ -227,10 +229,10 @@ impl Scene {
         format!("{kind}{free}")
     }
 
-    /// Returns the station of a beam at an arc length [length] and starts tracking its angle.
+    /// Returns the station of a beam at an arc length [length] and starts tracking the section angle at the station.
     ///
     /// # Errors
-    /// Fails if the station lies outside the beam.
+    /// Fails if the arc length lies outside the beam.
     pub fn station(&mut self, beam: usize, arc_length: f64) -> Result<Station, SystemError> {
         self.check_station("a station", &Station::on_beam(beam, arc_length))?;
         let length = self.beams[beam].axis.length();
@@ -244,7 +246,7 @@ impl Scene {
     /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// Fails if the stations are equal or not at the same position, or if one of them is joined already.
+    /// Fails if the stations are equal or not at the same position, or if one of them is already joined.
     pub fn join(
         &mut self,
         kind: JointKind,
@@ -276,7 +278,7 @@ impl Scene {
     /// Adds a point mass at a station.
     ///
     /// # Errors
-    /// Fails if the mass is not positive and finite, or the inertia is negative.
+    /// Fails if the mass is not positive and finite, or if the rotary inertia is negative.
     pub fn add_mass(&mut self, mass: PointMass) -> Result<(), SystemError> {
         self.add_element(Element::PointMass(mass))
     }
@@ -284,7 +286,7 @@ impl Scene {
     /// Adds an element.
     ///
     /// # Errors
-    /// Fails if a number is out of range or a station does not exist.
+    /// Fails if a number of the element is out of range or a station does not exist.
     pub(crate) fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
         element.description().check(self)?;
         if let Element::Damping(MaterialDamping { name, .. }) = &element
@@ -367,7 +369,7 @@ impl Scene {
         }
     }
 
-    /// Index of the body of a station in the model: beams, then particles, then rigid bodies.
+    /// Index of the body of a station in the model, which contains beams, then particles, then rigid bodies.
     pub fn index_of_body(&self, station: &Station) -> usize {
         match station.body {
             BodyIndex::Beam(beam) => beam,
@@ -385,7 +387,7 @@ impl Scene {
         })
     }
 
-    /// Description of a station.
+    /// Description of a station for messages.
     pub fn describe(&self, station: &Station) -> String {
         if let BodyIndex::Rigid(body, point) = station.body {
             return self.describe_point(body, point);
@@ -412,7 +414,7 @@ impl SceneChecks for Scene {
     }
 
     fn are_connected(&self, a: BodyIndex, b: BodyIndex) -> bool {
-        // The points of a rigid body are one body.
+        // All points of a rigid body belong to the same body.
         let whole = |body: BodyIndex| match body {
             BodyIndex::Rigid(body, _) => BodyIndex::Rigid(body, 0),
             other => other,

@@ -1,4 +1,5 @@
-//! Size of a scene without beams, and rounding error of the energy of a scene. The size does not depend on the location of the scene.
+//! Length scale of a scene without beams, and rounding error of the energy of a scene.
+//! Length scale and rounding error are independent of the location of the scene.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -7,10 +8,10 @@ use crate::joints::Partner;
 use crate::loads::LoadKind;
 use crate::system::elements::{Anchor, Origin, Spring, SpringKind, SpringLaw};
 
-/// Distance of two points that counts as zero, as a fraction of their coordinates.
+/// Largest distance of two points that counts as zero, as a fraction of their coordinates.
 const ROUNDED: f64 = 1e-9;
 
-/// Particles and rigid bodies connected by springs and joints, and the ground anchors of these springs.
+/// Particles and rigid bodies connected by springs and joints, with the ground anchors of the springs.
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
@@ -32,7 +33,7 @@ impl Group {
 
 impl Scene {
     /// Largest initial extent of a group of connected particles and rigid bodies [length].
-    /// The extent does not depend on the location of the scene. It is zero for isolated particles without size.
+    /// The extent does not depend on the location of the scene. The extent of isolated particles without size is zero.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -53,14 +54,16 @@ impl Scene {
         groups.all.iter().map(Group::extent).fold(0.0, larger)
     }
 
-    /// Length scale of a scene [length]: its longest beam, or without beams its [extent](Self::extent). `None` for isolated particles without size.
+    /// Length scale of a scene [length]: its longest beam, or its [extent](Self::extent) if it has no beams.
+    /// Returns `None` for isolated particles without size.
     pub fn size(&self) -> Option<f64> {
         let extent = || Some(self.extent()).filter(|extent| *extent > 0.0 && extent.is_finite());
         self.longest_beam().or_else(extent)
     }
 
     /// Rounding error of strain energies [energy].
-    /// For a scene with beams, the rounding error is the machine precision times the sum of `EA L + EI/L` over the beams, with length `L` and stiffnesses `EA` and `EI`.
+    /// For a scene with beams, the rounding error is the machine precision times the sum of `EA L + EI/L` over the beams.
+    /// `L` is the length of a beam, `EA` its axial stiffness and `EI` its bending stiffness.
     /// For a scene without beams, the rounding error is the work of the initial forces on the rounding errors of positions.
     pub(crate) fn rounding_energy(&self) -> f64 {
         if self.beams.is_empty() {
@@ -88,7 +91,6 @@ impl Scene {
         weights.chain(loads).chain(springs).sum()
     }
 
-    /// Force of a spring in the initial configuration [force].
     fn held_by(&self, spring: &Spring) -> Option<f64> {
         let SpringKind::Length(anchors) = &spring.kind else { return None };
         let places = anchors.iter().map(|anchor| match anchor {
@@ -114,7 +116,7 @@ impl Scene {
         groups
     }
 
-    /// Index of the body of a station, counted among particles and rigid bodies.
+    /// Index of the body of a station among particles and rigid bodies; `None` for a station of a beam.
     fn member(&self, station: &Station) -> Option<usize> {
         match station.body {
             BodyIndex::Beam(_) => None,

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
     /// Returns true if both scenes have equal objects, start velocities and loads in the same order.
-    /// Objects are beams, particles, rigid bodies, joints, tracks, sliders and masses.
+    /// The compared objects are beams, particles, rigid bodies, joints, tracks, sliders and masses.
     /// Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
@@ -50,7 +50,7 @@ impl Scene {
     }
 }
 
-/// Largest absolute number of each field. A field has the same dimension in all objects.
+/// Largest absolute number of each field, over all objects with this field.
 type FieldScales<'v> = BTreeMap<&'v str, f64>;
 
 fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut FieldScales<'v>) {

@@ -13,7 +13,7 @@ impl Scene {
         self.choose_meshes_under(self.elements.len() - 1);
     }
 
-    /// Adds a named load. The history contains a column for the work of the load.
+    /// Adds a named load. The history contains a column for the work of a named load.
     ///
     /// # Errors
     /// Fails if the name is taken or a number is out of range.

@@ -1,4 +1,4 @@
-//! Number of spans of beams whose mesh is chosen from the scene (docs/theory.md, section 3).
+//! Choice of the number of spans of beams from the scene (docs/theory.md, section 3).
 
 use super::{BeamDefinition, Scene};
 use crate::beams::{Mesh, Station, TaperQuadrature};
@@ -9,27 +9,26 @@ use crate::system::elements::Element;
 /// Number of spans of a straight uniform beam without sliders.
 const SPANS: usize = 16;
 
-/// Number of spans of such a beam on which a slider slides.
+/// Number of spans of a straight uniform beam on which a slider slides.
 const SPANS_UNDER_SLIDERS: usize = 32;
 
-/// Largest number of spans.
 const MOST_SPANS: usize = 64;
 
-/// Number of spans between neighbouring concentrated forces.
+/// Smallest number of spans between neighbouring concentrated forces.
 const SPANS_BETWEEN_FORCES: f64 = 2.0;
 
-/// Distance below which two forces count as one, as a fraction of the length of the beam.
+/// Distance between two forces below which they act at the same place, as a fraction of the length of the beam.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Largest error of the length of a curved axis on its mesh, as a fraction of its length.
 const LENGTH_TOLERANCE: f64 = 1e-4;
 
 impl Scene {
-    /// Chooses the number of spans of a beam with an [automatic](Mesh::automatic) mesh. Other meshes remain as they are.
+    /// Chooses the number of spans of a beam with an [automatic](Mesh::automatic) mesh. Other meshes do not change.
     ///
-    /// A beam on which sliders slide has twice as many spans.
-    /// The number is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
-    /// If a mesh cannot interpolate the axis, the assembly reports it.
+    /// A beam on which sliders slide has twice as many spans as a beam without sliders.
+    /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
+    /// A mesh that cannot interpolate the axis is reported by the assembly.
     pub fn choose_mesh(&mut self, beam: usize) {
         if !self.beams[beam].mesh.is_automatic() {
             return;
@@ -55,7 +54,7 @@ impl Scene {
         }
     }
 
-    /// Shortest distance along a beam between concentrated forces [length]; the length of the beam if there are fewer than two.
+    /// Shortest distance along a beam between concentrated forces [length]; the length of the beam if there are fewer than two forces.
     fn shortest_gap(&self, beam: usize) -> f64 {
         let length = self.beams[beam].axis.length();
         let stations = self.elements.iter().flat_map(concentrated);
@@ -68,7 +67,7 @@ impl Scene {
 }
 
 impl BeamDefinition {
-    /// Returns true if spans are longer than `longest` [length], or the mesh misses the axis or the section.
+    /// Returns true if spans are longer than `longest` [length], or if the mesh does not represent the axis or the section.
     fn is_coarse(&self, longest: f64) -> bool {
         let length = self.axis.length();
         let is_missed = |meshed: f64| (meshed / length - 1.0).abs() > LENGTH_TOLERANCE;

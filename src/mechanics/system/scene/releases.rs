@@ -8,7 +8,7 @@ impl Scene {
     /// Adds a release during a run.
     ///
     /// # Errors
-    /// Fails if the object does not exist or is released already, or if the time is not positive and finite.
+    /// Fails if the object does not exist or is already released, or if the time is not positive and finite.
     pub fn add_release(&mut self, release: Release) -> Result<(), SystemError> {
         let (kind, index, count) = match release.object {
             Releasable::Joint(index) => ("joint", index, self.joints.len()),
@@ -37,7 +37,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Release times that are known in advance [time].
+    /// Release times that are known before the run [time].
     pub fn release_times(&self) -> impl Iterator<Item = f64> {
         self.releases.iter().filter_map(|release| match release.trigger {
             Trigger::Time(time) => Some(time),

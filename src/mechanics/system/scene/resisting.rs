@@ -14,7 +14,8 @@ impl Scene {
         })
     }
 
-    /// Names of dissipative elements other than springs and dampers, in the order of addition. Material damping has the name of its beam.
+    /// Names of dissipative elements other than springs and dampers, in the order of addition.
+    /// Material damping has the name of its beam.
     pub fn dissipating(&self) -> impl Iterator<Item = &str> + Clone {
         let own = self.elements.iter().filter_map(|element| match element {
             Element::Damping(damping) => Some(&*damping.name),
@@ -30,13 +31,13 @@ impl Scene {
     /// Adds Kelvin–Voigt material damping to a beam.
     ///
     /// # Errors
-    /// Fails if a relaxation time is negative or not finite, or if the beam does not exist or is damped already.
+    /// Fails if a relaxation time is negative or not finite, or if the beam does not exist or is already damped.
     pub fn add_damping(&mut self, beam: usize, relaxation: Relaxation) -> Result<(), SystemError> {
         let name = self.beams.get(beam).map(|beam| beam.name.clone()).unwrap_or_default();
         self.add_element(Element::Damping(MaterialDamping { name, beam, relaxation }))
     }
 
-    /// Adds drag.
+    /// Adds drag on a beam or a point.
     ///
     /// # Errors
     /// Fails if the name is taken, a number is out of range, or a body does not exist.

@@ -18,7 +18,7 @@ impl Scene {
 
     /// Adds a rigid body with a mass [mass] and an inertia about its centre of mass [mass·length²], and returns its index.
     ///
-    /// Either the mass or the inertia may be zero. Another object must then restrain the motions without inertia.
+    /// Either the mass or the inertia may be zero. Other objects must then restrain the motions without inertia.
     ///
     /// # Errors
     /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero.

@@ -15,7 +15,6 @@ use crate::system::{Quantity, Sensor, SensorSource, SystemError};
 /// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
 
-/// Location of an object with its quantities, as part of the names of sensors.
 struct Place<'s> {
     object: Cow<'s, str>,
     suffix: Cow<'s, str>,
@@ -24,7 +23,7 @@ struct Place<'s> {
 }
 
 impl Place<'_> {
-    /// Reason why a name is not a quantity of this location, with the allowed names.
+    /// Reason for rejecting a name that is not a quantity of this location, with the allowed names.
     fn why_no_quantity(&self) -> String {
         let Self { object, quantities, .. } = self;
         let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();
@@ -50,7 +49,7 @@ impl Scene {
     /// Records a built-in quantity, given by its name.
     ///
     /// # Errors
-    /// Fails if the object, location or quantity does not exist, or if the quantity is recorded already.
+    /// Fails if the object, the location or the quantity does not exist, or if the quantity is already recorded.
     pub fn record(&mut self, name: &str) -> Result<(), SystemError> {
         self.check_column(name)?;
         let (source, quantity) = self.find_sensor(name)?;
@@ -63,10 +62,10 @@ impl Scene {
         Ok(())
     }
 
-    /// Adds a column that the caller fills after every row.
+    /// Adds a column that the caller fills after every row of the history.
     ///
     /// # Errors
-    /// Fails if the column exists, or the name has invisible characters or characters that cannot be typed.
+    /// Fails if the column exists, or if the name has invisible characters or characters that cannot be typed.
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         check_name(COLUMN, name)?;
         self.check_column(name)?;
@@ -86,7 +85,7 @@ impl Scene {
         }
     }
 
-    /// Names of all sensors that can be recorded. Of sensors along beams, only those at start, middle and end are listed.
+    /// Names of all sensors that can be recorded. Sensors along beams are listed for the start, middle and end only.
     pub fn sensor_names(&self) -> Vec<String> {
         let places = self.places().into_iter();
         let names = places.flat_map(|Place { object, suffix, quantities, .. }| {
@@ -116,7 +115,6 @@ impl Scene {
         self.joints.iter().map(name).collect()
     }
 
-    /// Places of all objects, except those inside beams.
     fn places(&self) -> Vec<Place<'_>> {
         let mut all = Vec::new();
         let mut add = |object, suffix, source, quantities| {

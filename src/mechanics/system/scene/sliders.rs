@@ -9,20 +9,19 @@ use crate::system::errors::{Approach, SliderError, SliderParts, written};
 use crate::system::{BeamDefinition, SystemError};
 
 /// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin.
-/// The tolerance admits coordinates with six digits. The slave is then moved exactly onto its master.
+/// The constant `CLOSED` admits coordinates with six digits. The slave is then moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
 
-/// Points of a slave and its master at the start.
 struct StartGap {
     from: Vec2,
     to: Vec2,
     /// Distance of the two points [length].
     gap: f64,
-    /// Distance below which the slave is moved onto the axis [length].
+    /// Largest initial distance for which the slave is moved onto the axis [length].
     tolerance: f64,
 }
 
-/// Reason why a sliding rule cannot be used on tracks; `None` if it can be used.
+/// Reason for rejecting a sliding rule on tracks; `None` if the rule is allowed.
 fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     match rule {
         SlidingRule::Conserving | SlidingRule::Exact => None,
@@ -127,7 +126,7 @@ impl Scene {
     /// Returns true if a slider that only pushes starts in flight, at a distance from its master.
     ///
     /// # Errors
-    /// Fails if the slave or the start lies outside its beam.
+    /// Fails if the slave or the start position lies outside its beam.
     pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
         if slider.side.is_none() {
             return Ok(false);
@@ -144,7 +143,7 @@ impl Scene {
         Ok(StartGap { from, to, gap, tolerance })
     }
 
-    /// First slider that only pushes.
+    /// First slider of the scene that only pushes.
     pub fn slider_with_side(&self) -> Option<&Slider> {
         self.sliders.iter().find(|slider| slider.side.is_some())
     }
@@ -159,7 +158,7 @@ impl Scene {
         tangent.map(|tangent| tangent.normalize()).map_err(SystemError::geometry(name))
     }
 
-    /// Checks that a slider with a side has no option that is not available with a side.
+    /// Checks that a slider with a side has no option that is unavailable for such sliders.
     fn check_side(&self, slider: &Slider) -> Result<(), SystemError> {
         if slider.side.is_none() {
             return Ok(());

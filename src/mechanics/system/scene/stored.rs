@@ -12,7 +12,7 @@ use crate::system::SystemError;
 use crate::system::elements::{Drive, Element, ElementDef, SceneChecks};
 use crate::system::errors::{check_name, finite};
 
-/// Largest number of sliders in a stored scene. The size of the matrix of a step grows with the square of this number.
+/// Largest number of sliders in a stored scene. The size of the matrix of a step grows with the square of the number of sliders.
 const MOST_SLIDERS: usize = 2000;
 
 const MOST_TRACKS: usize = 1000;

@@ -31,7 +31,7 @@ impl Ties {
         at
     }
 
-    /// Unites two sets. Returns false if they already are the same set.
+    /// Unites two sets. Returns false if both arguments already belong to the same set.
     pub fn unite(&mut self, a: usize, b: usize) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         // The smaller index remains the root, so that the ground (index 0) is always a root.
@@ -178,7 +178,7 @@ impl Scene {
     }
 
     /// Stations that joints connect to a station in one component, including the station itself.
-    /// Returns also true if the ground fixes the component. The search ends at the ground.
+    /// The returned flag is true if the ground fixes the component. The search for stations ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];
         let mut next = 0;

@@ -9,8 +9,9 @@ use crate::system::SystemError;
 use crate::system::errors::{TrackError, written};
 
 impl Scene {
-    /// Adds a track along consecutive beams and returns its index. The direction of the track on each beam follows from the ends that touch.
-    /// If both directions of the first beam are possible, the track leads from the start to the end of the beam.
+    /// Adds a track along consecutive beams and returns its index.
+    /// The direction of the track on each beam follows from the ends that touch.
+    /// If the first beam can be passed in both directions, the track leads from the start to the end of this beam.
     ///
     /// # Errors
     /// Fails if the name is taken, or if a beam does not start at the end of the previous beam or is not joined to it.
@@ -58,7 +59,7 @@ impl Scene {
         self.nearest_of(self.tracks[track].beams(), station)
     }
 
-    /// Arc length along a track of a position on one of its beams [length].
+    /// Arc length along a track at a position on one of its beams [length].
     pub fn length_along_track(&self, track: usize, beam: usize, arc_length: f64) -> f64 {
         let legs = &self.tracks[track].beams;
         let length = |leg: &TrackBeam| self.beams[leg.beam].axis.length();
@@ -68,7 +69,6 @@ impl Scene {
         before.map(length).sum::<f64>() + own
     }
 
-    /// Returns true if a slider is on a closed track.
     pub(crate) fn is_on_closed_track(&self, slider: usize) -> bool {
         let track = self.sliders[slider].track.map(|track| &self.tracks[track]);
         track.is_some_and(|track| track.end == TrackEnd::Closed)

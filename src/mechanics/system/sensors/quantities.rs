@@ -31,7 +31,7 @@ pub enum ValueTime {
     Instant,
     /// Mean over the last step.
     StepMean,
-    /// Mean over the last step or value at its end, depending on the method of integration.
+    /// Mean over the last step, or value at the end of the last step, depending on the method of integration.
     MeanOfMethod,
     /// Mean over the last step, which the model accumulates on request.
     SummedMean,
@@ -48,7 +48,7 @@ pub(in crate::system) enum QuantityReader {
     Energy(fn(&BodyEnergy) -> f64),
     /// Force and moment of a joint or a slider.
     Force(fn(Vec2, f64) -> f64),
-    /// Object of one type, by its index.
+    /// Value of an object of one type, read by the index of the object.
     Index(fn(&System, usize) -> f64),
     /// Contribution of an object of any type to a total of the scene, such as the dissipated energy.
     Sum(fn(&System, SensorSource) -> Option<f64>),
@@ -83,10 +83,10 @@ pub(in crate::system) static OF_STATIONS: [Quantity; 15] = [
     quantity("curvature", "1/length", Present, Section(|section| section.curvature)),
 ];
 
-/// Number of the first quantities of stations that particles have.
+/// Number of quantities that particles have: the first of the quantities of stations.
 pub(in crate::system) const OF_PARTICLES: usize = 7;
 
-/// Number of the first quantities of stations that points of rigid bodies have.
+/// Number of quantities that points of rigid bodies have: the first of the quantities of stations.
 pub(in crate::system) const OF_POINTS: usize = 9;
 
 pub(in crate::system) static OF_BODIES: [Quantity; 7] = [
@@ -99,7 +99,6 @@ pub(in crate::system) static OF_BODIES: [Quantity; 7] = [
     quantity("potential", "energy", Present, Energy(|energy| energy.potential)),
 ];
 
-/// Quantities of joints: the force on the first station.
 pub(in crate::system) static OF_JOINTS: [Quantity; 9] = [
     quantity("force", "force", SummedMean, Force(|force, _| force.norm())),
     quantity("fx", "force", SummedMean, Force(|force, _| force.x)),
@@ -112,7 +111,6 @@ pub(in crate::system) static OF_JOINTS: [Quantity; 9] = [
     quantity("present_moment", "force·length", Instant, Force(|_, moment| moment)),
 ];
 
-/// Columns of each slider: its motion, and the force on its master.
 pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 5] = [
     quantity("position", "-", Present, Index(System::slider_position)),
     quantity("speed", "length/time", Present, Index(System::slider_speed)),
@@ -121,15 +119,12 @@ pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 5] = [
     quantity("force_y", "force", StepMean, Index(|model, at| model.contact_force(at).y)),
 ];
 
-/// Column of sliders with friction: the force along the master.
 pub(in crate::system) static SLIDER_FRICTION: Quantity =
     quantity("friction", "force", StepMean, Index(friction));
 
-/// Column of sliders that only push: the distance from the axis.
 pub(in crate::system) static FLIGHT_GAP: Quantity =
     quantity("gap", "length", Present, Index(flight_gap));
 
-/// Quantities of sliders that are recorded on request.
 pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
     quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
     quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),
@@ -137,7 +132,7 @@ pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
     quantity("arc_length", "length", Present, Index(System::slider_arc_length)),
 ];
 
-/// Columns of drives, by prescribed component: force or moment.
+/// Columns of drives: the force or moment of each prescribed component.
 pub(in crate::system) static COLUMNS_OF_MOVES: [Quantity; 3] = [
     quantity("x", "force", StepMean, Index(|model, at| model.drive(at).force.x)),
     quantity("y", "force", StepMean, Index(|model, at| model.drive(at).force.y)),
@@ -156,12 +151,11 @@ pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
-/// Columns of obstacles: the force on the bodies, and the smallest gap.
 pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
     quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
     quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
     quantity("force_y", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.y)),
-    quantity("gap", "length", Present, Index(|model, at| contact_gap(model, at))),
+    quantity("gap", "length", Present, Index(contact_gap)),
 ];
 
 /// Column of obstacles with friction: the friction force on the bodies.
@@ -181,14 +175,13 @@ pub(in crate::system) static STORED: Quantity = quantity("stored", "energy", Pre
 pub(in crate::system) static DISSIPATED: Quantity =
     quantity("dissipated", "energy", Present, Sum(dissipated));
 
-/// Work of drives, named loads and winds since the start.
 pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
 
-/// Work of drives and named loads in the last step, divided by its duration.
+/// Work of drives and named loads in the last step, divided by the duration of the step.
 pub(in crate::system) static POWER: [Quantity; 1] =
     [quantity("power", "energy/time", SummedMean, Sum(power))];
 
-/// Quantities that are recorded on request, with their objects.
+/// Quantities that are recorded on request, with their types of objects.
 pub static RECORDABLE: [(&str, &[Quantity]); 5] = [
     ("stations", &OF_STATIONS),
     ("bodies", &OF_BODIES),
@@ -265,7 +258,7 @@ fn power(model: &System, source: SensorSource) -> Option<f64> {
     }
 }
 
-/// Section forces and strains with their names.
+/// Section forces and strains of a section with their names.
 pub fn section_values(section: &SectionForces) -> impl Iterator<Item = (&'static str, f64)> {
     OF_STATIONS.iter().filter_map(move |quantity| match quantity.read {
         Section(read) => Some((quantity.name, read(section))),

@@ -17,7 +17,7 @@ pub struct Sensor {
     pub quantity: &'static Quantity,
 }
 
-/// Object of a sensor.
+/// Object of the scene that a sensor measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SensorSource {
     /// Station of a body.
@@ -30,9 +30,9 @@ pub enum SensorSource {
     Slider(usize),
     /// Drive of the scene.
     Drive(usize),
-    /// Load, numbered among the loads of the scene.
+    /// Load, given by its index among the loads of the scene.
     Load(usize),
-    /// Spring, damper, damped material or drag, numbered among these elements of the scene.
+    /// Spring, damper, damped material or drag, given by its index among these elements of the scene.
     InternalForce(usize),
     /// Whole scene.
     Scene,
@@ -57,7 +57,7 @@ impl Sensor {
         Self { name: format!("{}.{object}", quantity.name), source, quantity }
     }
 
-    /// Returns true if the values are means over the last step with the given method.
+    /// Returns true if the values of the sensor are means over the last step with the given integrator.
     pub(crate) fn is_step_mean(&self, method: Method) -> bool {
         match self.quantity.timing {
             ValueTime::StepMean | ValueTime::SummedMean => true,
@@ -68,17 +68,17 @@ impl Sensor {
         }
     }
 
-    /// Returns true if the values are means over the last step that the model accumulates on request.
+    /// Returns true if the values of the sensor are means over the last step that the model accumulates on request.
     pub(crate) fn is_summed(&self) -> bool {
         self.quantity.timing == ValueTime::SummedMean
     }
 
-    /// Returns true if the values are means of a joint force over the last step.
+    /// Returns true if the values of the sensor are means of a joint force over the last step.
     pub(crate) fn is_mean_of_joint(&self) -> bool {
         self.is_summed() && matches!(self.source, SensorSource::Joint(_))
     }
 
-    /// Returns true if the caller provides the values.
+    /// Returns true if the caller provides the values of the sensor.
     pub fn is_external(&self) -> bool {
         self.source == SensorSource::External
     }

@@ -48,12 +48,12 @@ impl Sliders {
         self.blocks.as_ref()
     }
 
-    /// Sets the event at which steps must end; `None` for regular steps.
+    /// Sets the slider event at which steps must end; `None` for regular steps.
     pub fn set_target(&mut self, event: Option<SliderEvent>) {
         self.target = event;
     }
 
-    /// Number of contact unknowns, and the largest number of entries of their equations.
+    /// Number of contact unknowns, and the largest number of entries of the contact equations.
     pub fn border(&self) -> BorderShape {
         BorderShape {
             width: CONTACT_UNKNOWNS * self.len(),
@@ -168,7 +168,7 @@ impl Sliders {
         })
     }
 
-    /// Checks that a step with the given unknowns may be accepted. Tensile stop forces are recorded.
+    /// Checks that a step with the given unknowns may be accepted, and records tensile stop forces.
     ///
     /// # Errors
     /// Fails if a slider passes an end of its master, or if it misses the event at which the step has to end.
@@ -257,17 +257,17 @@ impl Sliders {
         self.iter_mut().for_each(|slider| slider.advance(unknowns, interval));
     }
 
-    /// Largest distance of a slave from the contact point of its master [length].
+    /// Largest distance between a slave and the contact point of its master [length].
     pub fn largest_gap(&self, bodies: &[Body]) -> f64 {
         self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
     }
 
-    /// Strain energy of kinks on a body, or on all bodies [energy].
+    /// Strain energy of kinks on one body, or on all bodies [energy].
     pub fn strain_energy(&self, of: Option<usize>) -> f64 {
         self.on_body(of).map(SliderContact::strain_energy).sum()
     }
 
-    /// Kinetic energy of kinks on a body, or on all bodies [energy].
+    /// Kinetic energy of kinks on one body, or on all bodies [energy].
     pub fn kinetic_energy(&self, of: Option<usize>) -> f64 {
         self.on_body(of).map(SliderContact::kinetic_energy).sum()
     }
@@ -277,7 +277,7 @@ impl Sliders {
     }
 
     /// Directions [-] of the present contact forces, with the index of the slider.
-    /// The directions are across masters without a compliant axis, and along masters for sliders that are held or stick.
+    /// Contact forces act across masters without a compliant axis, and along masters for sliders that are held or stick.
     pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
         self.iter().enumerate().flat_map(|(at, slider)| {
             let (has_across, has_along) = match slider.state {

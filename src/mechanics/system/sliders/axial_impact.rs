@@ -1,9 +1,10 @@
-//! Durations of impacts at the end of a master, computed from the waves in beams. The steps must resolve these durations.
+//! Durations of impacts at the end of a master, computed from the waves in beams. Time steps must resolve these durations.
 
 use crate::beams::Section;
 use crate::elementary::square;
 
-/// Masses that an impact along a master accelerates immediately; `None` if a body is fixed, or if it is too heavy to be accelerated.
+/// Masses that an impact along a master accelerates immediately.
+/// A mass is `None` if the body is fixed, or too heavy to be accelerated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].
@@ -20,7 +21,7 @@ pub struct ImpactBar {
 }
 
 impl ImpactBar {
-    /// Time in which the wave of an impact passes the beam [time], or the stopping time of a striking mass if this is shorter.
+    /// Time in which the wave of an impact passes the beam [time], or the stopping time of a striking mass if it is shorter.
     /// The argument `cosine` is the cosine of the angle between impact and axis.
     /// An impact along the axis causes an axial wave, an impact across the axis a shear wave.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {

@@ -5,7 +5,7 @@ use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::linalg::{Border, BorderUnit};
 use crate::system::bodies::Body;
 
-/// Connection of a slider to a model: positions of its unknowns in the vectors of the model.
+/// Positions of the unknowns of a slider in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
     pub master: usize,

@@ -1,4 +1,4 @@
-//! Axis of a master with the kink under the contact force of a slider. The mesh of the master does not represent the kink.
+//! Axis of the master of a slider with a kink at the slider. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -6,26 +6,27 @@ use crate::beams::Section;
 use crate::geometry::{ContactPath, PiecewisePolynomial, Vec2};
 use crate::joints::{Kink, KinkMotion, KinkState};
 
-/// Kink length below which the axis counts as rigid at the slider, as a fraction of the length of the master.
+/// Kink length below which the axis is rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the speed of shear waves. At larger speeds the kink is kept constant.
-/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero.
+/// Largest speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. At larger speeds, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the critical speed.
-/// At the critical speed, the stiffness of the kink is zero. It is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
+/// Largest speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// At the critical speed, the stiffness of the kink is zero.
+/// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Near the ends of a master, kinks are therefore kept constant.
+/// Due to the limit `BESIDE_END`, kinks are kept constant near the ends of a master.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed of a kink that begins at an end of the master with the contact force, as a fraction of the largest speed at which a kink varies.
+/// Largest speed at which a kink starts from an end of the master, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
-/// Kink length below which a loaded kink is kept constant even if it moves away from an end, as a fraction of the kink length given by [`BESIDE_END`].
-/// Closer to the end, rounding errors of positions would determine the kink.
+/// Kink length below which a loaded kink that leaves an end is kept constant, as a fraction of the kink length of [`BESIDE_END`].
+/// For shorter kink lengths, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
 /// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
@@ -39,7 +40,7 @@ pub struct MasterKink {
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force, which displaces the axis at the slider.
+/// Kink of the axis of a master under a contact force. The kink displaces the axis at the slider.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,
@@ -48,7 +49,7 @@ pub struct KinkedAxis {
     inverse_square_speed: f64,
     /// Speed above which the kink is kept constant [length/time].
     fastest: f64,
-    /// Kink length below which the axis counts as rigid [length].
+    /// Kink length below which the axis is rigid [length].
     none: f64,
     /// Kink length below which the kink is kept constant [length].
     least: f64,
@@ -103,13 +104,13 @@ impl KinkedAxis {
         self.is_frozen || length < least || self.speed.abs() > self.fastest
     }
 
-    /// Returns true if a kink that moves along the master with this speed [length/time] begins with the contact force.
+    /// Returns true if a kink begins with the contact force at the given speed along the master [length/time].
     /// At larger speeds, unresolved waves near the end would determine the load of the kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
 
-    /// Converts a rate of the parameter to a speed along the master [length/time].
+    /// Converts the rate of the parameter of the master to a speed along the master [length/time].
     pub fn speed_of(&self, rate: f64) -> f64 {
         self.stretch * rate
     }
@@ -128,7 +129,7 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink of the master in a step, as needed by the sliding laws.
+    /// Kink of the master in a step, for the equations of the sliding rule.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -164,7 +165,7 @@ impl KinkedAxis {
         self.set_static_kink(Vec2::zeros());
     }
 
-    /// Numeric state of the kink: jump and speed.
+    /// Numeric state of the kink: the components of its jump, and its speed.
     pub fn numbers(&self) -> [f64; 3] {
         [self.jump.x, self.jump.y, self.speed]
     }
@@ -180,22 +181,22 @@ impl KinkedAxis {
 
     /// Removes the force of a stop, which acts along the tangent of the axis, from the contact force.
     ///
-    /// Within rounding of the end, the axis may be compliant. The force is then kept, because positions determine it.
+    /// The axis at a slider within rounding of an end may be compliant. Its contact force is kept, because positions determine this force.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);
         }
     }
 
-    /// Starts the kink with a contact force [force] across the tangent of the axis [length].
-    /// If the force is too large for a new kink, the kink starts without load.
+    /// Starts the kink with the component of a contact force [force] across the tangent of the axis [length].
+    /// Starts the kink without load if the contact force is too large for a new kink.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
         self.jump = if is_small { force } else { Vec2::zeros() };
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master, for a rate of the parameter [1/time].
+    /// Sets the speed of the kink along the master, for a rate of the parameter of the master [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }
@@ -217,8 +218,8 @@ impl KinkedAxis {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of [`offset`](Self::offset) with respect to the parameter.
-    /// Returns also half the product of the offset and its second derivative.
+    /// Derivative of the displacement [`offset`](Self::offset) with respect to the parameter of the master.
+    /// Returns half the product of the displacement and its second derivative as the second value.
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

@@ -1,10 +1,10 @@
-//! Master of a slider, which is a beam with two ends, and the states of a slider.
+//! Masters of sliders as curves with two ends, and the states of a slider.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Relative rounding tolerance of positions of sliders: a fraction of the parameter range, or of the size of a contact [-].
+/// Relative rounding tolerance of positions of sliders, as a fraction of the parameter range or of the size of a contact [-].
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
@@ -17,7 +17,7 @@ pub enum MasterEnd {
 }
 
 impl MasterEnd {
-    /// Name for messages and scripts, such as `start`.
+    /// Name of the end for messages and scripts, such as `start`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Start => "start",
@@ -32,7 +32,7 @@ impl MasterEnd {
         }
     }
 
-    /// Sign of the rate of the parameter for a motion towards this end [-].
+    /// Sign of the rate of the parameter for a motion towards this end of the master [-].
     pub(in crate::system) fn outward(self) -> f64 {
         match self {
             Self::Start => -1.0,
@@ -46,7 +46,7 @@ impl MasterEnd {
 pub enum SliderState {
     /// Sliding along its master.
     Sliding,
-    /// State of a slider that a stop holds at an end of its master.
+    /// Held by a stop at an end of the master.
     Held(MasterEnd),
     /// In flight: a slider that only pushes has left its master, and can land on it.
     Separated,
@@ -55,7 +55,7 @@ pub enum SliderState {
 }
 
 impl SliderState {
-    /// Name of the state for reports.
+    /// Name of the slider state for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sliding => "sliding",
@@ -65,7 +65,6 @@ impl SliderState {
         }
     }
 
-    /// Returns true if the slave is on the axis of its master.
     pub(in crate::system) fn has_contact(self) -> bool {
         match self {
             Self::Sliding | Self::Held(_) => true,
@@ -74,7 +73,7 @@ impl SliderState {
     }
 }
 
-/// End of the master of a slider, which is a limit of its motion.
+/// Limit of the motion of a slider at an end of its master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
     /// Index of the slider.
@@ -94,17 +93,16 @@ impl MasterLimit {
 pub enum SliderEvent {
     /// The slider reaches a limit.
     Limit(MasterLimit),
-    /// The slip of this slider with friction ends.
+    /// The slip of the slider with this index ends.
     SlipEnd(usize),
-    /// The slip of this slider with friction starts.
+    /// The slip of the slider with this index starts.
     SlipStart(usize),
-    /// A slider in flight, given by its index, reaches the axis of its master.
+    /// The slider in flight with this index reaches the axis of its master.
     Landing(usize),
-    /// The contact force of this slider, which only pushes, becomes tensile.
+    /// The contact force of the slider with this index, which only pushes, becomes tensile.
     TakeOff(usize),
 }
 
-/// Number of events of a slider.
 const EVENTS: usize = 6;
 
 impl SliderEvent {
@@ -144,7 +142,7 @@ impl MasterCurve {
         Self { axis, domain }
     }
 
-    /// First and last parameter of the mesh [-].
+    /// First and last parameter of the mesh of the master [-].
     pub fn domain(&self) -> (f64, f64) {
         self.domain
     }
@@ -153,7 +151,7 @@ impl MasterCurve {
         self.axis.length()
     }
 
-    /// Parameter of an end [-].
+    /// Parameter of the mesh at an end of the master [-].
     pub fn end(&self, end: MasterEnd) -> f64 {
         match end {
             MasterEnd::Start => self.domain.0,
@@ -161,13 +159,13 @@ impl MasterCurve {
         }
     }
 
-    /// Distance of a parameter from an end, as a fraction of the parameter range [-].
+    /// Distance of a parameter from an end of the master, as a fraction of the parameter range [-].
     pub fn distance(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         (self.end(end) - parameter).abs() / (last - first)
     }
 
-    /// Distance of a parameter beyond an end, as a fraction of the parameter range [-]; negative for a parameter inside the range.
+    /// Distance of a parameter beyond an end of the master, as a fraction of the parameter range [-]; negative inside the range.
     pub fn overshoot(&self, parameter: f64, end: MasterEnd) -> f64 {
         let (first, last) = self.domain;
         let distance = match end {

@@ -1,4 +1,4 @@
-//! Sliding points: their positions, contact equations, and masters. The equations of a contact are in `joints::sliding`.
+//! Sliders: their positions, contact equations, and masters. The equations of a contact are in `joints::sliding`.
 
 mod all;
 mod axial_impact;

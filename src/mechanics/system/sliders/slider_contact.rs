@@ -36,11 +36,11 @@ pub struct SliderContact {
     pub state: SliderState,
     /// Energy stored in the stop that holds the slider [energy].
     pub stop_energy: f64,
-    /// Energy lost in impacts at stops and by friction so far [energy].
+    /// Energy lost by the slider in impacts at stops and by friction so far [energy].
     pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,
-    /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left one.
+    /// Time at which the slider last left a stop [time]; [`NEVER`] if it has not left any stop.
     pub stop_left_at: f64,
     pub stop_may_pull: bool,
     /// True if the stop force was tensile in the last attempted step.
@@ -52,16 +52,16 @@ pub struct SliderContact {
     mean_force: StepMean<Vec2>,
     /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
-    /// Largest ratio of step length to impact duration at a bounce [-].
+    /// Largest ratio of step length to impact duration at a bounce of the slider [-].
     pub steps_per_impact: f64,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Box<SliderFriction>>,
-    /// Contact that only pushes; `None` for a slider that never leaves its master.
+    /// Contact state of a slider that only pushes; `None` for a slider that never leaves its master.
     pub unilateral: Option<Box<UnilateralContact>>,
     master: MasterCurve,
-    /// Path along the track; `None` for a slider on a single beam.
+    /// Path of the slider along its track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
-    /// Master and slave as bars with impact waves; `None` if the slave is not a beam.
+    /// Master and slave as bars with impact waves; the second bar is `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
     kinked_axis: Option<KinkedAxis>,
     kink_at_end: KinkState,
@@ -70,7 +70,6 @@ pub struct SliderContact {
     start_path: ContactPath,
     path: ContactPath,
     before: Vec<Vec2>,
-    /// Index of the first control point in `before`.
     before_first: usize,
     movements: Vec<Vec2>,
     units: [Unit; CONTACT_UNKNOWNS],
@@ -84,10 +83,10 @@ pub struct SliderContact {
     contact_force: f64,
 }
 
-/// Placeholder time for a slider that has not left a stop. The number is finite, because states are saved to files [time].
+/// Placeholder time for a slider that has not left a stop [time]. It is finite, because states are saved to files.
 pub(super) const NEVER: f64 = f64::MAX;
 
-/// Tensile stop force that counts as zero, as a fraction of the contact force.
+/// Largest tensile stop force that counts as zero, as a fraction of the contact force.
 const PULL: f64 = 1e-9;
 
 pub(super) fn is_tensile(push: f64, force: f64, length: f64) -> bool {
@@ -211,7 +210,7 @@ impl SliderContact {
     }
 
     /// Contact force on the master at the present time [force], determined from the kink of the master.
-    /// If there is no kink or it is kept constant, the mean force of the last step is returned.
+    /// Returns the mean force of the last step if there is no kink, or if the kink is kept constant.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)
@@ -243,7 +242,7 @@ impl SliderContact {
         self.kinked_axis.as_ref().is_some_and(KinkedAxis::is_compliant)
     }
 
-    /// Energy of the kink and of the stop that holds the slider [energy].
+    /// Strain energy of the kink, plus the energy of the stop that holds the slider [energy].
     pub fn strain_energy(&self) -> f64 {
         self.kinked_axis.as_ref().map_or(0.0, KinkedAxis::energy) + self.stop_energy
     }
@@ -357,8 +356,7 @@ impl SliderContact {
         force
     }
 
-    /// Adds the forces and equations of the contact to a residual.
-    /// Adds the derivatives of the contact forces and equations to the tangent.
+    /// Adds the forces and equations of the contact to a residual, and their derivatives to the tangent.
     pub fn add_linearised<P: Passing>(
         &mut self,
         bodies: &[Body],

@@ -1,4 +1,4 @@
-//! Beams of a track in sequence, and the position of a slider on them.
+//! Beams of a track in sequence, and the position of a slider on the track.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Distance between the ends of two beams below which the ends coincide.
-/// The distance is a fraction of the length of the beam plus the distance of the ends from the origin.
+/// Distance between the ends of two beams below which the two ends coincide.
+/// The distance is a fraction of the length of the beam plus the distance of the beam ends from the origin.
 const SAME: f64 = 1e-9;
 
-/// Beam of a track with the data of its sliders.
+/// Beam of a track with the data that its sliders need.
 #[derive(Debug, Clone)]
 pub struct TrackPathSegment {
     pub beam: usize,
@@ -178,7 +178,7 @@ impl TrackPathSegment {
         slopes.iter().zip(*first..).map(|(slope, at)| place(at) * *slope).sum()
     }
 
-    /// Length of the beam per unit of its parameter [length].
+    /// Length of the beam per unit of its mesh parameter [length].
     pub fn length_of_parameter(&self) -> f64 {
         let (first, last) = self.master.domain();
         self.master.length() / (last - first)

@@ -1,6 +1,6 @@
 //! Accelerations of a mechanism, for integrators whose state contains accelerations.
 
-/// Accelerations of the unknowns at the start of a step; empty if the method does not need them.
+/// Accelerations of the unknowns at the start of a step; empty if the integrator does not need them.
 #[derive(Debug, Clone, Default)]
 pub struct Accelerations {
     values: Vec<f64>,

@@ -7,7 +7,7 @@ use super::resolution::GuessErrors;
 /// Rates for the prediction of the next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
-    /// No step has been taken, so only the start rates are available.
+    /// Prediction from the start rates, because no step has been taken.
     #[default]
     Unknown,
     /// Prediction from the rates at the start of the step.
@@ -16,10 +16,10 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of the squared errors of two predictions, below which mean rates are selected instead of start rates.
+/// Ratio of the squared errors of two predictions below which mean rates are selected instead of start rates.
 const SELECTION_RATIO: f64 = 0.8;
 
-/// Mean rates of the last step, and the selected rates for the prediction.
+/// Mean rates of the last step, with the selected type of prediction.
 #[derive(Debug, Clone)]
 pub struct IncrementPrediction {
     mean_rates: Vec<f64>,
@@ -39,8 +39,8 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better prediction. Both predictions are compared with the increments of a step, in the norm of the diagonal inertia.
-    /// Returns the errors of both predictions.
+    /// Selects the better of two predictions by comparison with the increments of a step, in the norm of the diagonal inertia.
+    /// Returns the errors of the prediction from start rates and of the prediction from mean rates.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();
@@ -59,12 +59,12 @@ impl IncrementPrediction {
         missed
     }
 
-    /// Applies a jump of all rates [length/time, 1/time].
+    /// Adds a jump of all rates to the mean rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors at selected degrees of freedom, computed before the selection is updated.
+    /// Prediction errors at the given degrees of freedom, computed before the type of prediction is selected.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

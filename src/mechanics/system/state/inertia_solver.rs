@@ -8,7 +8,7 @@ pub struct InertiaSolver {
     is_factorised: bool,
     /// Generalised forces of a unit impulse on all degrees of freedom.
     forces: Vec<f64>,
-    /// Velocities of the unknowns that the impulse causes.
+    /// Velocities of the unknowns due to the unit impulse.
     rates: Vec<f64>,
 }
 
@@ -28,10 +28,10 @@ impl InertiaSolver {
         self.is_factorised
     }
 
-    /// Factorises the inertia whose entries `fill` adds to a zero matrix.
+    /// Factorises the inertia matrix. The callback `fill` adds its entries to a zero matrix.
     ///
     /// # Errors
-    /// Fails if the inertia is singular.
+    /// Fails if the inertia matrix is singular.
     pub fn factorise(&mut self, fill: impl FnOnce(&mut BandedMatrix)) -> Result<(), LinearError> {
         self.is_factorised = false;
         self.inertia.clear();
@@ -46,7 +46,8 @@ impl InertiaSolver {
         self.inertia.factors()
     }
 
-    /// Velocity in the direction of a unit impulse that the impulse causes [1/mass]. `add_forces` adds its generalised forces.
+    /// Velocity component in the direction of a unit impulse due to this impulse [1/mass].
+    /// The callback `add_forces` adds the generalised forces of the impulse.
     pub fn response(&mut self, add_forces: impl FnOnce(&mut [f64])) -> f64 {
         let Self { inertia, forces, rates, .. } = self;
         forces.fill(0.0);

@@ -5,13 +5,13 @@ use crate::geometry::Vec2;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
 /// Accelerations and contact forces at the present time, with the memory for their computation.
-/// Memory is allocated only if the number of contacts grows.
+/// Memory for the forces is allocated only if the number of contacts grows.
 pub struct PresentForces {
     /// Rates of all bodies by control point.
     pub rates: Vec<Vec<Movement>>,
     /// Forces of the balance without inertia and contacts, at all degrees of freedom.
     pub residual: Vec<f64>,
-    /// Prescribed accelerations by number of the degree of freedom; empty without drives.
+    /// Prescribed accelerations, indexed by the degree of freedom; empty without drives.
     pub prescribed: Vec<f64>,
     /// Accelerations of the unknowns, with the forces of rigid links and rollers at their unknowns.
     pub accelerations: Vec<f64>,
@@ -19,9 +19,9 @@ pub struct PresentForces {
     pub contacts: Vec<Vec2>,
     /// Directions of the contact forces, with the index of the slider.
     pub directions: Vec<(usize, Vec2)>,
-    /// Responses to the contact forces, at least one for each direction.
+    /// Responses to the contact forces, at least one for each contact direction.
     pub responses: Vec<ContactResponse>,
-    /// Accelerations in all directions per unit of the contact forces [1/mass].
+    /// Accelerations in all contact directions per unit of the contact forces [1/mass].
     matrix: BandedMatrix,
     /// Magnitude of each contact force [force].
     pub magnitudes: Vec<f64>,
@@ -30,16 +30,16 @@ pub struct PresentForces {
 /// Response to a contact force on a slave.
 #[derive(Default)]
 pub struct ContactResponse {
-    /// Generalised forces `Gᵀ` of a unit force across or along the master, at all degrees of freedom.
+    /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
     forces: Vec<f64>,
-    /// Force on the slave per unit of the contact force [-]. It includes friction.
+    /// Force on the slave per unit of the contact force, including friction [-].
     pub direction: Vec2,
     /// Accelerations of the unknowns per unit of the contact force.
     pub rates: Vec<f64>,
 }
 
 impl ContactResponse {
-    /// Sets the response to a unit force. `transmit` adds its generalised forces to zeros.
+    /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to zeros.
     pub fn set(
         &mut self,
         direction: Vec2,
@@ -56,14 +56,14 @@ impl ContactResponse {
         inertia.solve(&mut self.rates);
     }
 
-    /// Adds `factor` times another response.
+    /// Adds `factor` times another response to this response.
     pub fn add(&mut self, factor: f64, other: &Self) {
         self.direction += other.direction * factor;
         let pairs = self.rates.iter_mut().zip(&other.rates);
         pairs.for_each(|(rate, other)| *rate += factor * other);
     }
 
-    /// Component `G v` in the direction of the unit force, for given rates or accelerations `v`.
+    /// Component of the rates or accelerations `v` in the direction of the unit force.
     pub fn component(&self, rates: &[f64]) -> f64 {
         let touched = self.forces.iter().zip(rates).filter(|(force, _)| **force != 0.0);
         touched.map(|(force, rate)| rate * force).sum()
@@ -87,10 +87,11 @@ impl Default for PresentForces {
 }
 
 impl PresentForces {
-    /// Computes the magnitudes of the contact forces. `carried` is the required acceleration in each direction [length/time²].
+    /// Computes the magnitudes of the contact forces.
+    /// The callback `carried` returns the required acceleration in each contact direction [length/time²].
     ///
     /// # Errors
-    /// Fails if the forces are not determined.
+    /// Fails if the contact forces are not determined.
     pub fn solve(&mut self, carried: impl Fn(&(usize, Vec2)) -> f64) -> Result<(), LinearError> {
         let Self { accelerations, directions, responses, matrix, magnitudes, .. } = self;
         let count = directions.len();

@@ -3,7 +3,7 @@
 use crate::beams::RotationIncrement;
 use crate::elementary::square;
 
-/// Squared prediction errors of a step in the norm of the diagonal inertia. Each value is twice an energy [energy].
+/// Squared prediction errors of a step in the norm of the diagonal inertia. Each squared error is twice an energy [energy].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GuessErrors {
     /// Squared difference between the mean rates of the step and the rates at its start, weighted by mass [energy].
@@ -22,7 +22,7 @@ impl GuessErrors {
     }
 }
 
-/// Relative difference of two step lengths, below which they count as equal.
+/// Relative difference of two step lengths below which they count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
 /// Measures of the temporal resolution of the motion in the steps so far (docs/theory.md, section 13.3).
@@ -93,13 +93,13 @@ impl Resolution {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
 
-    /// Sum of the kinetic energies of all steps that contribute to the measures [energy].
+    /// Sum of the kinetic energies of all steps that contribute to the resolution measures [energy].
     pub fn kinetic(&self) -> f64 {
         self.kinetic
     }
 
     /// Angular frequency, as a mean over all vibrations weighted by accelerations [rad/time].
-    /// The frequency is exact for a single vibration, infinite if the period is lost in rounding, and zero without vibration.
+    /// The angular frequency is exact for a single vibration, infinite if the period is lost in rounding, and zero without vibration.
     pub fn angular_frequency(&self) -> f64 {
         if self.unresolved <= 0.0 { 0.0 } else { (self.unresolved / self.bent).sqrt() }
     }

@@ -1,4 +1,4 @@
-//! Scales of force and moment in the present step, with which the residual of the step is compared.
+//! Scales of force and moment in the present step, for comparison with the residual of the step.
 
 use super::{InertiaSolver, PresentForces};
 use crate::beams::{ForceSummary, RotationIncrement};
@@ -14,14 +14,12 @@ pub struct StepMeasures {
     pub contact: f64,
     pub rotations: RotationIncrement,
     pub arm: f64,
-    /// True if loads may jump at the start of the step and the method has accelerations in its state.
+    /// True if loads may jump at the start of the step and the state of the integrator contains accelerations.
     pub jumps: bool,
     /// Energy that dampers returned in the last backward substep [energy].
     pub returned: f64,
-    /// Buffer for forces on all degrees of freedom.
     scratch: Vec<f64>,
     pub inertia_solver: Option<Box<InertiaSolver>>,
-    /// `None` until present forces are computed.
     pub present: Option<Box<PresentForces>>,
 }
 
@@ -56,7 +54,6 @@ impl StepMeasures {
         &mut self.scratch
     }
 
-    /// Sum of the largest section, inertia, load and contact forces [force].
     fn force(&self) -> f64 {
         self.summary.force + self.inertia.0 + self.loads.0 + self.contact
     }

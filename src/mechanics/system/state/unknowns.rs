@@ -9,7 +9,7 @@ pub enum UnknownKind {
     Position,
     /// Rotation [rad], with a moment balance.
     Rotation,
-    /// Constraint force, or impulse of this force in a time step [force, force·time]. The equation is a length.
+    /// Constraint force, or impulse of this force in a time step [force, force·time]. Its equation is a length.
     Force,
 }
 

@@ -1,4 +1,4 @@
-//! Resolution measures of single bodies. In the measures of a whole scene, the unresolved motion of a small body would be negligible.
+//! Resolution measures of single bodies. In the measures of a whole scene, the unresolved motion of a small body is negligible.
 
 use super::Resolution;
 use super::forecast::IncrementPrediction;

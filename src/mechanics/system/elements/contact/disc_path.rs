@@ -3,18 +3,18 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Ratio of the path length of an open point in a step to the length of its chord in a disc, above which the chord is ignored.
+/// Ratio of the path length in a step to the length of its chord in a disc, above which an open contact point ignores the chord.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Straight path of a point relative to a disc in a step.
 pub struct DiscPath {
-    /// Vector from the centre to the point at the start [length].
+    /// Vector from the centre of the disc to the point at the start [length].
     pub start: Vec2,
-    /// Displacement of the point relative to the centre [length].
+    /// Displacement of the point relative to the centre of the disc [length].
     pub movement: Vec2,
     /// Radius of the disc plus radius of the body around the point [length].
     pub radius: f64,
-    /// True if the point touches the disc at the start.
+    /// True if the point touches the disc at the start of the step.
     pub is_closed: bool,
 }
 

@@ -1,7 +1,7 @@
 //! Coulomb friction of a contact point. The contact deflects elastically along the surface before it slips.
 //!
 //! `docs/theory.md`, section 9.7, derives the mean force of a step.
-//! The force is the mean over the exact path in the step. It therefore never exceeds the limit, and a sticking contact does not creep.
+//! The friction force is the mean over the exact path in the step. It never exceeds the friction limit, and a sticking contact does not creep.
 //! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
 
 use std::array::from_fn;
@@ -12,10 +12,9 @@ use crate::geometry::larger;
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
-/// Damping factor at which a sticking contact is critically damped. Larger factors are reduced to it.
+/// Damping factor at which a sticking contact is critically damped. Larger damping factors are reduced to this value.
 const MOST_DAMPING: f64 = 2.0;
 
-/// Law of friction in a step.
 #[derive(Debug, Clone, Copy)]
 struct FrictionLaw {
     /// Stiffness along the surface [force/length].
@@ -26,11 +25,10 @@ struct FrictionLaw {
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Share of the step in which the force acts [-].
+    /// Share of the step in which the friction force acts [-].
     share: f64,
 }
 
-/// Friction force in an iterate, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 struct FrictionTarget {
     by_slip: ForceTarget,
@@ -81,11 +79,11 @@ impl FrictionLaw {
 pub struct SlipTrial<const N: usize> {
     /// Slip [length].
     pub slip: f64,
-    /// Derivative of the slip.
+    /// Derivative of the slip with respect to the local coordinates.
     pub slope: [f64; N],
     /// Generalised force due to a unit friction force. The work of this generalised force equals the slip.
     pub direction: [f64; N],
-    /// Derivative of each component of the generalised force.
+    /// Derivative of each component of the generalised force with respect to the local coordinates.
     pub direction_slope: [[f64; N]; N],
     /// Largest of the increments from which the slip is computed [length]. It determines the rounding error of the slip.
     pub moved: f64,
@@ -101,7 +99,8 @@ impl<const N: usize> SlipTrial<N> {
     };
 }
 
-/// Damping coefficient along the surface while a contact sticks [force·time/length]. `factor` is the damping factor of the normal force [-].
+/// Damping coefficient along the surface while a contact sticks [force·time/length].
+/// `factor` is the damping factor of the normal force [-].
 pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
     let factor = factor.min(MOST_DAMPING);
     let is_damped = factor > 0.0 && mass.is_finite();
@@ -128,7 +127,7 @@ pub struct PointFriction<const N: usize> {
     linearised: SlipTrial<N>,
 }
 
-/// Normal force that limits a friction force in an iterate, and the time in which both act.
+/// Normal force that limits a friction force in an iterate, and the duration of both forces.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
@@ -154,7 +153,8 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Sets the stiffness, the damping and the effective mass along the surface. `damping_factor` is the damping factor of the normal force [-].
+    /// Sets the stiffness, the damping and the effective mass along the surface.
+    /// `damping_factor` is the damping factor of the normal force [-].
     pub fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
         (self.stiffness, self.mass) = (stiffness, mass);
         self.damping = sticking_damping(stiffness, mass, damping_factor);
@@ -164,7 +164,7 @@ impl<const N: usize> PointFriction<N> {
         self.force.begin_step();
     }
 
-    /// Sets the force to zero for an open contact. The deflection is kept until the end of the step.
+    /// Sets the friction force of an open contact to zero. The deflection is kept until the end of the step.
     pub fn release(&mut self) {
         (self.force.force, self.force.mismatch, self.by_normal) = (0.0, 0.0, 0.0);
         (self.trial, self.linearised) = (SlipTrial::NONE, SlipTrial::NONE);
@@ -184,7 +184,8 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Compares the force with the law. Returns the relative difference; zero if the rounding error of the increments explains it.
+    /// Compares the friction force with its law.
+    /// Returns the relative difference; zero if rounding of the increments explains the difference between friction force and law.
     pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);
@@ -194,7 +195,8 @@ impl<const N: usize> PointFriction<N> {
         if is_rounding { 0.0 } else { missed }
     }
 
-    /// Linearises the law at the present iterate, or at its intersection with the impedance of the body if the contact is stiff.
+    /// Linearises the friction law at the present iterate.
+    /// The law of a stiff contact is linearised at its intersection with the line that represents the impedance of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);
@@ -213,7 +215,7 @@ impl<const N: usize> PointFriction<N> {
         self.linearised = self.trial;
     }
 
-    /// Generalised internal force in the present iterate.
+    /// Generalised internal force of friction in the present iterate.
     pub fn present(&self) -> [f64; N] {
         self.trial.direction.map(|by| by * self.force.force)
     }
@@ -232,7 +234,7 @@ impl<const N: usize> PointFriction<N> {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    /// Derivative of the generalised force, for the derivative of the normal force.
+    /// Derivative of the generalised friction force, for the given derivative of the normal force.
     pub fn tangent(&self, normal_slope: [f64; N]) -> [[f64; N]; N] {
         let SlipTrial { slope, direction, direction_slope, .. } = &self.linearised;
         let by_normal = normal_slope.map(|by| by * self.by_normal);
@@ -244,17 +246,17 @@ impl<const N: usize> PointFriction<N> {
         })
     }
 
-    /// Corrects the force for a change of the local coordinates and of the normal force.
+    /// Corrects the friction force for a change of the local coordinates and of the normal force.
     pub fn correct(&mut self, moved: [f64; N], normal_change: f64) {
         let slope = &self.linearised.slope;
         self.force.correct((0..N).map(|at| slope[at] * moved[at]).sum());
         self.force.force += self.by_normal * normal_change;
     }
 
-    /// Ends a step. Returns the dissipated energy [energy].
+    /// Ends a step. Returns the energy dissipated by friction [energy].
     pub fn advance(&mut self, contact: NormalContact) -> f64 {
         let is_met = self.compare(contact) == 0.0;
-        // The slip is corrected to the value that belongs to the force. Otherwise, the rounding error of increments would store energy.
+        // The slip is corrected to the value that belongs to the friction force. Otherwise, the rounding error of increments would store energy.
         let slip = self.trial.slip + if is_met { self.force.missing_change() } else { 0.0 };
         let before = self.energy();
         self.deflection = self.law(contact).end_deflection(slip);
@@ -267,12 +269,12 @@ impl<const N: usize> PointFriction<N> {
         0.5 * self.stiffness * self.deflection * self.deflection
     }
 
-    /// Mean force in the last step along the surface, positive to the right of its normal [force].
+    /// Mean friction force in the last step along the surface, positive to the right of its normal [force].
     pub fn last(&self) -> f64 {
         self.force.last
     }
 
-    /// Generalised internal force at the start of the step.
+    /// Generalised internal force of friction at the start of the step.
     /// The slip is linear in the local coordinates. The slip in `rates` is therefore the slip rate.
     pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);

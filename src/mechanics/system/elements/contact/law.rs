@@ -2,7 +2,7 @@
 //!
 //! `docs/theory.md`, section 9.7, states the potentials.
 //! The potential of a disc is infinite at its centre, so its energy bounds the penetration.
-//! Tensions have the sign of springs: contact forces are negative.
+//! Tensions have the sign of spring forces: contact forces are negative.
 
 use crate::elementary::ln;
 use crate::system::elements::mixed_force::ForceTarget;
@@ -33,7 +33,7 @@ impl ContactLaw {
         }
     }
 
-    /// Tension at a gap, and its derivative.
+    /// Tension at a gap, and the derivative of the tension.
     pub fn at(&self, gap: f64) -> ForceTarget {
         match *self {
             _ if gap >= 0.0 => ForceTarget::default(),
@@ -47,7 +47,7 @@ impl ContactLaw {
     }
 
     /// Mean tension while the gap changes from `gap` by `change`. The work of the mean tension equals the change of the potential.
-    /// The stiffness is the derivative with respect to the change.
+    /// The stiffness is the derivative of the mean tension with respect to the change of the gap.
     pub fn mean(&self, gap: f64, change: f64) -> ForceTarget {
         let end = gap + change;
         match (gap < 0.0, end < 0.0) {
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// The first three values are from an independent solution of the equation with 50 digits.
+    /// The expected values of the first three cases are from an independent solution of the equation with 50 digits.
     #[test]
     fn the_damping_factor_solves_its_equation() {
         for (restitution, factor) in

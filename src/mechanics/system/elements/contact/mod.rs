@@ -1,7 +1,5 @@
 //! Compliant contact: the contact force follows from a potential of the gap.
 //!
-//! The law of the gap, the normal force, friction and the contact points are shared.
-//! Contact with obstacles that are fixed to the ground is in `obstacle`, contact between bodies in `between_bodies`.
 
 mod between_bodies;
 mod disc_path;

@@ -9,7 +9,7 @@ use crate::system::elements::coordinate::{Coordinate, rounding_error};
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 use crate::system::elements::rate_history::RateHistory;
 
-/// Largest ratio of the stiffness of a contact to the impedance of the body, for which the law of contact is linearised at the present iterate.
+/// Largest ratio of the stiffness of a contact to the impedance of the body for which the contact law is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
 /// Law of the normal force.
@@ -29,19 +29,20 @@ pub struct ContactTime {
     pub weight: f64,
     /// Coefficients of rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
-    /// Duration of the step; infinite for an increment of zero duration [time].
+    /// Duration of the step [time]; infinite for an increment of zero duration.
     pub duration: f64,
 }
 
 impl ContactTime {
-    /// Creates the data of a stage with its weight. The rate history contains the durations of the steps. An increment of zero duration is not damped.
+    /// Creates the contact time of a stage with its weight. Damping is disabled for an increment of zero duration.
     pub fn new(rate_history: &RateHistory, (stage, weight): (Stage, f64)) -> Self {
         let duration = rate_history.duration();
         let rates = rate_history.at(stage, weight).filter(|_| duration.is_finite());
         Self { stage, weight, rates, duration }
     }
 
-    /// Factor of the damping force in the tension [-]. Methods with forces at both ends of a step evaluate the damping once per step, at the end.
+    /// Factor of the damping force in the tension [-].
+    /// Methods with forces at both ends of a step evaluate the damping once per step, at the end.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }
     }
@@ -52,7 +53,7 @@ impl ContactTime {
 pub struct GapChange {
     /// Change of the gap [length].
     pub value: f64,
-    /// Largest of the increments from which the change is computed [length]. It determines the rounding error of the change.
+    /// Largest of the increments from which the change of the gap is computed [length]. It determines the rounding error of the change.
     pub moved: f64,
 }
 
@@ -69,7 +70,7 @@ pub struct NormalForce {
     pub approach: f64,
     /// Mean rate of the gap in the last step [length/time].
     pub last_rate: f64,
-    /// Internal force in the gap; negative in a closed contact [force].
+    /// Internal force in the gap [force]; negative in a closed contact.
     pub tension: MixedForce,
 }
 
@@ -94,13 +95,13 @@ impl NormalForce {
         self.weight * law.elastic.stiffness()
     }
 
-    /// Removes the force, because no contact is possible in the present iterate.
+    /// Sets the force of a contact to zero if no contact is possible in the present iterate.
     pub fn open(&mut self) {
         self.tension.force = 0.0;
         self.tension.mismatch = 0.0;
     }
 
-    /// Tension that the law requires for a change of the gap, without the damping.
+    /// Tension that the contact law requires for a change of the gap, without damping.
     pub fn elastic(&self, law: &NormalLaw, stage: Stage, change: f64) -> ForceTarget {
         let gap = self.gap.value;
         let law = match stage {
@@ -111,7 +112,7 @@ impl NormalForce {
         ForceTarget { force: self.weight * law.force, stiffness: self.weight * law.stiffness }
     }
 
-    /// Tension that the law requires for a change of the gap. A contact does not pull, so it is not positive.
+    /// Tension that the contact law requires for a change of the gap. The tension is never positive, because a contact does not pull.
     pub fn target(&self, law: &NormalLaw, time: ContactTime, change: f64) -> ForceTarget {
         let elastic = self.elastic(law, time.stage, change);
         let Some(rates) = time.rates.filter(|_| law.damping > 0.0) else { return elastic };
@@ -127,7 +128,8 @@ impl NormalForce {
         ForceTarget { force, stiffness }
     }
 
-    /// Largest tension for which the mean force of the step is not tensile. If forces act at both ends of the step, the limit depends on the tension at the start.
+    /// Largest tension for which the mean force of the step is not tensile.
+    /// If forces act at both ends of the step, the largest tension depends on the tension at the start of the step.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
@@ -135,8 +137,8 @@ impl NormalForce {
 
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
-    /// The coefficient is limited to its largest value in an impact that is governed by the contact.
-    /// Without the limit, a resting contact would be damped without bound.
+    /// The damping coefficient is limited to its largest value in an impact that is governed by the contact.
+    /// Without a limit of the damping coefficient, a resting contact would be damped without bound.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
@@ -153,8 +155,8 @@ impl NormalForce {
     }
 
     /// Tension and stiffness for the linearised equations.
-    /// For a stiff contact, they belong to the intersection of the contact law with the line that represents the impedance of the body.
-    /// In equilibria, the impedance is a secant estimate.
+    /// A stiff contact is linearised at the intersection of the contact law with the line that represents the impedance of the body.
+    /// In equilibria, the impedance of the body is estimated from secants.
     pub fn linearisation_target(
         &mut self,
         law: &NormalLaw,
@@ -177,7 +179,8 @@ impl NormalForce {
         }
     }
 
-    /// Compares the tension with its target. Returns the relative difference; zero if the rounding error of the increments explains it.
+    /// Compares the tension with its target.
+    /// Returns the relative difference; zero if rounding of the increments explains the difference between tension and target.
     pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
         let stiffness = larger(target.stiffness, self.stiffness(law));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());
@@ -186,7 +189,7 @@ impl NormalForce {
         if is_rounding { 0.0 } else { missed }
     }
 
-    /// Ends a step. Returns the dissipated energy [energy].
+    /// Ends a step. Returns the energy dissipated in the contact [energy].
     pub fn advance(
         &mut self,
         law: &NormalLaw,
@@ -234,7 +237,7 @@ mod tests {
     use super::*;
     use crate::beams::RotationIncrement;
 
-    /// A contact that stays open has no force, whatever its approach speed before the step was.
+    /// A contact that stays open has no force at any approach speed before the step.
     #[test]
     fn an_open_contact_is_not_damped() {
         let elastic = ContactLaw::HalfPlane { stiffness: 1e4 };

@@ -5,7 +5,7 @@ use crate::geometry::Vec2;
 /// State of the contact with an obstacle or between bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactState {
-    /// Force on the bodies, averaged over the last step [force].
+    /// Contact force on the bodies, averaged over the last step [force].
     pub force: Vec2,
     /// Friction force on the bodies along the surface, averaged over the last step and positive to the right of the normal [force].
     pub friction: f64,
@@ -16,12 +16,12 @@ pub struct ContactState {
 /// Body whose contact points lie inside an obstacle or another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Penetration {
-    /// Index of the body in the model.
+    /// Index of the penetrating body in the model.
     pub body: usize,
     /// Largest penetration of a contact point [length].
     pub depth: f64,
     /// Sum of the elastic contact forces on the body [force].
     pub force: f64,
-    /// Energy that is stored in the contacts of the body [energy].
+    /// Energy stored in the contacts of the body [energy].
     pub energy: f64,
 }

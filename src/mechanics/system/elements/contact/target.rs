@@ -34,7 +34,7 @@ impl ContactTarget {
         }
     }
 
-    /// Station of the body; the start of a beam.
+    /// Station of the body or point; for a beam, the station at its start.
     pub fn station(&self) -> Station {
         match self {
             Self::Beam(beam) => Station::on_beam(*beam, 0.0),
@@ -43,7 +43,8 @@ impl ContactTarget {
     }
 }
 
-/// Parameters and quadrature weights [length] of the contact points of a beam: the points of a Gauss–Lobatto rule with four points per span.
+/// Parameters and quadrature weights [length] of the contact points of a beam.
+/// The contact points are the points of a Gauss–Lobatto rule with four points per span.
 pub fn contact_parameters(mesh: &Mesh, controls: &[Vec2]) -> Vec<(f64, f64)> {
     let basis = mesh.basis();
     let (mut points, mut at_end) = (Vec::new(), 0.0);

@@ -1,4 +1,4 @@
-//! Derivatives of the coordinates of an elongation with respect to the degrees of freedom, which are basis functions at the terminals.
+//! Derivatives of the coordinates of an elongation with respect to the degrees of freedom: basis functions at the terminals.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;

@@ -4,7 +4,8 @@ use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Difference of two rotation increments, below which the mean derivative replaces the difference quotient [rad]. The error is of second order.
+/// Difference of two rotation increments [rad] below which the mean derivative replaces the difference quotient.
+/// The error of the mean derivative is of second order in the difference.
 const SAME_TURN: f64 = 1e-5;
 
 pub(in crate::system::elements) struct ElongationTerm {
@@ -27,7 +28,7 @@ impl ElongationTerm {
         let both = before + after;
         let mean = direction(start + end, both);
         let slope = direction(end, after);
-        // For forces at the end of a step, rotation increments are angles, and the force has the direction at the end.
+        // For forces at the end of a step, rotation increments are angles, and the force has the direction at the end of the step.
         let (secant, inverse) = match rotations {
             RotationIncrement::TangentScaled => (mean, both),
             RotationIncrement::Angle => (slope, after),
@@ -54,7 +55,7 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between two rotation increments is approximated by the value at the middle.
+            // The mean of dθ/dω between two rotation increments ω is approximated by the value at the middle, where θ is the rotation angle.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }

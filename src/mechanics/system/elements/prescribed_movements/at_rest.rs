@@ -13,7 +13,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason.
+    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Position(schedule) = &movement.motion {
@@ -25,12 +25,12 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Finds the first drive whose static position under the load differs from its prescribed position just after `time`. The load is multiplied by `load_factor`.
-    /// Returns the name of the drive and both positions.
+    /// Finds the first drive whose static position under a load differs from its prescribed position just after `time`.
+    /// The load is the full load times `load_factor`. Returns the name of the drive and both positions.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
-            // A function without a value has been rejected earlier, either when the scene was built or when the position was applied.
+            // A function without a value has been rejected earlier: when the scene was built or when the position was applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let size = larger(wanted.abs(), rests.abs());

@@ -12,7 +12,7 @@ impl SpringDamper {
     }
 
     /// Returns true if the force is zero in a segment of the law.
-    /// The result does not change when the spring is released, so the size of the saved state is constant.
+    /// The size of the saved state depends on this result, so that the result must not change when the spring is released.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -37,8 +37,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // Numerical damping needs a positive slope. With a negative slope, it would add energy.
-                // Numerical damping is not applied to single components of a vector, because it would rotate the direction of the damping force.
+                // Numerical damping needs a positive slope of the law. With a negative slope, it would add energy.
+                // Single components of a vector have no numerical damping, because it would rotate the direction of the damping force.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -50,7 +50,7 @@ impl SpringDamper {
     }
 
     /// Target force of the spring for a linearisation.
-    /// After several iterations, the linearisation uses the intersection of the law with a straight line.
+    /// After several iterations, the spring is linearised at the intersection of its law with a straight line.
     /// The straight line represents the impedance of all other objects of the scene. Its intersection with an increasing law is unique.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);

@@ -7,8 +7,8 @@ use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
 
 /// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
-/// An impulse removes this velocity.
-/// Without this tolerance, the step after the end of the slip could be too short for an accurate energy balance.
+/// An impulse removes the remaining velocity along the master at the end of a slip.
+/// Without a tolerance for the velocity, the step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
@@ -18,11 +18,11 @@ const ROUNDING: f64 = 1e-14;
 /// The forces of a very short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Duration of a step above which the law of friction is not replaced by a constant force, as a fraction of the longest step.
-/// If a step with the law of friction fails, shorter steps are tried first.
+/// Duration of a step above which friction always follows its law, as a fraction of the longest step.
+/// In shorter steps without a solution, the friction force is kept constant.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Number of transitions in successive steps, from which steps are no longer shortened to the time at which the slip ends.
+/// Number of transitions between slip and stick in successive steps, from which steps are not shortened to the end of the slip.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition of a slider with friction at the end of an attempted step.
@@ -56,9 +56,9 @@ pub struct SliderFriction {
     /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
     transitions: usize,
-    /// Force along the master that replaces the law of slip in the present step [force].
+    /// Constant friction force in the present step, instead of the law of slip [force].
     fixed_force: Option<f64>,
-    /// Number of accepted steps with a constant force along the master.
+    /// Number of accepted steps with a constant friction force.
     pub fixed_steps: usize,
 }
 
@@ -118,7 +118,7 @@ impl SliderFriction {
         self.transitions < MOST_TRANSITIONS
     }
 
-    /// State of the friction as a number: the sign of the slip, or zero.
+    /// State of the friction as a number: the sign of the slip, or zero for a sticking slider.
     fn mode_number(&self) -> f64 {
         match self.mode {
             FrictionMode::Slip(sign) => sign,
@@ -132,7 +132,7 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numeric state of the friction: its state and its mean force.
+    /// Numbers that represent the state of the friction: the sign of the slip, and the mean force.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [self.mode_number(), self.force]
     }
@@ -149,7 +149,7 @@ impl SliderFriction {
 }
 
 impl SliderContact {
-    /// Mean friction force on the master in the last step, positive towards the end of the master [force]; `None` without friction.
+    /// Mean friction force on the master in the last step [force], positive towards the end of the master; `None` without friction.
     pub fn friction_force(&self) -> Option<f64> {
         let friction = self.friction.as_deref()?;
         Some(if self.is_sliding() { friction.force } else { 0.0 })
@@ -234,7 +234,7 @@ impl SliderContact {
         (reversed.abs() > negligible).then_some(reversed)
     }
 
-    /// Velocity along the master that counts as zero [length/time].
+    /// Largest velocity along the master that counts as zero [length/time].
     fn negligible_slip(&self, friction: &SliderFriction) -> f64 {
         STOPPED * friction.start_velocity_along.abs() + ROUNDING * self.size / friction.duration
     }
@@ -245,7 +245,7 @@ impl SliderContact {
         friction.map_or(0.0, |friction| friction.mode_number() * friction.start_velocity_along)
     }
 
-    /// Returns true if the velocity along the master is opposite to the slip.
+    /// Returns true if the velocity of the slider along the master is opposite to its slip.
     pub fn is_slip_reversed(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let sign = self.active_friction().map_or(0.0, SliderFriction::mode_number);
         sign * self.along(bodies).dot(&self.relative_velocity(bodies, rates)) < 0.0

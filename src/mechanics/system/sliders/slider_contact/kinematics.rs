@@ -6,12 +6,10 @@ use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
 impl SliderContact {
-    /// Control points of the master and their basis functions at the slider.
     fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.start_path.first()..).zip(self.start_path.end().iter().copied())
     }
 
-    /// Derivative of the contact point on the master with respect to the parameter [length].
     pub(super) fn tangent(&self, bodies: &[Body]) -> Vec2 {
         slope_of(self.start_path.slope(), self.window(bodies))
     }
@@ -30,7 +28,7 @@ impl SliderContact {
         self.tangent(bodies).normalize()
     }
 
-    /// Direction in which the slider moves along its master at an end, including the kink [-].
+    /// Direction [-] in which the slider moves along its master at an end, including the kink.
     pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
         let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
@@ -91,14 +89,14 @@ impl SliderContact {
         self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
     }
 
-    /// Adds the generalised forces of an impulse or force of the contact to `out`.
+    /// Adds the generalised forces of a contact impulse or a contact force to `out`.
     /// The slave receives the impulse, and the master the opposite impulse.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
     }
 
-    /// Vector from the slave to the contact point on the master [length]. It is zero for a slider without contact.
+    /// Vector from the slave to the contact point on the master [length]; zero for a slider without contact.
     pub fn gap(&self, bodies: &[Body]) -> Vec2 {
         if !self.state.has_contact() {
             return Vec2::zeros();
@@ -106,7 +104,7 @@ impl SliderContact {
         self.to_axis(bodies) + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
-    /// Vector from the slave to its point on the smooth axis of the master [length].
+    /// Vector from the slave to the point of the slider on the smooth axis of the master [length].
     pub(super) fn to_axis(&self, bodies: &[Body]) -> Vec2 {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
@@ -132,7 +130,7 @@ impl SliderContact {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
         let points = master.dynamics.control_points();
-        // At an end of the master, rounding errors may have moved the slider out of the range of the basis.
+        // At an end of the master, rounding errors may have moved the slider out of the parameter range of the basis.
         let (first, last) = self.master.domain();
         let within = self.parameter.clamp(first, last);
         let Ok(values) = self.start_path.basis().evaluate(within) else {
@@ -143,7 +141,7 @@ impl SliderContact {
         turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
     }
 
-    /// Rate of the parameter at the present velocities [1/time].
+    /// Rate of the parameter of the slider on its master at the present velocities [1/time].
     pub fn rate(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         match (self.state, &self.kinked_axis) {
             (SliderState::Sliding, Some(axis)) => {
@@ -161,8 +159,8 @@ impl SliderContact {
         }
     }
 
-    /// Rate of the parameter for an offset of the slave from the smooth axis [length].
-    /// The rate follows from the time derivative of the contact condition.
+    /// Rate of the parameter for an offset of the slave from the smooth axis of the master [length].
+    /// The rate of the parameter follows from the time derivative of the contact condition.
     fn rate_at_offset(
         &self,
         offset: Vec2,
@@ -182,6 +180,6 @@ impl SliderContact {
 }
 
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
-    // The derivatives `B_i'` sum to zero, so the origin affects rounding only. The rounding error is smallest for a near origin.
+    // The derivatives `B_i'` sum to zero, so the choice of the origin affects rounding only. A near origin has the smallest rounding error.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

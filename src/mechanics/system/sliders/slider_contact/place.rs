@@ -16,20 +16,22 @@ impl SliderContact {
         self.distance_to(end) <= END_TOLERANCE
     }
 
-    /// Position along the undeformed master or track, from 0 at the start to 1 at the end [-]. On closed tracks, completed rounds are added.
+    /// Position of the slider along the undeformed master or track, from 0 at the start to 1 at the end [-].
+    /// On closed tracks, the number of completed rounds is added.
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
-    /// Arc length from the start of the undeformed master or track [length]. On closed tracks, completed rounds are added.
+    /// Arc length of the slider from the start of the undeformed master or track [length].
+    /// On closed tracks, the lengths of completed rounds are added.
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part * self.master.length(), |route| route.arc_length(part))
     }
 
     fn part_of_master(&self) -> f64 {
-        // After an arrival, rounding errors separate the position from the end.
+        // After the arrival at an end, rounding errors separate the position of the slider from the end.
         if self.is_at(MasterEnd::Start) {
             return 0.0;
         }
@@ -39,13 +41,13 @@ impl SliderContact {
         self.master.part_before(self.parameter)
     }
 
-    /// Speed along the undeformed master or track, positive towards the end [length/time].
+    /// Speed of the slider along the undeformed master or track, positive towards the end [length/time].
     pub fn speed(&self, bodies: &[Body], rates: &[f64]) -> f64 {
         let along = self.master.stretch(self.parameter) * self.rate(bodies, rates);
         self.heading().map_or(along, |heading| along * heading.sign())
     }
 
-    /// Limit at which the slider is held: the `start` or `end` of its master or track, or a `seam`.
+    /// Name of the limit at which the slider is held: the `start` or `end` of its master or track, or a `seam`.
     pub fn held_by(&self, bodies: &[Body]) -> Option<&'static str> {
         let SliderState::Held(end) = self.state else { return None };
         if self.seam(bodies, end).is_some() {
@@ -58,7 +60,6 @@ impl SliderContact {
         Some(on_track.name())
     }
 
-    /// Direction of the track along the present master; `None` without a track.
     fn heading(&self) -> Option<TrackDirection> {
         self.track.as_deref().map(TrackPath::present).map(|leg| leg.heading)
     }

@@ -6,13 +6,10 @@ use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
 use crate::system::sliders::{KinkedAxis, SliderState};
 use crate::system::step_mean::StepMean;
 
-/// Number of values that the path of a slider on a track contributes to the state.
 const ROUTE: usize = 3;
 
-/// Number of values that the friction of a slider contributes to the state.
 const FRICTION: usize = 2;
 
-/// Number of values that a contact that only pushes contributes to the state.
 const UNILATERAL: usize = 2;
 
 impl SliderContact {

@@ -29,19 +29,19 @@ impl SliderContact {
     }
 
     /// Returns true if the slider passed or left a seam at the given time.
-    /// A slider that returns to the seam at once cannot leave it again at that time.
+    /// A slider that returns to the seam at the same time cannot leave the seam again.
     pub fn crossed_seam_at(&self, time: f64) -> bool {
         self.stop_left_at == time
             || self.track.as_ref().is_some_and(|route| route.crossed_at == time)
     }
 
-    /// Returns true if the slider is held at a seam whose beams have separated, so that the track has an open end there.
+    /// Returns true if the slider is held at a seam whose beams have separated.
     pub(super) fn is_held_at_open_end(&self, bodies: &[Body]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         !self.ends.has_stop() && self.track.as_ref().is_some_and(|route| route.is_torn(bodies, end))
     }
 
-    /// Tangents of the track on both sides of a seam, in the direction in which the slider passes [-].
+    /// Tangents of the track on both sides of a seam, in the direction in which the slider passes the seam [-].
     pub fn corner(&self, bodies: &[Body], end: MasterEnd, seam: Seam) -> Option<[Vec2; 2]> {
         let leg = self.track.as_ref()?.segment(seam.segment);
         let inward = -seam.end.outward();

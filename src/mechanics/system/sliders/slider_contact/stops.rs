@@ -11,7 +11,7 @@ impl SliderContact {
     }
 
     /// Subtracts the work of an impact on the bodies from the energy stored in the stop.
-    /// If the coefficient of restitution is below one, or the slider only pushes, the lost energy is increased instead.
+    /// If the coefficient of restitution is below one, or the slider only pushes, the work is subtracted from the lost energy of the slider instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 || self.unilateral.is_some() {
             true => self.lost_energy -= work,
@@ -29,7 +29,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.remove_stop_force(tangent));
     }
 
-    /// Records a tensile stop force at the end of a step. No force is recorded at the end of a substep.
+    /// Records a tensile stop force at the end of a step. Nothing is recorded at the end of a substep.
     pub fn record_tension(&mut self, ending: IntervalEnd) {
         let leans = matches!(self.state, SliderState::Held(_)) && !self.stop_may_pull;
         let is_drawn_off = self.is_pulled_across([self.push, self.push_beyond], self.contact_force);
@@ -45,7 +45,7 @@ impl SliderContact {
 
     /// Duration of an impact at the end of the master [time].
     ///
-    /// An impact on a beam lasts at least until the wave of the impact returns, after twice the length divided by `c` (Saint-Venant 1883).
+    /// An impact on a beam of length `L` lasts at least until the impact wave returns, after `2 L/c` with the wave speed `c` (Saint-Venant 1883).
     /// With a light slave, the impact lasts until the slave stops.
     /// Between rigid bodies there are no waves, and the impact duration is infinite.
     pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {

@@ -7,11 +7,10 @@ use crate::system::bodies::Body;
 use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
-/// Largest number of take-offs, landings and passages of the axis without a regular step between them. A regular step contains no event.
-/// After these events, the slider stays in contact until the next regular step.
+/// Largest number of take-offs, landings and passages of the axis without a regular step between them.
+/// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
-/// Largest number of iterations of the search for the nearest point of the master.
 const MOST_ITERATIONS: usize = 64;
 
 /// Largest change of the parameter in an iteration of the search, as a fraction of the parameter range.
@@ -23,7 +22,7 @@ const SMALLEST_CURVATURE: f64 = 0.5;
 /// Cosine of the angle between the axis and the vector to the slave, above which the slave is beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
-/// Change of the contact of a slider that only pushes.
+/// Change of the contact state of a slider that only pushes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactChange {
     /// The slider left its master.
@@ -32,7 +31,7 @@ pub enum ContactChange {
     Landing,
     /// The slider landed on its master with rebound.
     Bounce,
-    /// The slider passed the axis of its master beyond an end.
+    /// The slider passed the axis of its master beyond an end of the master.
     Passage,
 }
 
@@ -54,7 +53,7 @@ pub struct UnilateralContact {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct NearestPoint {
     parameter: f64,
-    /// Distance from the axis along the normal, positive on the side on which the slider can fly [length].
+    /// Distance of the slave from the axis along the normal [length], positive on the side on which the slider can fly.
     pub gap: f64,
     /// True if the slave is not beyond an end of the master.
     pub is_inside: bool,
@@ -66,7 +65,7 @@ impl UnilateralContact {
         Self { sign, nearest, may_land: true, events: 0, kept_steps: 0, change: None }
     }
 
-    /// Numeric state: permission to land, and number of events.
+    /// Numbers that represent the contact state: permission to land, and number of events.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [f64::from(u8::from(self.may_land)), self.events as f64]
     }
@@ -81,7 +80,7 @@ impl SliderContact {
         self.state == SliderState::Separated
     }
 
-    /// Returns true if the slider only pushes and is in contact.
+    /// Returns true if the slider only pushes and is in contact with its master.
     pub fn may_take_off(&self) -> bool {
         self.is_sliding() && self.unilateral.is_some()
     }
@@ -99,7 +98,7 @@ impl SliderContact {
         self.unilateral.iter_mut().for_each(|contact| contact.kept_steps += 1);
     }
 
-    /// Starts a flight. The contact force is zero from now on.
+    /// Starts a flight of the slider and sets the contact force to zero.
     pub fn take_off(&mut self) {
         self.state = SliderState::Separated;
         self.unknowns = ContactUnknowns::zeros();
@@ -116,7 +115,7 @@ impl SliderContact {
         Some(if has_bounced { ContactChange::Bounce } else { change })
     }
 
-    /// Ends a flight. The slider slides along its master from now on.
+    /// Ends a flight of the slider. The slider then slides along its master.
     pub fn start_contact(&mut self) {
         self.state = SliderState::Sliding;
     }
@@ -128,7 +127,7 @@ impl SliderContact {
         }
     }
 
-    /// Records that the slave passed the axis of its master beyond an end. It cannot land from the other side.
+    /// Records that the slave passed the axis of its master beyond an end, which excludes a landing from the other side.
     pub fn record_passage(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (false, contact.events + 1);
@@ -136,9 +135,9 @@ impl SliderContact {
         }
     }
 
-    /// Nearest point of the master after given increments of all bodies.
-    /// The search starts at the present parameter. If `increments` is empty, the present configuration is used.
-    /// The path of the slider is overwritten.
+    /// Nearest point of the master to the slave after the given increments of all bodies.
+    /// The search starts at the present parameter. If `increments` is empty, the search uses the present configuration.
+    /// The search overwrites the path of the slider.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -193,7 +192,6 @@ impl SliderContact {
         [sum(path.end()), sum(path.slope()), sum(path.change()) * 2.0]
     }
 
-    /// Finds the nearest point of the master after given increments, for a slider in flight.
     pub(super) fn follow_master(&mut self, bodies: &[Body], increments: &[f64]) {
         if !self.is_separated() {
             return;
@@ -219,12 +217,12 @@ impl SliderContact {
         }
     }
 
-    /// Distance from the axis that counts as zero [length].
+    /// Largest distance of the slave from the axis that counts as zero [length].
     fn touching_distance(&self) -> f64 {
         END_TOLERANCE * self.size
     }
 
-    /// Depth of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
+    /// Depth of a landing slave beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
     /// Returns `None` unless the slider lands in the step.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
@@ -246,7 +244,8 @@ impl SliderContact {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step, zero in contact [length]; `None` for a slider that never leaves its master.
+    /// Distance of the slave from the axis at the end of the last step [length], zero in contact.
+    /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
         let to_axis = self.to_axis(bodies);

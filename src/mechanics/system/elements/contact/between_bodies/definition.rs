@@ -55,13 +55,14 @@ impl PairContact {
         matches!(self.members[member].target, ContactTarget::Beam(_))
     }
 
-    /// Returns true if the body of a member rotates. A particle does not.
+    /// Returns true if the body of a member rotates. A particle does not rotate.
     fn rotates(&self, member: usize) -> bool {
         !matches!(self.body(member), BodyIndex::Particle(_))
     }
 
     /// Friction between two members; `None` without friction.
-    /// The arm of the friction force is divided in the ratio of the radii. A particle does not rotate, so the whole arm acts on the other body.
+    /// The arm of the friction force is divided in the ratio of the radii of the members.
+    /// A particle does not rotate, so the whole arm acts on the other body.
     fn friction_of_pair(&self, own: usize, other: usize) -> Option<FrictionOfPair> {
         let radius =
             |member: usize| if self.rotates(member) { self.members[member].radius } else { 0.0 };
@@ -77,7 +78,7 @@ impl PairContact {
         }
     }
 
-    /// Pairs of members that can touch. Two beams are paired in both directions, with half of the stiffness each.
+    /// Pairs of members that can touch. Two beams form one pair for each direction, with half of the stiffness each.
     fn candidates(&self, scene: &dyn SceneChecks) -> Vec<CandidatePair> {
         let count = self.members.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
@@ -174,8 +175,9 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
     }
 }
 
-/// Parts of the axis that each contact point of the same beam can touch.
-/// Axis points at an arc length below half the circumference of a circle with twice the radius are left out. Otherwise, a bent beam would touch itself near the contact point.
+/// Parts of the axis of a beam that each contact point of the same beam can touch.
+/// A contact point cannot touch parts of the axis at an arc length below half the circumference of a circle with twice the radius.
+/// Parts of the axis near the contact point are excluded, because a bent beam would touch itself there.
 fn allowed_parts(
     basis: &Basis,
     controls: &[Vec2],

@@ -1,6 +1,6 @@
 //! Contact forces between the bodies of an element in a step.
 //!
-//! A pair of a contact point and a body is created in the first iterate in which it touches, and removed at the end of a step in which it opens.
+//! A pair of a contact point and a body is created in the first iterate with contact, and removed at the end of a step in which the contact opens.
 //! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
 //! Boxes around bodies and spans exclude bodies that are far from each other.
 
@@ -28,30 +28,27 @@ pub(super) struct CandidatePair {
     pub(super) friction: Option<FrictionOfPair>,
 }
 
-/// Friction of a pair of shapes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionOfPair {
     /// Coefficient of friction [-].
     pub(super) coefficient: f64,
-    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. Their sum is one.
+    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. The sum of the shares is one.
     pub(super) shares: [f64; 2],
 }
 
 impl CandidatePair {
-    /// Indices of the pair that contains the contact point `site` of `shape`.
     pub(super) fn at(&self, site: usize) -> PairIndex {
         PairIndex { shape: self.shape, site, target: self.target }
     }
 }
 
-/// Contact forces between bodies: the bodies, and all pairs that touch at present.
+/// Contact forces between the bodies of an element, with all pairs that touch at present.
 pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
     candidates: Vec<CandidatePair>,
     pairs: Vec<ContactPair>,
     rate_history: RateHistory,
-    /// Stage of the last evaluation, and its weight.
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
@@ -131,7 +128,6 @@ impl PairForces {
         self.find_pairs();
     }
 
-    /// Moves all shapes to an iterate, and finds the pairs that touch in it, unless no bodies can touch.
     fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
         if self.is_clear_with(bodies, increments) {
             return;
@@ -145,7 +141,6 @@ impl PairForces {
         self.find_pairs();
     }
 
-    /// Creates the pairs that touch in the present iterate and did not touch before.
     fn find_pairs(&mut self) {
         self.prepare_pairs();
         for candidate in &self.candidates {
@@ -187,7 +182,7 @@ impl PairForces {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
 
-    /// Foot of a contact point that touches a body in the present iterate and did not touch it before.
+    /// Foot of a contact point that touches a body in the present iterate and did not touch this body before.
     fn touched_foot(&self, index: PairIndex) -> Option<Foot> {
         let PairIndex { shape, site, target } = index;
         let (own, other) = (&self.shapes[shape], &self.shapes[target]);
@@ -208,7 +203,7 @@ impl PairForces {
         self.pairs.iter().filter(|pair| pair.normal.is_closed())
     }
 
-    /// Removes the pairs that are open at the end of a step. The energy of their friction is dissipated.
+    /// Removes the pairs that are open at the end of a step. The elastic energy of their friction counts as dissipated.
     fn remove_open_pairs(&mut self) {
         let open = self.pairs.iter().filter(|pair| !pair.normal.is_closed());
         self.dissipated += open.map(ContactPair::energy).fold(0.0, |sum, energy| sum + energy);
@@ -294,7 +289,6 @@ impl InternalForce for PairForces {
         pairs.iter_mut().for_each(|pair| pair.correct(shapes, bodies, correction));
     }
 
-    /// The forces on both bodies are opposite, so there is no exchange with the ground.
     fn exchange(&self, _bodies: &[Body], _duration: f64) -> WorkAndImpulse {
         WorkAndImpulse::default()
     }

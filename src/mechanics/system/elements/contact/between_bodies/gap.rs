@@ -1,15 +1,15 @@
 //! Change of the gap between a point and a moving curve in a step, and the directions of the contact force.
 //!
 //! ```text
-//! xₖ: contact point, and cₖ(ξ): curve, at the start (k = 0) and at the end (k = 1) of the step
-//! ξ₀, ξ₁: parameters of the nearest point of the curve at the start and at the end of the step
-//! aₖ = xₖ - cₖ(ξ₀)      bₖ = xₖ - cₖ(ξ₁)      ℓ₀ = |a₀|      ℓ₁ = |b₁|
-//! A₀ = |b₀|² - ℓ₀² ≥ 0     A₁ = |a₁|² - ℓ₁² ≥ 0     θ = A₀/(A₀ + A₁)
-//! force on c(ξ₀):  -F θ (a₀ + a₁)/(ℓ₀ + ℓ₁)      force on c(ξ₁):  -F (1 - θ) (b₀ + b₁)/(ℓ₀ + ℓ₁)
+//! contact point xₖ and curve cₖ(ξ) at the start (k = 0) and at the end (k = 1) of the step
+//! parameters ξ₀ and ξ₁ of the nearest point of the curve at the start and at the end of the step
+//! vectors between point and curve: aₖ = xₖ - cₖ(ξ₀) and bₖ = xₖ - cₖ(ξ₁); distances: ℓ₀ = |a₀| and ℓ₁ = |b₁|
+//! share θ of the force at c(ξ₀): θ = A₀/(A₀ + A₁) with A₀ = |b₀|² - ℓ₀² ≥ 0 and A₁ = |a₁|² - ℓ₁² ≥ 0
+//! force on c(ξ₀): -F θ (a₀ + a₁)/(ℓ₀ + ℓ₁); force on c(ξ₁): -F (1 - θ) (b₀ + b₁)/(ℓ₀ + ℓ₁)
 //! ```
 //!
-//! The force on the point is opposite to the sum. The work of these forces is `F (ℓ₁ - ℓ₀)`, at any step size and for any change of the nearest point.
-//! Each force acts along the line that connects the mean positions of its points, so both momenta are conserved.
+//! The force on the point is minus the sum of the forces on the curve. The work of all forces is `F (ℓ₁ - ℓ₀)`, at any step size.
+//! Each force acts along the line that connects the mean positions of its points, so that momentum and angular momentum are conserved.
 
 use std::array::from_fn;
 
@@ -17,21 +17,21 @@ use super::shape::Foot;
 use crate::beams::RotationIncrement;
 use crate::geometry::{Dual, DualVector, Vec2, larger};
 
-/// Number of local coordinates: two components for each of four vectors.
-/// The vectors are the displacements of the point and of the feet `c(ξ₀)` and `c(ξ₁)`, and the derivative of the displacement of the curve with respect to ξ at `ξ₁`.
+/// Number of local coordinates: two components of each of four vectors.
+/// The first three vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
+/// The fourth vector is the derivative of the displacement of the curve with respect to ξ at `ξ₁`.
 pub(super) const LOCAL: usize = 8;
 
 /// Smallest sum `A₀ + A₁` for which the share `θ` is computed, as a fraction of the squared distance.
-/// For a smaller sum, both feet coincide within rounding, and the share has no influence.
+/// For a smaller sum, both feet coincide within rounding, and the share `θ` has no influence.
 const SAME_FOOT: f64 = 1e-14;
 
 /// Derivatives with respect to the local coordinates.
 pub(super) type Slope = [f64; LOCAL];
 
-/// Point and curve at the start of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapStart {
-    /// Vector from the nearest point of the curve to the point [length].
+    /// Vector from the nearest point of the curve to the contact point [length].
     pub(super) apart: Vec2,
     pub(super) foot: Foot,
 }
@@ -40,18 +40,18 @@ pub(super) struct GapStart {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapMovement {
     pub(super) foot: Foot,
-    /// Displacements of the point and of the points `c(ξ₀)` and `c(ξ₁)` of the curve [length].
+    /// Displacements of the contact point and of the points `c(ξ₀)` and `c(ξ₁)` of the curve [length].
     pub(super) moved: [Vec2; 3],
     /// Vector from `c(ξ₀)` to `c(ξ₁)` at the start of the step [length].
     pub(super) slid: Vec2,
-    /// Length that determines the rounding error of this vector [length].
+    /// Length that determines the rounding error of the vector `slid` [length].
     pub(super) increment: f64,
-    /// Derivatives of the curve with respect to ξ at `c(ξ₁)`: the first at the start of the step, the first and the second at its end [length].
+    /// Derivatives of the curve with respect to ξ at `c(ξ₁)` [length].
+    /// Order: first derivative at the start of the step, first and second derivative at the end of the step.
     pub(super) tangents: [Vec2; 3],
 }
 
 impl GapMovement {
-    /// No displacement.
     pub(super) fn none(foot: Foot) -> Self {
         let [moved, tangents] = [[Vec2::zeros(); 3]; 2];
         Self { foot, moved, slid: Vec2::zeros(), increment: 0.0, tangents }
@@ -62,19 +62,18 @@ impl GapMovement {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     pub(super) change: f64,
-    /// Largest of the increments from which the change is computed [length]. It determines the rounding error of the change.
+    /// Largest of the increments from which the change of the gap is computed [length]. It determines the rounding error of the change.
     pub(super) moved: f64,
-    /// Derivative of the change.
     pub(super) slope: Slope,
-    /// Forces on the point and on the points `c(ξ₀)` and `c(ξ₁)` of the curve, for a unit tension [-].
+    /// Forces on the contact point and on the points `c(ξ₀)` and `c(ξ₁)` of the curve, for a unit tension [-].
     pub(super) secant: [Vec2; 3],
-    /// Derivatives of the components of these forces [1/length].
+    /// Derivatives of the components of the unit forces `secant` with respect to the local coordinates [1/length].
     pub(super) secant_slope: [Slope; 6],
-    /// Derivative of the parameter `ξ₁` [1/length].
+    /// Derivative of the parameter `ξ₁` with respect to the local coordinates [1/length].
     pub(super) foot_slope: Slope,
-    /// Moment about the curve of a unit friction force, which is perpendicular to the forces above [length].
+    /// Moment about the curve of a unit friction force, which is perpendicular to the gap [length].
     pub(super) arm: f64,
-    /// Derivative of this moment [-].
+    /// Derivative of the friction moment `arm` with respect to the local coordinates [-].
     pub(super) arm_slope: Slope,
 }
 
@@ -90,7 +89,7 @@ impl GapTrial {
         arm_slope: [0.0; LOCAL],
     };
 
-    /// Gap without a change, for the given vector from the nearest point to the contact point.
+    /// Gap without a change, for the given vector from the nearest point of the curve to the contact point.
     pub(super) fn at_rest(apart: Vec2) -> Self {
         let arm = apart.norm();
         let normal = if arm > 0.0 { apart / arm } else { Vec2::zeros() };
@@ -98,8 +97,8 @@ impl GapTrial {
     }
 
     /// Computes the change of the gap and the directions of the contact forces.
-    /// For `TangentScaled`, the work of these forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
-    /// For `Angle`, the force has the direction of the gap at the end of the step.
+    /// For `TangentScaled`, the work of the contact forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
+    /// For `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,
@@ -119,7 +118,7 @@ impl GapTrial {
         let slid = DualVector::constant(movement.slid) + slide(tangent_before);
         let slid_end = slid + (to - from) + slide(tangent - tangent_before);
         let (before, after) = (Dual::constant(a_start.norm()), b_end.norm());
-        // Differences of squared distances without cancellation.
+        // Differences of squared distances are computed without cancellation.
         let first = slid.dot(&slid) - (a + a).dot(&slid);
         let last = slid_end.dot(&(a_end + b_end));
         let both = before + after;
@@ -159,7 +158,7 @@ impl GapTrial {
     }
 }
 
-/// Derivative of the parameter of the nearest point: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
+/// Derivative of the parameter `ξ` of the nearest point: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
 fn foot_slope(apart: Vec2, movement: &GapMovement) -> Slope {
     let [_, tangent, bend] = movement.tangents;
     let curvature = tangent.norm_squared() - apart.dot(&bend);

@@ -18,10 +18,9 @@ use crate::system::elements::contact::{
 use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::mixed_force::ForceTarget;
 
-/// Smallest distance between a point and an axis, as a fraction of the sum of radii, at which the contact force has a direction.
+/// Smallest distance between a point and an axis at which the contact force has a direction, as a fraction of the sum of radii.
 const SMALLEST_DISTANCE: f64 = 1e-12;
 
-/// Indices of a contact point and of the body that it touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PairIndex {
     pub(super) shape: usize,
@@ -34,12 +33,12 @@ impl PairIndex {
         &shapes[self.shape].sites[self.site].place
     }
 
-    /// Distance between point and axis at which the contact closes [length].
     pub(super) fn reach(self, shapes: &[Shape]) -> f64 {
         shapes[self.shape].radius + shapes[self.target].radius
     }
 
-    /// Rotation of the body at the contact point, and rotation of the other body at the foot. `rotation` returns the rotation of a control point of a shape.
+    /// Rotations of the body at the contact point and of the other body at the foot.
+    /// `rotation` returns the rotation of a control point of a shape.
     fn rotations(
         self,
         shapes: &[Shape],
@@ -58,7 +57,7 @@ impl PairIndex {
         state.extend([self.shape, self.site, self.target].map(|index| index as f64));
     }
 
-    /// Indices of a saved state, with their candidate pair; `None` if the state is not one of these shapes.
+    /// Indices of a saved contact with their candidate pair; `None` if the saved indices do not fit the shapes.
     pub(super) fn restored<'c>(
         shapes: &[Shape],
         candidates: &'c [CandidatePair],
@@ -72,22 +71,18 @@ impl PairIndex {
         Some((index, candidate))
     }
 
-    /// Parts of the axis that the point can touch.
     pub(super) fn allowed(self, shapes: &[Shape]) -> AllowedParts {
         let is_own_axis = self.shape == self.target;
         if is_own_axis { shapes[self.shape].sites[self.site].allowed } else { WHOLE_AXIS }
     }
 }
 
-/// Rows and columns of the tangent of a contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LocalRows {
     pub(super) unknowns: Vec<usize>,
-    /// Derivatives of the local coordinates with respect to each unknown.
     columns: Vec<[f64; WITH_ROTATIONS]>,
 }
 
-/// Friction of a contact between two bodies.
 #[derive(Debug, Clone)]
 struct PairFriction {
     /// Shares of the arm of the friction force that act on the body of the point and on the other body [-].
@@ -95,7 +90,6 @@ struct PairFriction {
     force: PointFriction<WITH_ROTATIONS>,
 }
 
-/// Contact of a point with another body.
 #[derive(Debug, Clone)]
 pub(super) struct ContactPair {
     pub(super) index: PairIndex,
@@ -103,19 +97,18 @@ pub(super) struct ContactPair {
     pub(super) normal: NormalForce,
     start: GapStart,
     trial: GapTrial,
-    /// Foot in the present iterate.
     foot: Foot,
     linearised: GapTrial,
     linearised_foot: Foot,
-    /// Applied forces on the point at the start of the step and in the present iterate, as internal forces [force].
+    /// Forces on the point at the start of the step and in the present iterate, as internal forces [force].
     applied: [Vec2; 2],
-    /// Friction; `None` without friction.
     friction: Option<Box<PairFriction>>,
 }
 
 impl ContactPair {
-    /// New pair, with the gap in the configuration at the start of the step.
-    /// If the nearest point was not part of earlier searches, the gap in this configuration can be negative. It is then replaced by zero, so that the energy does not jump.
+    /// Creates a pair with the gap in the configuration at the start of the step.
+    /// The gap of a new pair can be negative if the nearest point was not part of earlier searches.
+    /// A negative gap of a new pair is replaced by zero, so that the energy does not jump.
     pub(super) fn new(
         candidate: &CandidatePair,
         site: usize,
@@ -161,7 +154,6 @@ impl ContactPair {
         self.use_foot(shapes, self.start.foot);
     }
 
-    /// Uses the foot of the accepted step as the foot at the start of the next step.
     pub(super) fn end_step(&mut self, shapes: &[Shape]) {
         self.use_foot(shapes, self.foot);
     }
@@ -173,18 +165,15 @@ impl ContactPair {
         self.foot = foot;
     }
 
-    /// Sets the gap to the distance in the start configuration.
     pub(super) fn measure_gap(&mut self, shapes: &[Shape]) {
         self.normal.gap = Coordinate::from(self.start.apart.norm() - self.index.reach(shapes));
     }
 
-    /// Search for the nearest point of the axis, starting at the present nearest point.
     fn search(&self, shapes: &[Shape], position: Vec2) -> NearestSearch {
         let (allowed, hint) = (self.index.allowed(shapes), self.foot.span);
         NearestSearch { position, allowed, limit: f64::INFINITY, hint }
     }
 
-    /// Prepares a step that starts with the present configuration.
     pub(super) fn begin_step(&mut self, shapes: &[Shape]) {
         self.normal.tension.begin_step();
         self.update_masses(shapes);
@@ -194,7 +183,6 @@ impl ContactPair {
         }
     }
 
-    /// Prepares an increment of zero duration.
     pub(super) fn begin_movement(&mut self) {
         self.normal.tension.force = self.normal.tension.last;
         self.applied = [Vec2::zeros(); 2];
@@ -203,7 +191,7 @@ impl ContactPair {
         }
     }
 
-    /// Returns true if the distance at the start of the step is larger than its rounding error, so that the force has a direction.
+    /// Returns true if the distance at the start of the step exceeds its rounding error. Otherwise, the contact force has no direction.
     pub(super) fn has_direction(&self, shapes: &[Shape]) -> bool {
         self.start.apart.norm() > SMALLEST_DISTANCE * self.index.reach(shapes)
     }
@@ -219,7 +207,7 @@ impl ContactPair {
         })
     }
 
-    /// Velocity of the point relative to its foot, from the velocities of the control points of each shape.
+    /// Velocity of the contact point relative to its foot, from the velocities of the control points of each shape.
     pub(super) fn relative(
         &self,
         shapes: &[Shape],
@@ -229,7 +217,6 @@ impl ContactPair {
         point - foot
     }
 
-    /// Velocities of the point and of its foot.
     fn velocities(&self, shapes: &[Shape], velocity: impl Fn(usize, usize) -> Vec2) -> [Vec2; 2] {
         let PairIndex { shape, target, .. } = self.index;
         let at_point = self.place(shapes).weights().map(|(at, share)| velocity(shape, at) * share);
@@ -237,7 +224,7 @@ impl ContactPair {
         [at_point.sum(), at_foot.sum()]
     }
 
-    /// Updates the effective masses along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    /// Updates the effective mass `m` along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
     fn update_masses(&mut self, shapes: &[Shape]) {
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
         let point = own.mobility(self.place(shapes).weights());
@@ -250,7 +237,7 @@ impl ContactPair {
         }
     }
 
-    /// Inverse of the effective mass of the rotations for a force along the axis [1/mass].
+    /// Inverse of the effective mass that the rotations of both bodies have for a force along the axis [1/mass].
     fn angular_mobility(&self, shapes: &[Shape]) -> f64 {
         let Some(friction) = &self.friction else { return 0.0 };
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
@@ -267,7 +254,6 @@ impl ContactPair {
         Some((contact, friction))
     }
 
-    /// Computes the change of the gap from the displacements of the iterate.
     pub(super) fn evaluate(&mut self, shapes: &[Shape], stage: Stage) {
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
         if stage == Stage::Start {
@@ -276,7 +262,7 @@ impl ContactPair {
             let position = self.place(shapes).interpolate(&own.end.points);
             match other.nearest(&other.end, &self.search(shapes, position)) {
                 Some(foot) => self.foot = foot,
-                // Without a nearest point, the force keeps its position on the axis.
+                // Without a nearest point, the contact force keeps its position on the axis.
                 None => self.foot.is_free = false,
             }
         }
@@ -307,7 +293,7 @@ impl ContactPair {
         }
     }
 
-    /// Adds the present force to `out`. Returns its magnitude and its relative difference from the law.
+    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         shapes: &[Shape],
@@ -343,8 +329,8 @@ impl ContactPair {
         summary
     }
 
-    /// Adds the contact force to `out`, after elimination of the law of contact.
-    /// Returns the derivatives of the local forces with respect to the local coordinates.
+    /// Adds the contact force to `out`, after elimination of the contact law.
+    /// Returns the derivatives of the local contact forces with respect to the local coordinates.
     pub(super) fn add_linearised(
         &mut self,
         shapes: &[Shape],
@@ -363,8 +349,8 @@ impl ContactPair {
         self.local_tangent(stiffness, force)
     }
 
-    /// Adds the friction force to `out`, after elimination of its law.
-    /// Returns the derivatives with respect to the local coordinates; `None` without friction.
+    /// Adds the friction force to `out`, after elimination of the friction law.
+    /// Returns the derivatives of the friction force with respect to the local coordinates; `None` without friction.
     pub(super) fn add_linearised_friction(
         &mut self,
         shapes: &[Shape],
@@ -399,7 +385,6 @@ impl ContactPair {
         })
     }
 
-    /// Collects the unknowns that are coupled in the present iterate.
     pub(super) fn collect(
         &self,
         shapes: &[Shape],
@@ -490,7 +475,6 @@ impl ContactPair {
         }
     }
 
-    /// Adds three forces to `out`: on the point, on the foot at the start of the step, and on another foot.
     fn scatter(
         &self,
         shapes: &[Shape],
@@ -509,7 +493,7 @@ impl ContactPair {
         foot.weights(0).for_each(|(at, by)| add(target, at, on_end * by));
     }
 
-    /// Adds a generalised friction force to `out`: forces on the point and on both feet, and moments on both bodies.
+    /// Adds a generalised friction force to `out`: forces on the contact point and on both feet, and moments on both bodies.
     fn scatter_friction(
         &self,
         shapes: &[Shape],
@@ -529,7 +513,7 @@ impl ContactPair {
         of_foot.for_each(|(at, by)| add(target, at, by * forces[LOCAL + 1]));
     }
 
-    /// Ends a step. Returns the dissipated energy [energy].
+    /// Ends a step. Returns the energy dissipated in the contact [energy].
     pub(super) fn advance(&mut self, shapes: &[Shape], time: ContactTime) -> f64 {
         self.evaluate(shapes, time.stage);
         let GapTrial { change, moved, .. } = self.trial;
@@ -540,34 +524,32 @@ impl ContactPair {
         }
     }
 
-    /// Elastic energy at the start of the step [energy].
+    /// Elastic energy of the contact at the start of the step [energy].
     pub(super) fn energy(&self) -> f64 {
         let energy = self.normal.energy(&self.law);
         self.friction.as_ref().map_or(energy, |friction| energy + friction.force.energy())
     }
 
-    /// Friction force on the body of the point in the last step, positive to the right of the normal [force].
+    /// Friction force on the body of the contact point in the last step, positive to the right of the normal [force].
     pub(super) fn friction_force(&self) -> f64 {
         self.friction.as_ref().map_or(0.0, |friction| friction.force.last())
     }
 
-    /// Force on the body of the point in the completed step [force].
+    /// Contact force on the body of the contact point in the completed step [force].
     pub(super) fn mean_force(&self) -> Vec2 {
         -(self.applied[0] + self.applied[1])
     }
 
-    /// Elastic tension and damping coefficient at the start of the step.
     fn tension_at_start(&self) -> (ForceTarget, f64) {
         let tension = self.normal.elastic(&self.law, Stage::End, 0.0);
         (tension, self.normal.damping(&self.law, tension, self.normal.mass).0)
     }
 
-    /// Damping coefficient, and the rate of the gap for a relative velocity.
     pub(super) fn damped_rate(&self, velocity: Vec2) -> (f64, f64) {
         (self.tension_at_start().1, self.normal_at_start().dot(&velocity))
     }
 
-    /// Adds the force at the start of the step, for rates at the control points of each shape.
+    /// Adds the contact force at the start of the step, for rates at the control points of each shape.
     pub(super) fn add_force_at_start(
         &self,
         shapes: &[Shape],
@@ -600,7 +582,7 @@ impl ContactPair {
         }
     }
 
-    /// Force on the point at the start of the step, as an internal force [force].
+    /// Contact force on the point at the start of the step, as an internal force [force].
     pub(super) fn elastic_force(&self) -> Vec2 {
         self.normal_at_start() * self.tension_at_start().0.force
     }
@@ -629,7 +611,7 @@ impl ContactPair {
         stiffness
     }
 
-    /// Pair restored from a saved state; `None` if the state does not belong to these shapes.
+    /// Creates the pair from a saved state; `None` if the saved data do not fit the shapes.
     pub(super) fn restored(
         shapes: &[Shape],
         candidates: &[CandidatePair],
@@ -676,7 +658,8 @@ impl LocalRows {
         &mut self.columns[at]
     }
 
-    /// Entries of the tangent for the collected unknowns, row by row, for derivatives with respect to the first `N` local coordinates.
+    /// Entries of the tangent for the collected unknowns, row by row.
+    /// The argument contains the derivatives with respect to the first `N` local coordinates.
     pub(super) fn entries<const N: usize>(
         &self,
         tangent: &[[f64; N]; N],
@@ -690,13 +673,12 @@ impl LocalRows {
     }
 }
 
-/// Product of the first components of two vectors.
 fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Vector from one foot to another in a configuration, and the increment that determines its rounding error.
-/// On the same span, the vector is the Taylor polynomial at the first foot.
+/// For two feet on the same span, the vector is computed from the Taylor polynomial at the first foot.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;
     if by == 0.0 {

@@ -7,19 +7,17 @@ use crate::elementary::square;
 use crate::geometry::{Basis, BasisValues, Span, Vec2, cross};
 use crate::system::elements::contact::DiscPath;
 
-/// Number of samples per span in the search for the nearest point, minus one.
+/// Number of intervals between the samples of a span in the search for the nearest point.
 const SAMPLES: usize = 4;
 
-/// Largest number of iterations of the search for the nearest point.
 const MOST_ITERATIONS: usize = 60;
 
-/// Largest cosine of the angle between the axis and the line to the nearest point, for which this line counts as perpendicular to the axis.
+/// Largest cosine of the angle between the axis and the line to the nearest point for which this line counts as perpendicular to the axis.
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Relative rounding error of distances.
 const ROUNDING: f64 = 1e-12;
 
-/// Axis-aligned box.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     low: Vec2,
@@ -50,13 +48,11 @@ impl Bounds {
         (self.high - self.low).norm()
     }
 
-    /// Box that is larger by a fraction of its size on each side.
     fn grown(self, fraction: f64) -> Self {
         let by = (self.high - self.low) * fraction;
         Self { low: self.low - by, high: self.high + by }
     }
 
-    /// Squared distance between two boxes.
     pub(super) fn squared_distance(&self, other: &Self) -> f64 {
         let apart = |axis: usize| {
             (self.low[axis] - other.high[axis]).max(other.low[axis] - self.high[axis]).max(0.0)
@@ -75,14 +71,14 @@ impl Bounds {
 pub(super) struct Foot {
     pub(super) xi: f64,
     pub(super) span: usize,
-    /// Weights of the control points and their derivatives with respect to ξ.
+    /// Weights of the control points, and the derivatives of the weights with respect to ξ.
     pub(super) values: BasisValues,
-    /// True if the foot moves along the axis with the other body. False at the ends of a beam, at corners, and for discs.
+    /// True if the foot can move along the axis of the touched body. False at the ends of a beam, at corners, and for discs.
     pub(super) is_free: bool,
 }
 
 impl Foot {
-    /// Index and derivative of the weight of each control point.
+    /// Index of each control point with the derivative of its weight of the given order.
     pub(super) fn weights(&self, order: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.values.first..).zip(self.values.derivatives(order).iter().copied())
     }
@@ -95,37 +91,34 @@ impl Foot {
 /// Parts of an axis that a contact point can touch, as intervals of the parameter. Infinite bounds extend to the ends of the axis.
 pub(super) type AllowedParts = [(f64, f64); 2];
 
-/// All points of an axis.
 pub(super) const WHOLE_AXIS: AllowedParts =
     [(f64::NEG_INFINITY, f64::INFINITY), (f64::INFINITY, f64::NEG_INFINITY)];
 
-/// Contact point of a body.
 #[derive(Debug, Clone)]
 pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
     /// Quadrature weight [length]; 1 for a point.
     pub(super) weight: f64,
-    /// Parts of the axis of the same beam that the point can touch. Points that are too near along the axis are left out.
+    /// Parts of the axis of the same beam that the contact point can touch, without the parts close to the point along the axis.
     pub(super) allowed: AllowedParts,
-    /// Bodies that the point touches at present, by their index in the element.
+    /// Indices of the bodies that the point touches at present.
     pub(super) touched: Vec<usize>,
 }
 
 /// Configuration of a body: its control points, and the box around it.
-/// Boxes around its spans and samples are computed on demand.
+/// The boxes around the spans and the samples of the spans are computed on demand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
-    /// Box around the body.
     bounds: Bounds,
-    /// Boxes around the spans; empty until they are needed.
+    /// Boxes around the spans; empty until needed.
     spans: Vec<Bounds>,
     /// Samples of all spans, one span after the other.
     samples: Vec<Vec2>,
 }
 
 impl Configuration {
-    /// Returns true if a position is farther from the box around the body than a distance.
+    /// Returns true if the distance of a position from the box around the body is larger than `distance`.
     pub(super) fn is_beyond(&self, position: Vec2, distance: f64) -> bool {
         self.bounds().squared_distance_from(position) >= square(distance)
     }
@@ -135,21 +128,19 @@ impl Configuration {
     }
 }
 
-/// Axis of a body: a curve, or a single point.
 #[derive(Debug, Clone)]
 enum Axis {
     Curve(SampledCurve),
     Point(Box<Foot>),
 }
 
-/// Curve with the weights of its samples.
 #[derive(Debug, Clone)]
 struct SampledCurve {
     basis: Basis,
     spans: Vec<Span>,
     /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
-    /// Size by which the box around the control points of a span is enlarged, as a fraction of the box [-].
+    /// Enlargement of the box around the control points of a span, as a fraction of the box [-].
     growth: f64,
 }
 
@@ -167,21 +158,17 @@ impl SampledCurve {
     }
 }
 
-/// Parameter of a sample between two parameters.
 fn sample(low: f64, high: f64, at: usize) -> f64 {
     low + (high - low) * (at as f64 / SAMPLES as f64)
 }
 
-/// Body in contact.
 #[derive(Debug, Clone)]
 pub(super) struct Shape {
     pub(super) body: usize,
     pub(super) radius: f64,
     axis: Axis,
     pub(super) sites: Vec<ContactSite>,
-    /// Configuration at the start of the step.
     pub(super) start: Configuration,
-    /// Configuration in the present iterate.
     pub(super) end: Configuration,
     /// Displacements of the control points in the present iterate [length].
     pub(super) movements: Vec<Vec2>,
@@ -232,12 +219,12 @@ impl Shape {
         matches!(self.axis, Axis::Point(_))
     }
 
-    /// Sets the masses and the rotary inertias of the control points.
     pub(super) fn set_masses(&mut self, inertias: impl Iterator<Item = [f64; 2]>) {
         (self.masses, self.rotary_inertias) = inertias.map(<(f64, f64)>::from).unzip();
     }
 
-    /// Inverse of the effective mass at a combination of control points [1/mass]. The whole mass of a rigid body counts at its massless points.
+    /// Inverse of the effective mass at a combination of control points [1/mass].
+    /// A massless point of a rigid body has the whole mass of the body.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
@@ -249,7 +236,6 @@ impl Shape {
         if sum.is_finite() { sum } else { 0.0 }
     }
 
-    /// Sets the configuration at the start of the step.
     pub(super) fn begin(&mut self, controls: &[Vec2]) {
         for configuration in [&mut self.start, &mut self.end] {
             configuration.points.clear();
@@ -262,19 +248,16 @@ impl Shape {
         self.rotations.resize(controls.len(), 0.0);
     }
 
-    /// Sets the velocities of the control points at the start of the step.
     pub(super) fn set_velocities(&mut self, rates: impl Iterator<Item = Movement>) {
         self.velocities.clear();
         self.velocities.extend(rates.map(|[x, y, _]| Vec2::new(x, y)));
     }
 
-    /// Uses the configuration of the iterate as the start of the next step.
     pub(super) fn end_step(&mut self) {
         self.start.clone_from(&self.end);
         self.movements.fill(Vec2::zeros());
     }
 
-    /// Sets the configuration of an iterate from the movements of the control points.
     pub(super) fn move_by(&mut self, movements: impl Iterator<Item = Movement>) {
         for (at, [x, y, rotation]) in movements.enumerate() {
             self.movements[at] = Vec2::new(x, y);
@@ -285,7 +268,6 @@ impl Shape {
         self.end.bounds = self.axis.bounds(&self.end.points);
     }
 
-    /// Prepares both configurations for searches of nearest points.
     pub(super) fn prepare_search(&mut self) {
         self.axis.divide(&mut self.start);
         self.axis.divide(&mut self.end);
@@ -333,7 +315,7 @@ impl Shape {
         }
     }
 
-    /// Nearest point of the axis in a configuration, if there is one within the limits of the search.
+    /// Nearest point of the axis in a configuration; `None` if no point satisfies the limits of the search.
     pub(super) fn nearest(&self, at: &Configuration, search: &NearestSearch) -> Option<Foot> {
         let NearestSearch { position, allowed, limit, hint } = *search;
         let (basis, spans) = match &self.axis {
@@ -368,7 +350,7 @@ impl Shape {
         Some(foot)
     }
 
-    /// Returns true if a moving position passes through the moving axis, or through a disc of the given radius.
+    /// Returns true if a moving contact point passes through the moving axis, or through a disc of the given radius.
     pub(super) fn is_crossed(&self, path: &CrossingPath) -> bool {
         let CrossingPath { from, to, allowed, radius } = *path;
         let (basis, spans) = match &self.axis {
@@ -424,31 +406,25 @@ impl Shape {
     }
 }
 
-/// Straight path of a contact point in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CrossingPath {
     pub(super) from: Vec2,
     pub(super) to: Vec2,
-    /// Parts of the axis that the point can touch.
     pub(super) allowed: AllowedParts,
     /// Sum of both radii [length].
     pub(super) radius: f64,
 }
 
-/// Search for the nearest point of an axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestSearch {
     pub(super) position: Vec2,
-    /// Parts of the axis that are searched. The end of a part is not a valid nearest point.
+    /// Searched parts of the axis. The end of a searched part is not a valid nearest point, unless it is an end of the axis.
     pub(super) allowed: AllowedParts,
-    /// Largest distance [length].
     pub(super) limit: f64,
-    /// Span that is searched first.
     pub(super) hint: usize,
 }
 
 impl Axis {
-    /// Box around an axis with the given control points.
     fn bounds(&self, points: &[Vec2]) -> Bounds {
         match self {
             Self::Point(foot) => Bounds::of([points[foot.values.first]].into_iter()),
@@ -479,24 +455,22 @@ impl Axis {
     }
 }
 
-/// Search for the point of one span that is nearest to a position.
 struct SpanSearch<'a> {
     basis: &'a Basis,
     span: &'a Span,
-    /// Configuration of the axis, and the index of the span.
     at: &'a Configuration,
     index: usize,
     position: Vec2,
 }
 
 impl SpanSearch<'_> {
-    /// Vector from the position to the axis, and the first two derivatives of the axis.
+    /// Vector from the position to the axis, and the first two derivatives of the axis with respect to the parameter.
     fn at(&self, xi: f64) -> [Vec2; 3] {
         let [place, slope, bend] = self.basis.curve_in(self.span, xi, &self.at.points);
         [place - self.position, slope, bend]
     }
 
-    /// Squared distance and parameter of the nearest point between two parameters.
+    /// Smallest squared distance between two parameters, with the parameter of the nearest point.
     fn nearest_in(&self, low: f64, high: f64) -> (f64, f64) {
         let is_whole = (low, high) == (self.span.start, self.span.end);
         let squared = |at: usize| match is_whole {
@@ -522,8 +496,8 @@ impl SpanSearch<'_> {
         if squared < nearest { (squared, xi) } else { (nearest, sample(low, high, best)) }
     }
 
-    /// Parameter between `low` and `high` at which the derivative of the distance is zero, computed by Newton's method with bisection.
-    /// Returns `low` or `high` if the derivative has no zero between them.
+    /// Parameter between `low` and `high` at which the derivative of the distance is zero, by Newton's method with bisection.
+    /// Returns `low` or `high` if the derivative of the distance has no zero between them.
     fn stationary(&self, mut low: f64, mut xi: f64, mut high: f64) -> f64 {
         for _ in 0..MOST_ITERATIONS {
             let [apart, slope, bend] = self.at(xi);
@@ -549,7 +523,7 @@ impl SpanSearch<'_> {
 /// Returns true if the origin passes between two points that move along straight lines.
 fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
     let (da, db) = (a_end - a, b_end - b);
-    // Twice the area of the triangle with corners at the origin and at both points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
+    // Twice the area of the triangle with corners at the origin and at the two points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
     let (c0, c1, c2) = (cross(a, b), cross(da, b) + cross(a, db), cross(da, db));
     let root = (c1 * c1 - 4.0 * c2 * c0).sqrt();
     if root.is_nan() {

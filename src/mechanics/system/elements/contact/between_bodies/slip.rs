@@ -1,12 +1,13 @@
 //! Slip of a contact point along the axis of another body, and the directions of the friction force.
 //!
 //! ```text
-//! nₖ: force on the point from c(ξₖ) for a unit normal force      J: turn by a right angle      ρ, ρ': shares of the arm
-//! Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω')      A = Σₖ nₖ·dₖ      dₖ: mean vector from c(ξₖ) to the point
+//! force nₖ on the contact point from c(ξₖ) for a unit normal force, turn J by a right angle, shares ρ and ρ' of the arm
+//! slip Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω') with A = Σₖ nₖ·dₖ and the mean vector dₖ from c(ξₖ) to the point
 //! ```
 //!
-//! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies. With `ρ + ρ' = 1`, the slip is zero
-//! in a rigid rotation, and the sum of all moments is zero, so that the angular momentum is conserved.
+//! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies.
+//! With shares `ρ + ρ' = 1` of the friction arm, the slip is zero in a rigid rotation.
+//! The sum of the moments of friction is zero, so that the angular momentum is conserved.
 
 use super::gap::{GapMovement, GapTrial, LOCAL};
 use crate::geometry::{Vec2, larger, perpendicular};
@@ -15,16 +16,15 @@ use crate::system::elements::contact::SlipTrial;
 /// Number of local coordinates with friction: those of the gap, and the rotations of both bodies.
 pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
 
-/// Rotations of both bodies in an iterate, and the shares of the arm of the friction force that act on them.
+/// Rotations of both bodies in an iterate, and the shares of the arm of the friction force that act on the bodies.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotations {
-    /// Rotations of the body of the point and of the other body [rad].
+    /// Rotations of the body of the contact point and of the other body [rad].
     pub(super) turned: [f64; 2],
-    /// Shares of the arm [-]. Their sum is one.
+    /// Shares of the arm of the friction force [-]. The sum of the shares is one.
     pub(super) shares: [f64; 2],
 }
 
-/// Slip for a change of the gap.
 pub(super) fn slip_trial(
     gap: &GapTrial,
     movement: &GapMovement,

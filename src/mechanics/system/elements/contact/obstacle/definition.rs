@@ -154,7 +154,6 @@ impl ElementDef for Obstacle {
     }
 }
 
-/// Contact points of a beam.
 fn points_of_beam(
     site: &dyn AssemblyContext,
     beam: usize,

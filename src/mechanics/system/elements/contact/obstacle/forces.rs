@@ -1,9 +1,9 @@
 //! Contact forces of an obstacle in a step.
 //!
 //! `docs/theory.md`, section 9.7, derives the forces.
-//! The tension of each contact point is an independent unknown, as the section forces of beams are.
+//! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
-//! The number of iterations therefore does not depend on the stiffness.
+//! Due to the intersection of both laws, the number of iterations does not depend on the stiffness of the contact.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
@@ -18,7 +18,6 @@ use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
 
-/// Contact points of one body.
 pub(super) struct TouchingBody {
     body: usize,
     points: Vec<ContactPoint>,
@@ -29,7 +28,7 @@ pub(super) struct TouchingBody {
     /// True if the hull touches the obstacle at the start of the step or in an iterate. Otherwise, the points have no forces and are not updated.
     is_active: bool,
     watch: ContactWatch,
-    /// Mean rate of the most loaded gap in the last step [length/time].
+    /// Mean rate of the gap with the largest force in the last step [length/time].
     last_rate: f64,
 }
 
@@ -42,7 +41,6 @@ impl TouchingBody {
         Self { body, points, is_convex, is_far: false, is_active: true, watch, last_rate: 0.0 }
     }
 
-    /// Returns true if a line separates the control points from the obstacle.
     fn is_separated(
         &self,
         surface: &Surface,
@@ -259,7 +257,6 @@ impl InternalForce for ObstacleForces {
         }
     }
 
-    /// The obstacle does not move, so it does no work.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let mut sum = WorkAndImpulse::default();
         for point in self.active_points() {

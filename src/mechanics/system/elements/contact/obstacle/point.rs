@@ -1,4 +1,4 @@
-//! Contact point: one quadrature point of a beam, a particle or a point of a rigid body, in a step.
+//! Contact with an obstacle at one point in a step: a quadrature point of a beam, a particle or a point of a rigid body.
 
 use super::definition::ObstacleShape;
 use super::slip::slip_trial;
@@ -16,7 +16,6 @@ use crate::system::elements::coordinate::Coordinate;
 use crate::system::elements::elongation::ElongationTerm;
 use crate::system::elements::mixed_force::ForceTarget;
 
-/// Surface of an obstacle with its contact law.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface {
     pub(super) shape: ObstacleShape,
@@ -131,7 +130,7 @@ struct PointInertia {
 }
 
 impl PointInertia {
-    /// `diagonal` is the diagonal of the inertia matrix. The whole mass of a rigid body counts at its points.
+    /// Creates the inertia from the diagonal of the inertia matrix. A point of a rigid body has the whole mass of the body.
     fn new(place: &BodyPoint, body: &Body, diagonal: &[f64]) -> Self {
         let of = |degree: usize| diagonal.get(degree).copied().unwrap_or(f64::INFINITY);
         let sum = |component: usize| -> f64 {
@@ -150,12 +149,10 @@ impl PointInertia {
         }
     }
 
-    /// Arm of the point from the centre of mass of its rigid body [length].
     fn arm(&self, position: Vec2, body: &Body) -> Vec2 {
         if self.is_linked { position - body.dynamics.control_points()[0] } else { Vec2::zeros() }
     }
 
-    /// Effective mass for an impulse with a lever about the centre of mass [mass].
     fn mass(&self, lever: f64) -> f64 {
         1.0 / (self.mobility + square(lever) * self.angular_mobility)
     }
@@ -166,15 +163,15 @@ pub(super) struct ContactPoint {
     pub(super) place: BodyPoint,
     inertia: PointInertia,
     normal: NormalForce,
-    /// Vector from the obstacle to the point at the start of the step [length].
+    /// Vector from the obstacle to the contact point at the start of the step [length].
     start: Vec2,
     trial: GapTrial,
     linearised: GapTrial,
-    /// Applied forces at the start of the step and in the present iterate [force].
+    /// Forces applied at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
     /// Friction; `None` without friction.
     friction: Option<Box<PointFriction<3>>>,
-    /// Applied friction moment in the present iterate, as an internal moment [force·length].
+    /// Friction moment applied in the present iterate, as an internal moment [force·length].
     applied_moment: f64,
 }
 
@@ -193,13 +190,11 @@ impl ContactPoint {
         }
     }
 
-    /// Adds friction to the contact point, with the coefficient of friction of the obstacle.
     pub(super) fn with_friction(self, surface: &Surface) -> Self {
         let friction = Box::new(PointFriction::new(surface.friction));
         Self { friction: Some(friction), ..self }
     }
 
-    /// Prepares the start of a simulation. `diagonal` is the diagonal of the inertia matrix.
     pub(super) fn begin(&mut self, surface: &Surface, body: &Body, diagonal: &[f64]) {
         self.inertia = PointInertia::new(&self.place, body, diagonal);
         self.locate(surface, body);
@@ -214,7 +209,8 @@ impl ContactPoint {
         self.place.interpolate(body.dynamics.control_points())
     }
 
-    /// Gap at the start of the step. A closed gap is the sum of its increments, because the rounding error of positions would store energy.
+    /// Gap at the start of the step.
+    /// The gap of a closed contact is the sum of its increments, because the rounding error of positions would store energy.
     pub(super) fn present_gap(&self, surface: &Surface, body: &Body) -> f64 {
         match self.is_closed() {
             true => self.normal.gap.value,
@@ -222,7 +218,6 @@ impl ContactPoint {
         }
     }
 
-    /// Updates the gap and the direction at the start of a step.
     fn locate(&mut self, surface: &Surface, body: &Body) {
         let (gap, start) = surface.gap(self.position(body));
         self.start = start;
@@ -242,7 +237,8 @@ impl ContactPoint {
         }
     }
 
-    /// Present effective masses for impulses along the normal and along the surface [mass]. At a point of a rigid body, they depend on the angle of the body.
+    /// Effective masses for impulses along the normal and along the surface [mass].
+    /// At a point of a rigid body, the effective masses depend on the angle of the body.
     fn masses(&self, surface: &Surface, body: &Body) -> [f64; 2] {
         let position = self.position(body);
         let normal = surface.gradient(surface.gap(position).1);
@@ -278,14 +274,12 @@ impl ContactPoint {
         (self.normal.approach, self.normal.last_rate) = (rate.abs(), rate);
     }
 
-    /// Returns true if a straight movement leads through a disc.
     pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
         let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
         let (start, radius) = (self.start, radius + surface.radius);
         DiscPath { start, movement, radius, is_closed: self.is_closed() }.passes_through()
     }
 
-    /// Removes the force, because no contact is possible in the present iterate.
     pub(super) fn open(&mut self) {
         self.normal.open();
         self.linearised = GapTrial::NONE;
@@ -318,13 +312,12 @@ impl ContactPoint {
         duration.is_finite().then_some(contact)
     }
 
-    /// Vector at the point, interpolated from values of the unknowns.
     pub(super) fn vector(&self, body: &Body, values: &[f64]) -> Vec2 {
         let [x, y, _] = body.at(&self.place, values);
         Vec2::new(x, y)
     }
 
-    /// Adds the present force to `out`. Returns its magnitude and its relative difference from the law.
+    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         surface: &Surface,
@@ -357,7 +350,7 @@ impl ContactPoint {
         ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the law of contact.
+    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the contact law.
     pub(super) fn add_linearised(
         &mut self,
         surface: &Surface,
@@ -446,7 +439,7 @@ impl ContactPoint {
         }
     }
 
-    /// Adds a force [force] and a moment [force·length] at the point to `out`.
+    /// Adds a force [force] and a moment [force·length] at the contact point to `out`.
     fn scatter_friction(&self, body: &Body, [x, y, moment]: Movement, out: &mut [f64]) {
         self.scatter(body, Vec2::new(x, y), out);
         self.scatter_moment(body, moment, out);
@@ -458,7 +451,6 @@ impl ContactPoint {
         }
     }
 
-    /// Interpolates displacements and rotations that are given at the control points of the body.
     fn interpolate(&self, at_points: &[Movement]) -> Movement {
         self.place.weights().fold([0.0; 3], |sum, (at, share)| {
             [0, 1, 2].map(|component| sum[component] + at_points[at][component] * share)
@@ -470,7 +462,7 @@ impl ContactPoint {
         -(self.applied[0] + self.applied[1])
     }
 
-    /// Angular impulse on the body about the origin in the completed step [force·length·time].
+    /// Angular impulse of the contact force on the body about the origin in the completed step [force·length·time].
     pub(super) fn angular_impulse(&self, body: &Body, duration: f64) -> f64 {
         let [x, y, _] = self.interpolate(body.moved());
         let middle = self.position(body) + Vec2::new(x, y) * 0.5;
@@ -524,7 +516,7 @@ impl ContactPoint {
         }
     }
 
-    /// Ends a step. Returns the dissipated energy [energy].
+    /// Ends a step. Returns the energy dissipated in the contact [energy].
     pub(super) fn advance(&mut self, surface: &Surface, time: ContactTime, body: &Body) -> f64 {
         self.follow(surface, time, self.interpolate(body.moved()));
         let GapTrial { change, moved, .. } = self.trial;
@@ -570,17 +562,14 @@ impl ContactPoint {
     }
 }
 
-/// Closed contact at the start of a step.
 pub(super) struct ClosedContact {
     /// Gradient of the gap [-].
     pub(super) gradient: Vec2,
-    /// Tension [force] and stiffness [force/length].
     pub(super) tension: ForceTarget,
     /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
     /// Damping coefficient of friction that sticks [force·time/length].
     pub(super) sticking_damping: f64,
-    /// Radius of the body around the point [length].
     pub(super) radius: f64,
     /// Distance from the centre of a disc [length]; infinite for a half-plane.
     pub(super) radius_of_curvature: f64,
