@@ -51,6 +51,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         ends: EndAction::Bounce,
         restitution: 1.0,
         friction: 0.0,
+        static_friction: None,
         side: None,
         velocities: StartVelocities::Check,
     };

@@ -80,6 +80,7 @@ fn beaded_beam(spans: usize, beads: usize) -> System {
             ends: EndAction::Bounce,
             restitution: 1.0,
             friction: 0.0,
+            static_friction: None,
             side: None,
             velocities: StartVelocities::Check,
         };

@@ -144,6 +144,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             ends: EndAction::Bounce,
             restitution: 1.0,
             friction: 0.0,
+            static_friction: None,
             side: None,
             velocities: StartVelocities::Check,
         };

@@ -82,6 +82,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         ends: EndAction::Stop,
         restitution: 1.0,
         friction: 0.0,
+        static_friction: None,
         side: None,
         velocities: StartVelocities::Check,
     };

@@ -37,6 +37,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
         ends: EndAction::Stop,
         restitution: 1.0,
         friction: 0.0,
+        static_friction: None,
         side: None,
         velocities: StartVelocities::Check,
     }

@@ -215,6 +215,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         ends: EndAction::Contact,
         restitution: 1.0,
         friction: 0.0,
+        static_friction: None,
         side: None,
         velocities: StartVelocities::Check,
     };

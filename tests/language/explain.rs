@@ -57,6 +57,7 @@ fn with_bead() -> Scene {
         ends: EndAction::Stop,
         restitution: 1.0,
         friction: 0.0,
+        static_friction: None,
         side: None,
         velocities: StartVelocities::Check,
     };

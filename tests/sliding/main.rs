@@ -19,6 +19,7 @@ mod moving_mass;
 mod one_impact;
 mod orders;
 mod relaxed;
+mod stick_slip;
 mod together;
 mod tracks;
 mod unilateral;

@@ -27,6 +27,8 @@ pub struct Slider {
     pub restitution: f64,
     /// Coefficient of friction along the master [-].
     pub friction: f64,
+    /// Coefficient of friction while the slider sticks, at least `friction` [-]; `None` if it equals `friction`.
+    pub static_friction: Option<f64>,
     /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves the axis.
     pub side: Option<Side>,
     /// Treatment of velocities of the slave across the master at the start.
@@ -46,6 +48,7 @@ impl Slider {
             ends: EndAction::default(),
             restitution: 1.0,
             friction: 0.0,
+            static_friction: None,
             side: None,
             velocities: StartVelocities::default(),
         }
@@ -53,7 +56,12 @@ impl Slider {
 
     /// Returns true if the slider loses energy at its ends, by friction or when it lands on its master.
     pub fn dissipates(&self) -> bool {
-        self.restitution < 1.0 || self.friction > 0.0 || self.side.is_some()
+        self.restitution < 1.0 || self.has_friction() || self.side.is_some()
+    }
+
+    /// Returns true if a coefficient of friction of the slider is not zero.
+    pub fn has_friction(&self) -> bool {
+        self.friction > 0.0 || self.static_friction.is_some_and(|coefficient| coefficient > 0.0)
     }
 }
 

@@ -90,7 +90,8 @@ pub const TABLE: BindingTable = BindingTable {
                  bounces repeatedly within few steps stays in contact with the end stop until \
                  it is pulled away. With `friction`, the slider sticks to the beam or slips \
                  with a force along the beam of `friction` times the force across it (Coulomb). \
-                 Steps end where slip ends. A slider that sticks does not creep. The work of \
+                 A slider that sticks starts to slip at `static_friction` times that force. Steps end \
+                 where slip starts or ends. A slider that sticks does not creep. The work of \
                  friction is in the column dissipated.NAME, and the friction force on the beam, \
                  positive towards its end, in NAME.friction. Friction needs rule: conserving() \
                  and the integrator energy_momentum(); equilibria, modes and impacts are without \
@@ -260,6 +261,10 @@ const SLIDER_KEYS: &[Parameter] = &[
         .non_negative()
         .doc("coefficient of friction along the beam; default: 0")
         .optional(),
+    number("static_friction")
+        .non_negative()
+        .doc("coefficient of friction while the slider sticks, at least `friction`; default: `friction`")
+        .optional(),
     choice("velocities", &[VELOCITIES[0].0, VELOCITIES[1].0])
         .doc(
             "treatment of incompatible initial velocities across the beam: refused with an \
@@ -379,6 +384,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         ends,
         restitution,
         friction: options.optional_number("friction").unwrap_or(0.0),
+        static_friction: options.optional_number("static_friction"),
         side,
         velocities: meant(&VELOCITIES, &options.text("velocities")?),
     };
@@ -424,6 +430,7 @@ fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
             SliderError::Open { .. } if is_placed => CallPart::Key("at".into()),
             SliderError::SlaveOnMaster(_) => CallPart::Argument(1),
             SliderError::FrictionRule { .. } => CallPart::Key("rule".into()),
+            SliderError::StaticFriction { .. } => CallPart::Key("static_friction".into()),
             SliderError::SideWith { .. } | SliderError::OtherSide { .. } => {
                 CallPart::Key("side".into())
             }

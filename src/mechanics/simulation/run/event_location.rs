@@ -164,8 +164,9 @@ impl Simulation {
                     bracket_sign_change(cut, overshoot, push, shortest)
                 }
                 SliderEvent::Landing(slider) => self.bracket_landing(cut, overshoot, slider)?,
-                SliderEvent::SlipStart(_) => {
-                    return Ok(EventStep { step: None, event: Event::Slider(target) });
+                SliderEvent::SlipStart(slider) => {
+                    let reserve = self.model.sticking_reserve(slider);
+                    bracket_sign_change(cut, overshoot, reserve, SHORT * self.dt())
                 }
             };
             let mut bracket = match bracket {

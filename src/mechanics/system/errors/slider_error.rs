@@ -85,6 +85,10 @@ pub enum SliderError {
     #[error("slider '{slider}': friction is {friction}, but must be zero or more")]
     Friction { slider: String, friction: f64 },
     #[error(
+        "slider '{slider}': static_friction is {static_friction}, but must be at least friction, which is {friction}"
+    )]
+    StaticFriction { slider: String, static_friction: f64, friction: f64 },
+    #[error(
         "slider '{slider}': friction is available with the conserving rule only, not with the {rule} rule"
     )]
     FrictionRule { slider: String, rule: &'static str },

@@ -95,6 +95,10 @@ impl System {
     }
 
     /// Slip speed of a slider with friction at the start of the last attempted step [length/time].
+    pub(crate) fn sticking_reserve(&self, slider: usize) -> f64 {
+        self.slider(slider).sticking_reserve()
+    }
+
     pub(crate) fn slip_speed(&self, slider: usize) -> f64 {
         self.slider(slider).slip_speed()
     }

@@ -80,7 +80,7 @@ impl Scene {
 
     /// Types and names of sliders with friction.
     pub fn sliders_with_friction(&self) -> impl Iterator<Item = String> {
-        let sliders = self.sliders.iter().filter(|slider| slider.friction > 0.0);
+        let sliders = self.sliders.iter().filter(|slider| slider.has_friction());
         sliders.map(|slider| format!("slider '{}'", slider.name))
     }
 

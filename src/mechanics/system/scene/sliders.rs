@@ -81,7 +81,13 @@ impl Scene {
             let (slider, friction) = (slider.name.clone(), slider.friction);
             return Err(SliderError::Friction { slider, friction }.into());
         }
-        if slider.friction > 0.0 && slider.rule != SlidingRule::Conserving {
+        if let Some(static_friction) = slider.static_friction
+            && !(static_friction >= slider.friction && static_friction.is_finite())
+        {
+            let (slider, friction) = (slider.name.clone(), slider.friction);
+            return Err(SliderError::StaticFriction { slider, static_friction, friction }.into());
+        }
+        if slider.has_friction() && slider.rule != SlidingRule::Conserving {
             let (rule, slider) = (slider.rule.entry().name, slider.name.clone());
             return Err(SliderError::FrictionRule { slider, rule }.into());
         }
@@ -165,7 +171,7 @@ impl Scene {
         }
         let refused = [
             (slider.track.is_some(), "on a track", "choose a single beam"),
-            (slider.friction > 0.0, "with friction", "remove the friction"),
+            (slider.has_friction(), "with friction", "remove the friction"),
             (
                 slider.rule != SlidingRule::Conserving,
                 "with a rule other than conserving",

@@ -218,9 +218,14 @@ impl Sliders {
                 Some(FrictionTransition::SlipEnds { reversed: distance }) => {
                     return Some(Overshoot { event: number, distance });
                 }
-                Some(FrictionTransition::SlipStarts) => {
+                Some(FrictionTransition::SlipStarts { excess }) => {
                     let event = SliderEvent::SlipStart(index).number();
-                    starts = starts.or(Some(Overshoot { event, distance: 0.0 }));
+                    starts = starts.or(Some(Overshoot { event, distance: excess }));
+                }
+                None if aim == Some(SliderEvent::SlipStart(index)) => {
+                    let event = SliderEvent::SlipStart(index).number();
+                    let missed = slider.missed_slip_start();
+                    starts = missed.map(|reserve| Overshoot { event, distance: -reserve });
                 }
                 None => {}
             }

@@ -18,6 +18,7 @@ mod passing;
 mod place;
 mod saved;
 mod seams;
+mod static_friction;
 mod stops;
 mod unilateral;
 
@@ -125,8 +126,7 @@ impl SliderContact {
             steps_per_impact: 0.0,
             length: rail.length() / (last - first),
             size: rail.length(),
-            friction: (slider.friction > 0.0)
-                .then(|| Box::new(SliderFriction::new(slider.friction))),
+            friction: slider.has_friction().then(|| Box::new(SliderFriction::of(slider))),
             unilateral: slider.side.map(|side| Box::new(UnilateralContact::new(side.sign()))),
             master: rail,
             track: None,

@@ -1,9 +1,10 @@
 //! Friction of a slider along its master: state between steps, and transitions between slip and stick.
 
 use super::SliderContact;
+use super::static_friction::{StaticFriction, StickingForces};
 use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
-use crate::joints::{Friction, FrictionForces, FrictionMode};
+use crate::joints::{Friction, FrictionForces, FrictionMode, Slider};
 use crate::system::bodies::Body;
 
 /// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
@@ -32,13 +33,18 @@ pub enum FrictionTransition {
         reversed: f64,
     },
     /// The force along the master exceeds the friction limit.
-    SlipStarts,
+    SlipStarts {
+        /// Excess at the end of the step [force]; zero if the step has to be repeated with slip.
+        excess: f64,
+    },
 }
 
 #[derive(Debug, Clone)]
 pub struct SliderFriction {
     /// Coefficient of friction [-].
     coefficient: f64,
+    /// Static friction; `None` if the coefficients of slip and stick are equal.
+    static_friction: Option<StaticFriction>,
     pub mode: FrictionMode,
     /// Velocity of the slave at the start of the step [length/time].
     slave_velocity: Vec2,
@@ -63,9 +69,11 @@ pub struct SliderFriction {
 }
 
 impl SliderFriction {
-    pub fn new(coefficient: f64) -> Self {
+    pub fn of(slider: &Slider) -> Self {
+        let larger = slider.static_friction.filter(|coefficient| *coefficient > slider.friction);
         Self {
-            coefficient,
+            coefficient: slider.friction,
+            static_friction: larger.map(StaticFriction::new),
             mode: FrictionMode::Stick,
             slave_velocity: Vec2::zeros(),
             master_velocities: Vec::new(),
@@ -132,19 +140,32 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that represent the state of the friction: the sign of the slip, and the mean force.
-    pub(super) fn numbers(&self) -> [f64; 2] {
-        [self.mode_number(), self.force]
+    /// Numbers that represent the state of the friction: the sign of the slip, the mean force, and the state of the static friction.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let sticking = self.static_friction.as_ref().map(StaticFriction::numbers);
+        [self.mode_number(), self.force].into_iter().chain(sticking.into_iter().flatten())
     }
 
-    pub(super) fn restore(&mut self, [mode, force]: [f64; 2]) {
-        self.set_mode_number(mode);
-        self.force = force;
+    pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
+        self.set_mode_number(next());
+        self.force = next();
+        if let Some(of) = &mut self.static_friction {
+            of.restore(std::array::from_fn(|_| next()));
+        }
     }
 
     fn change_mode(&mut self, mode: FrictionMode) {
         self.mode = mode;
         self.transitions += 1;
+        self.static_friction.iter_mut().for_each(StaticFriction::clear);
+    }
+
+    /// Static friction with the forces of the attempted step; `None` without static friction or if the slider slips.
+    fn sticking(&self) -> Option<(&StaticFriction, StickingForces)> {
+        let of = self.static_friction.as_ref().filter(|_| self.mode == FrictionMode::Stick)?;
+        let FrictionForces { along, across, tangent, .. } = self.forces;
+        let [along, across] = [along / tangent, across / tangent];
+        Some((of, StickingForces { along, across, duration: self.duration }))
     }
 }
 
@@ -195,6 +216,10 @@ impl SliderContact {
             self.lost_energy += increment * friction.forces.along;
             friction.force = friction.forces.along / friction.forces.tangent;
             friction.fixed_steps += usize::from(friction.fixed_force.is_some());
+            let sticking = friction.sticking().map(|(_, step)| step);
+            if let (Some(step), Some(of)) = (sticking, &mut friction.static_friction) {
+                of.advance(step);
+            }
         }
     }
 
@@ -216,9 +241,13 @@ impl SliderContact {
                 (is_against || ends).then_some(FrictionTransition::SlipEnds { reversed })
             }
             FrictionMode::Stick => {
-                let is_exceeded = along.abs() > friction.coefficient * across.abs();
+                let excess = match friction.sticking() {
+                    Some((of, step)) => of.excess(step),
+                    None => (along.abs() > friction.coefficient * across.abs()).then_some(0.0),
+                };
                 let is_jammed = friction.transitions > 2 * MOST_TRANSITIONS;
-                (is_exceeded && !is_jammed).then_some(FrictionTransition::SlipStarts)
+                let excess = excess.filter(|_| !is_jammed)?;
+                Some(FrictionTransition::SlipStarts { excess })
             }
         }
     }
@@ -232,6 +261,18 @@ impl SliderContact {
             return Some(reversed.abs().max(negligible));
         }
         (reversed.abs() > negligible).then_some(reversed)
+    }
+
+    /// Friction limit minus the force along the master, if an attempted step misses the start of a slip at which it has to end [force].
+    pub fn missed_slip_start(&self) -> Option<f64> {
+        let (of, step) = self.friction_in_step()?.sticking()?;
+        of.missed(step)
+    }
+
+    /// Friction limit minus the force along the master at the start of the step [force]; zero without static friction.
+    pub fn sticking_reserve(&self) -> f64 {
+        let friction = self.active_friction();
+        friction.and_then(SliderFriction::sticking).map_or(0.0, |(of, _)| of.start_reserve())
     }
 
     /// Largest velocity along the master that counts as zero [length/time].
@@ -278,7 +319,9 @@ impl SliderContact {
             return false;
         }
         let Some(friction) = &mut self.friction else { return false };
-        let is_overloaded = along.abs() > friction.coefficient * across.abs();
+        // The steps locate the start of a slip with static friction.
+        let is_overloaded =
+            friction.static_friction.is_none() && along.abs() > friction.coefficient * across.abs();
         if is_overloaded {
             friction.set_mode_number(along.signum());
         }

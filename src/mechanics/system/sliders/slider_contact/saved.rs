@@ -8,14 +8,12 @@ use crate::system::step_mean::StepMean;
 
 const ROUTE: usize = 3;
 
-const FRICTION: usize = 2;
-
 const UNILATERAL: usize = 2;
 
 impl SliderContact {
     pub fn saved(&self) -> usize {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
-        let of_friction = if self.friction.is_some() { FRICTION } else { 0 };
+        let of_friction = self.friction.as_ref().map_or(0, |friction| friction.numbers().count());
         let of_side = if self.unilateral.is_some() { UNILATERAL } else { 0 };
         13 + of_friction + of_side + CONTACT_UNKNOWNS + of_route
     }
@@ -59,7 +57,7 @@ impl SliderContact {
         (self.stop_energy, self.lost_energy, self.stop_left_at) = (next(), next(), next());
         self.stop_may_pull = next() != 0.0;
         if let Some(friction) = &mut self.friction {
-            friction.restore(std::array::from_fn(|_| next()));
+            friction.restore(next);
         }
         if let Some(contact) = &mut self.unilateral {
             contact.restore(std::array::from_fn(|_| next()));

@@ -53,7 +53,7 @@ impl TouchingBody {
 
     /// Returns true if a point passes through the obstacle in a step. Paths are straight, so only discs can be crossed.
     fn crosses(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
-        if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) || !self.is_active {
+        if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) {
             return false;
         }
         let controls = body.dynamics.control_points();
@@ -62,7 +62,7 @@ impl TouchingBody {
         let ends = control_points.map(|(at, start)| start + body.vector_at(at, increments));
         let is_clear = self.is_far && surface.is_beyond(middle, ends);
         let movement = |point: &ContactPoint| point.vector(body, increments);
-        !is_clear && self.points.iter().any(|point| point.crosses(surface, movement(point)))
+        !is_clear && self.points.iter().any(|point| point.crosses(surface, body, movement(point)))
     }
 
     fn begin(&mut self, surface: &Surface, body: &Body, rates: Option<&[f64]>) {

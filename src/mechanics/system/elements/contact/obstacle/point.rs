@@ -274,9 +274,10 @@ impl ContactPoint {
         (self.normal.approach, self.normal.last_rate) = (rate.abs(), rate);
     }
 
-    pub(super) fn crosses(&self, surface: &Surface, movement: Vec2) -> bool {
+    pub(super) fn crosses(&self, surface: &Surface, body: &Body, movement: Vec2) -> bool {
         let ObstacleShape::Disc { radius, .. } = surface.shape else { return false };
-        let (start, radius) = (self.start, radius + surface.radius);
+        let (_, start) = surface.gap(self.position(body));
+        let radius = radius + surface.radius;
         DiscPath { start, movement, radius, is_closed: self.is_closed() }.passes_through()
     }
 
