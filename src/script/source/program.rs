@@ -70,10 +70,15 @@ impl Program {
         })?;
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        // A byte order mark is removed, and a line that starts with `#!` becomes a comment.
+        // A byte order mark is removed, and a line that starts with `#!` becomes a comment of the same length.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-        let text =
-            text.strip_prefix("#!").map_or_else(|| text.to_owned(), |rest| format!("// {rest}"));
+        let text = match text.strip_prefix("#!") {
+            Some(rest) => match rest.strip_prefix(['/', '!']) {
+                Some(rest) => format!("// {rest}"),
+                None => format!("//{rest}"),
+            },
+            None => text.to_owned(),
+        };
         Ok(Self { name, text: text.into(), folder: folder.into() })
     }
 
