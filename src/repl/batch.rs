@@ -37,53 +37,43 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Commands and statements in `lines`, one input at a time. A line that continues an input belongs to it.
-pub fn inputs(lines: impl BufRead) -> impl Iterator<Item = Result<String, Diagnostic>> {
-    let mut lines = lines_of(lines).peekable();
-    std::iter::from_fn(move || {
-        let mut input = String::new();
-        while let Some(line) = lines.next() {
-            match line {
-                Ok(line) => {
-                    input.push_str(line.trim_start_matches('\u{feff}'));
-                    input.push('\n');
-                }
-                Err(error) => {
-                    let message = Diagnostic::general(format!("cannot read the input: {error}"));
-                    return Some(Err(message.with_hint("the input must be UTF-8 text")));
-                }
-            }
-            if input.len() as u64 > LARGEST_SCRIPT {
-                let message = Diagnostic::general("an input is longer than 16 megabytes");
-                return Some(Err(
-                    message.with_hint("is a bracket or a quotation mark never closed?")
-                ));
-            }
-            // The next line is read to decide whether an input is complete.
-            // A program that uses the pipe interactively must end an input with a semicolon or an empty line.
-            let is_complete = is_command(&input)
-                || completeness_of_script(&input) == Completeness::Complete
-                    && (input.trim_end().ends_with(';')
-                        || !matches!(lines.peek(), Some(Ok(next)) if continues(next)));
-            if is_complete {
-                return Some(Ok(input));
-            }
-        }
-        // An incomplete input is also evaluated, so that the session reports its error.
-        (!input.trim().is_empty()).then_some(Ok(input))
-    })
-}
-
 /// Evaluates inputs from `lines`, until there are no more lines, an input fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
-    for input in inputs(lines) {
-        let outcome = match input {
-            Ok(input) => shell.submit(&input),
-            Err(unreadable) => shell.report_error(&unreadable),
-        };
-        if outcome != CommandOutcome::Success {
-            return outcome;
+    let mut input = String::new();
+    let mut lines = lines_of(lines).peekable();
+    while let Some(line) = lines.next() {
+        match line {
+            Ok(line) => {
+                input.push_str(line.trim_start_matches('\u{feff}'));
+                input.push('\n');
+            }
+            Err(error) => {
+                let message = Diagnostic::general(format!("cannot read the input: {error}"));
+                return shell.report_error(&message.with_hint("the input must be UTF-8 text"));
+            }
+        }
+        if input.len() as u64 > LARGEST_SCRIPT {
+            let message = Diagnostic::general("an input is longer than 16 megabytes");
+            return shell.report_error(
+                &message.with_hint("is a bracket or a quotation mark never closed?"),
+            );
+        }
+        // The next line is read to decide whether an input is complete.
+        // A program that uses the pipe interactively must end an input with a semicolon or an empty line.
+        let is_complete = is_command(&input)
+            || completeness_of_script(&input) == Completeness::Complete
+                && (input.trim_end().ends_with(';')
+                    || !matches!(lines.peek(), Some(Ok(next)) if continues(next)));
+        if is_complete {
+            match shell.submit(&std::mem::take(&mut input)) {
+                CommandOutcome::Success => (),
+                other => return other,
+            }
         }
     }
-    CommandOutcome::Success
+    match input.trim() {
+        "" => CommandOutcome::Success,
+        // An incomplete input is also evaluated, so that the session reports its error.
+        _ => shell.submit(&input),
+    }
 }

@@ -5,7 +5,6 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::batch;
 use super::commands::explained;
 use super::editor::surroundings::{CompletionContext, ScriptFunction, Variable};
 use super::editor::type_before;
@@ -18,7 +17,7 @@ use crate::script::packages::language;
 use crate::script::source::definitions::definitions;
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
-use crate::script::source::scanner::{Token, TokenKind, scan};
+use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
@@ -86,11 +85,35 @@ fn after_statements<T: Send>(
             ..RunSettings::silent(RunMode::DryRun)
         };
         let mut shell = Shell::new(Session::new(language(), settings)?, ReplyTarget::Pipe);
-        for input in batch::inputs(text.as_bytes()).take_while(|_| !is_late()) {
-            shell.session_mut().eval(&input?);
+        for statement in statements(text).into_iter().take_while(|_| !is_late()) {
+            shell.session_mut().eval(statement);
         }
         Ok(work(&mut shell))
     })?
+}
+
+/// Words that continue a statement after a block.
+const CONTINUING: &[&str] = &["else", "catch", "while", "until"];
+
+/// Statements of a text, with the comments before them. A bracket that is never closed does not hide the following statements.
+fn statements(text: &str) -> Vec<&str> {
+    let tokens: Vec<Token> = scan(text).into_iter().filter(Token::is_significant).collect();
+    let (partners, _) = pair(&tokens);
+    let (mut found, mut start, mut index) = (Vec::new(), 0, 0);
+    while let Some(token) = tokens.get(index) {
+        let closer = partners[index].unwrap_or(index).max(index);
+        let next = tokens.get(closer + 1);
+        let begins =
+            |next: &Token| next.kind == TokenKind::Word && !CONTINUING.contains(&next.of(text));
+        let is_block = token.kind == TokenKind::Open(Bracket::Curly);
+        if token.of(text) == ";" || is_block && next.is_some_and(begins) {
+            found.push(&text[start..tokens[closer].end]);
+            start = tokens[closer].end;
+        }
+        index = closer + 1;
+    }
+    found.push(&text[start..]);
+    found
 }
 
 /// Name on which help is requested.
@@ -142,5 +165,41 @@ impl Asked {
         let is_function = shell.session().functions().any(|function| function.name == word);
         let function = is_function.then(|| word.to_owned());
         member.into_iter().chain([path]).chain(function).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(text: &str) -> Vec<(String, String)> {
+        let program = Program::named("draft.rhai", text);
+        let names = names_at(&program, text.len(), Limits::default()).expect("names");
+        names.variables.into_iter().map(|known| (known.name, known.of)).collect()
+    }
+
+    #[test]
+    fn texts_are_divided_into_statements() {
+        let text = "let a = 1; // one\nif a { 1; } else { 2; } fn f(x) { x; }\nlet g = |x| { x } ; g(#{ a: 1 })";
+        assert_eq!(
+            statements(text),
+            [
+                "let a = 1;",
+                " // one\nif a { 1; } else { 2; }",
+                " fn f(x) { x; }",
+                "\nlet g = |x| { x } ;",
+                " g(#{ a: 1 })",
+            ]
+        );
+        assert_eq!(statements("let a = [1; let b = 2; }"), ["let a = [1;", " let b = 2;", " }"]);
+        assert_eq!(statements(""), [""]);
+    }
+
+    #[test]
+    fn statements_with_errors_do_not_hide_the_names_after_them() {
+        let found = known("let a = [1, 2;\nlet b = sqr(1);\nlet c = line([0, 0], [1, 1]);\nc.");
+        let of =
+            |name: &str| found.iter().find(|(known, _)| known == name).map(|(_, of)| of.as_str());
+        assert_eq!((of("a"), of("b"), of("c")), (Some(""), Some(""), Some("curve")));
     }
 }

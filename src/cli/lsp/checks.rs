@@ -1,5 +1,6 @@
 //! Checks of documents, as by `withy check`.
 
+use std::io::stdout;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -39,6 +40,8 @@ pub fn start(uri: &Uri, document: &mut Document) {
             return;
         }
         let found = check(&program, &stopped);
+        // The next message is not written between the test and the answer.
+        let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
             let errors = found.iter().map(|error| error_of(error, &program));
             let notes = pitfalls(&program.text).into_iter().map(|of| note_of(of, &program.text));

@@ -64,6 +64,11 @@ impl Document {
         Program::from_bytes(&uris::path(uri), self.text.clone().into_bytes())
     }
 
+    /// Forgets names of imported files, which may have changed.
+    pub fn forget_names(&mut self) {
+        self.names.take();
+    }
+
     /// Names that are known at the start of the line of byte `offset`.
     pub fn names(&self, uri: &Uri, offset: usize) -> Option<CompletionContext> {
         let start = self.text[..offset].rfind('\n').map_or(0, |end| end + 1);

@@ -201,10 +201,10 @@ impl Server {
             }
             // Other documents may import the saved file.
             LspNotificationMethod::TextDocumentDidSave => {
-                self.documents
-                    .0
-                    .iter_mut()
-                    .for_each(|(uri, document)| checks::start(uri, document));
+                for (uri, document) in &mut self.documents.0 {
+                    document.forget_names();
+                    checks::start(uri, document);
+                }
             }
             LspNotificationMethod::TextDocumentDidClose => {
                 let closed: lsp::DidCloseTextDocumentParams = read(params)?;

@@ -54,6 +54,12 @@ pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
     Code::of(text).exported(name)
 }
 
+/// Largest number of parameters of a function. It limits the run time for texts with errors.
+const MOST_PARAMETERS: usize = 100;
+
+/// Tokens between the word `fn` and the parameters, as in `fn number.twice()`.
+const LONGEST_NAME: usize = 3;
+
 struct Code<'t> {
     text: &'t str,
     tokens: Vec<Token>,
@@ -109,18 +115,9 @@ impl<'t> Code<'t> {
 
     /// Name of the function that begins with the word `fn` at `start`: the last word before the parameters.
     fn name_of_function(&self, start: usize) -> Option<usize> {
-        if self.written(start) != "fn" {
-            return None;
-        }
-        let is_head =
-            |at: &usize| self.is_word(*at) || matches!(self.written(*at), ".") || self.is_text(*at);
-        let end =
-            (start + 1..self.tokens.len()).find(|at| !is_head(at)).unwrap_or(self.tokens.len());
-        (start + 1..end).rev().find(|at| self.is_word(*at))
-    }
-
-    fn is_text(&self, index: usize) -> bool {
-        self.tokens.get(index).is_some_and(|token| token.kind == TokenKind::Text)
+        let head = start + 1..self.tokens.len().min(start + 1 + LONGEST_NAME);
+        let name = head.take_while(|at| self.written(*at) != "(").last();
+        name.filter(|name| self.written(start) == "fn" && self.is_word(*name))
     }
 
     fn exported(&self, name: &str) -> Vec<Range<usize>> {
@@ -215,6 +212,7 @@ impl<'t> Code<'t> {
     /// Words after the token `start`, up to the token `end` or the start of a block.
     fn words_until(&self, start: usize, end: &str) -> Vec<usize> {
         let rest = start + 1..self.tokens.len();
+        let rest = rest.take(2 * MOST_PARAMETERS);
         let inside = rest.take_while(|at| self.written(*at) != end && self.written(*at) != "{");
         inside.filter(|at| self.is_word(*at)).collect()
     }
