@@ -61,7 +61,7 @@ fn item(candidate: Candidate, range: lsp::Range) -> lsp::CompletionItem {
 
 /// Help on the name at a place.
 pub fn hover(at: &Place, format: lsp::MarkupKind) -> Option<lsp::Hover> {
-    let (name, help) = help_at(&at.document.program(at.uri).ok()?, at.offset, limits())?;
+    let (name, help) = help_at(&at.document.program(at.uri), at.offset, limits())?;
     let value = match format {
         lsp::MarkupKind::Markdown => format!("```text\n{help}```"),
         _ => help,
@@ -82,7 +82,7 @@ pub fn signature_help(at: &Place) -> Option<lsp::SignatureHelp> {
         documentation: None,
     });
     let signature = lsp::SignatureInformation {
-        documentation: Some(about.into()),
+        documentation: Some(about).filter(|about| !about.is_empty()).map(Into::into),
         parameters: Some(parameter.into_iter().collect()),
         label,
         ..lsp::SignatureInformation::default()

@@ -15,6 +15,7 @@ use super::documents::Document;
 use super::{positions, uris};
 use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::engine::runner::{self, Ending};
+use crate::script::messages::stop::Stop;
 use crate::script::packages::language;
 use crate::script::source::pitfalls::{Pitfall, pitfalls};
 use crate::script::source::program::Program;
@@ -32,7 +33,7 @@ const LONGEST_CHECK: Duration = Duration::from_secs(10);
 pub fn start(uri: &Uri, document: &mut Document) {
     stop(document);
     document.check = Arc::default();
-    let Ok(program) = document.program(uri) else { return };
+    let program = document.program(uri);
     let (uri, version, stopped) = (uri.clone(), document.version, Arc::clone(&document.check));
     thread::spawn(move || {
         thread::sleep(PAUSE);
@@ -69,8 +70,9 @@ fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<Diagnostic> {
         ..RunSettings::silent(RunMode::DryRun)
     };
     let outcome = runner::run(program, &language(), settings);
-    match outcome.ending {
-        Ending::Failed(diagnostic) if outcome.stopped_by.is_none() => Some(diagnostic),
+    match (outcome.ending, outcome.stopped_by) {
+        (_, Some(Stop::Time(_))) => None,
+        (Ending::Failed(diagnostic), _) => Some(diagnostic),
         _ => None,
     }
 }

@@ -16,7 +16,7 @@ use crate::repl::document::names_at;
 use crate::repl::editor::surroundings::CompletionContext;
 use crate::sandbox_fs::read_text;
 use crate::script::library;
-use crate::script::source::program::{LARGEST_SCRIPT, Program, Unreadable};
+use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::limits::Limits;
 
 /// Largest run time of the statements before a position for an answer to a request.
@@ -57,11 +57,8 @@ impl Document {
     }
 
     /// Text of the document as a script.
-    ///
-    /// # Errors
-    /// Does not fail, because the text is valid UTF-8.
-    pub fn program(&self, uri: &Uri) -> Result<Program, Unreadable> {
-        Program::from_bytes(&uris::path(uri), self.text.clone().into_bytes())
+    pub fn program(&self, uri: &Uri) -> Program {
+        Program::from_text(&uris::path(uri), &self.text)
     }
 
     /// Forgets names of imported files, which may have changed.
@@ -77,7 +74,7 @@ impl Document {
         if let Some((_, names)) = last.as_ref().filter(|(text, _)| text == before) {
             return Some(names.clone());
         }
-        let names = names_at(&self.program(uri).ok()?, start, limits()).ok()?;
+        let names = names_at(&self.program(uri), start, limits()).ok()?;
         *last = Some((before.to_owned(), names.clone()));
         Some(names)
     }
