@@ -51,6 +51,11 @@ pub enum CliCommand {
     /// Opens the interactive prompt; without a terminal it reads inputs from a pipe.
     #[command(after_help = EXIT_CODES)]
     Repl(ReplOptions),
+    /// Starts the language server for editors: errors while typing, completion, help and definitions.
+    ///
+    /// The editor starts it, and exchanges messages of the Language Server Protocol with it through stdin and stdout. Scripts are checked like by `withy check`.
+    #[command(after_help = LSP_EXIT_CODES)]
+    Lsp,
 }
 
 /// Options of `withy repl`.
@@ -209,3 +214,5 @@ pub struct DocsOptions {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 success, 1 a check in the script failed, 2 error in the script or the arguments, 130 interrupted by Ctrl-C.";
+
+const LSP_EXIT_CODES: &str = "Exit codes: 0 the editor ended the server, 1 the editor closed the connection without the request `shutdown`.";

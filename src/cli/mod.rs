@@ -13,6 +13,7 @@ mod interrupt;
 mod learn;
 mod learn_options;
 mod limits;
+mod lsp;
 mod progress_display;
 mod run;
 mod saved;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use super::args::{CliArguments, CliCommand};
-use super::{Exit, console, convert, docs, learn, run, session, view};
+use super::{Exit, console, convert, docs, learn, lsp, run, session, view};
 
 /// Parses the command line, runs the selected command, and returns its exit code.
 pub fn main() -> ExitCode {
@@ -23,6 +23,7 @@ pub fn main() -> ExitCode {
         Some(CliCommand::Convert(options)) => convert::convert(&options),
         Some(CliCommand::Docs(options)) => docs::docs(&options),
         Some(CliCommand::Learn(options)) => learn::learn(&options),
+        Some(CliCommand::Lsp) => lsp::lsp(),
         None => session::start(arguments.session),
     };
     match exit {

@@ -7,16 +7,12 @@ use serde_json::{Value, json};
 
 use super::commands::limits;
 use super::start::FAILURE;
-use crate::repl::batch;
+use crate::repl::document::names_at;
 use crate::repl::editor::candidates::Candidate;
 use crate::repl::editor::completion::complete;
 use crate::repl::editor::hints::hint;
-use crate::repl::session::Session;
-use crate::repl::shell::{ReplyTarget, Shell};
 use crate::script::diagnose::Diagnostic;
-use crate::script::packages::language;
 use crate::script::source::program::Program;
-use crate::script::state::settings::{RunMode, RunSettings};
 
 /// Prints completions at byte `offset` of a script and the hint at this position, as at the prompt. The output is a JSON object.
 pub(super) fn complete_at(file: &Path, offset: usize) -> ExitCode {
@@ -35,11 +31,7 @@ pub(super) fn complete_at(file: &Path, offset: usize) -> ExitCode {
 fn completions(file: &Path, offset: usize) -> Result<Value, Diagnostic> {
     let program = Program::load(file)?;
     let text = program.text.get(..offset).unwrap_or(&program.text);
-    let settings = RunSettings { limits: limits(), ..RunSettings::silent(RunMode::DryRun) };
-    let mut shell = Shell::new(Session::new(language(), settings)?, ReplyTarget::Pipe);
-    // The statements before the cursor define names. Their evaluation ends at the first error, usually in the unfinished statement.
-    batch::run(&mut shell, text.as_bytes());
-    let surroundings = shell.surroundings();
+    let surroundings = names_at(&program, offset, limits())?;
     let (start, candidates) = complete(text, text.len(), &surroundings);
     let options = candidates.iter().map(|Candidate { display, replacement, summary }| {
         json!({ "label": display, "insert": replacement, "about": summary })

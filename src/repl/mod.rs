@@ -5,6 +5,7 @@ pub(crate) mod batch;
 pub mod clock;
 pub(crate) mod commands;
 mod curves;
+pub mod document;
 pub mod editor;
 mod effects;
 mod history_expression;

@@ -18,7 +18,7 @@ use crate::script::engine::inputs::{declare_inputs, expect_declared};
 use crate::script::engine::parse::{SourcePiece, parse, parse_piece};
 use crate::script::engine::script_engine::{Halt, ScriptEngine};
 use crate::script::messages::error::EngineResult;
-use crate::script::source::pitfalls::pitfalls;
+use crate::script::source::pitfalls;
 use crate::script::source::program::Program;
 use crate::script::source::text::Source;
 use crate::script::state::context::Context;
@@ -238,7 +238,7 @@ impl Session {
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
-        pitfalls(text, before).iter().for_each(|note| host.context().print_message(note));
+        pitfalls::messages(text, before).iter().for_each(|note| host.context().print_message(note));
         self.library = self.library.merge(&ast.clone_functions_only());
         // The source name distinguishes errors in functions of the session from errors in functions of imported files.
         self.library.set_source(PROMPT);

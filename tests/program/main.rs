@@ -6,6 +6,7 @@ mod docs_command;
 mod editors;
 mod gallery;
 mod inputs;
+mod language_server;
 mod learn_command;
 mod learn_watch;
 mod limits;

@@ -17,17 +17,33 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if name.starts_with(':') {
         return match find(name) {
             Ok(command) => {
-                let page = explained(command);
+                let page = on_command(command);
                 show(shell, &[drawn(shell, &page)])
             }
             Err(refusal) => shell.report_error(&refusal),
         };
     }
-    let mut texts = Vec::new();
+    match explained(shell, name) {
+        Ok(found) => {
+            let text = |found: NameInfo| {
+                format!("{}{}", drawn(shell, &found.page), found.shown.unwrap_or_default())
+            };
+            let texts: Vec<String> = found.into_iter().map(text).collect();
+            show(shell, &texts)
+        }
+        Err(unknown) => shell.report_error(&unknown),
+    }
+}
+
+/// Help on a name of the session or the language.
+///
+/// # Errors
+/// Fails if no help exists for this name. The error contains suggestions.
+pub fn explained(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnostic> {
+    let mut found = Vec::new();
     let mut name_of_page = in_language(shell, name);
-    if let Some(NameInfo { page, shown }) = known(shell, name) {
-        let text = format!("{}{}", drawn(shell, &page), shown.unwrap_or_default());
-        texts.push(text);
+    if let Some(of_session) = known(shell, name) {
+        found.push(of_session);
         let is_plain = lookup::find(shell.session().catalog(), &name_of_page).is_empty();
         let value = shell.session().variables().get(name).filter(|_| is_plain);
         if let Some(value) = value {
@@ -35,16 +51,17 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
         }
     }
     let command = COMMANDS.iter().find(|command| command.name[1..] == *name);
+    let of_command = command.map(|command| NameInfo::of_language(on_command(command)));
     match lookup::page(shell.session().catalog(), &name_of_page) {
         Ok(page) => {
-            texts.push(drawn(shell, &page));
-            texts.extend(command.map(|command| drawn(shell, &explained(command))));
+            found.push(NameInfo::of_language(page));
+            found.extend(of_command);
         }
         Err(unknown) => {
-            texts.extend(command.map(|command| drawn(shell, &explained(command))));
-            if texts.is_empty() {
+            found.extend(of_command);
+            if found.is_empty() {
                 let message = Diagnostic::general(unknown.to_string());
-                return shell.report_error(&match unknown.is_strange() {
+                return Err(match unknown.is_strange() {
                     true => message.with_hint(":help topics lists all topics"),
                     false => message.with_hint(unknown.hint()),
                 });
@@ -52,14 +69,14 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
             if command.is_some() && !unknown.is_strange() {
                 let mut page = HelpPage::default();
                 page.paragraph(&format!("In a script: {}", unknown.hint()));
-                texts.push(drawn(shell, &page));
+                found.push(NameInfo::of_language(page));
             }
         }
     }
-    show(shell, &texts)
+    Ok(found)
 }
 
-fn explained(command: &Command) -> HelpPage {
+fn on_command(command: &Command) -> HelpPage {
     let mut page = HelpPage::default();
     page.heading(command.usage());
     page.paragraph(&format!("At the prompt, it {}.", command.summary));

@@ -10,5 +10,6 @@ mod stepping;
 mod table;
 mod timing;
 
+pub use help::explained;
 pub use plain_commands::meant;
 pub use table::{COMMANDS, Command, HELP, QUIT, find};

@@ -19,6 +19,12 @@ pub struct NameInfo {
     pub page: HelpPage,
 }
 
+impl NameInfo {
+    pub fn of_language(page: HelpPage) -> Self {
+        Self { shown: None, page }
+    }
+}
+
 pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     if name.contains('.') {
         return member(shell, name);

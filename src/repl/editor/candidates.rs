@@ -69,12 +69,16 @@ impl Candidate {
     }
 }
 
-pub fn arguments(parameters: &[Parameter]) -> String {
-    let names = parameters.iter().map(|parameter| match parameter.is_required() {
+fn arguments(parameters: &[Parameter]) -> String {
+    format!("({})", parameters.iter().map(written).collect::<Vec<_>>().join(", "))
+}
+
+/// Name of a parameter in a signature. The names of optional parameters are in brackets.
+pub fn written(parameter: &Parameter) -> String {
+    match parameter.is_required() {
         true => parameter.name.to_owned(),
         false => format!("[{}]", parameter.name),
-    });
-    format!("({})", names.collect::<Vec<_>>().join(", "))
+    }
 }
 
 /// Candidates that begin with `typed`, sorted and without duplicates.

@@ -1,6 +1,8 @@
 //! Hints that are shown after the cursor while a line is typed.
 
-use super::candidates::arguments;
+use std::ops::Range;
+
+use super::candidates::written;
 use super::commands::command_named;
 use super::completeness::is_command;
 use super::completion::complete;
@@ -54,19 +56,21 @@ pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Op
         return Hint::note(command.summary.to_owned());
     }
     let input = Input::before(line, position);
-    if matches!(
-        input.last.map(|token| token.kind),
-        Some(TokenKind::Comment | TokenKind::OpenComment)
-    ) {
-        return None;
-    }
     let expected = Expected::new(&input, surroundings);
-    let is_key = expected
-        .innermost()
-        .is_some_and(|level| level.bracket == Bracket::Map && level.key.is_none());
     let is_member = input.count_before_name().checked_sub(1).is_some_and(|dot| input.is_dot(dot));
-    let only = (is_member || is_key).then(|| only_candidate(line, surroundings)).flatten();
-    only.or_else(|| call_hint(&expected, is_key, line, surroundings))
+    let completes = !is_comment(&input) && (is_member || is_key(&expected));
+    let only = completes.then(|| only_candidate(line, surroundings)).flatten();
+    only.or_else(|| Hint::note(call_hint(line, surroundings)?.line()))
+}
+
+fn is_comment(input: &Input) -> bool {
+    let last = input.last.map(|token| token.kind);
+    matches!(last, Some(TokenKind::Comment | TokenKind::OpenComment))
+}
+
+fn is_key(expected: &Expected) -> bool {
+    let innermost = expected.innermost();
+    innermost.is_some_and(|level| level.bracket == Bracket::Map && level.key.is_none())
 }
 
 fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> {
@@ -77,64 +81,86 @@ fn only_candidate(line: &str, surroundings: &CompletionContext) -> Option<Hint> 
     }
 }
 
-fn call_hint(
-    expected: &Expected,
-    is_key: bool,
-    line: &str,
-    surroundings: &CompletionContext,
-) -> Option<Hint> {
-    if is_key && !(expected.keys().is_empty() && expected.library_keys().is_empty()) {
+/// Description of the call around the cursor, or of its options.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CallHint {
+    /// Signature of the function, keys of the options, or description of an option.
+    pub label: String,
+    /// Parameter at the cursor, as a part of the label [bytes].
+    pub current: Option<Range<usize>>,
+    /// Description of this parameter; may be empty.
+    pub about: String,
+}
+
+impl CallHint {
+    fn note(label: String) -> Self {
+        Self { label, current: None, about: String::new() }
+    }
+
+    fn signature(name: &str, parameters: &[String], current: usize, about: String) -> Self {
+        let start =
+            parameters.iter().take(current).fold(name.len() + 1, |at, of| at + of.len() + 2);
+        Self {
+            label: format!("{name}({})", parameters.join(", ")),
+            current: parameters.get(current).map(|of| start..start + of.len()),
+            about,
+        }
+    }
+
+    /// Text in one line, with the parameter at the cursor in angle quotes.
+    fn line(self) -> String {
+        let Self { mut label, current, about } = self;
+        if let Some(Range { start, end }) = current {
+            label.insert(end, '›');
+            label.insert(start, '‹');
+        }
+        if about.is_empty() { label } else { format!("{label}  {about}") }
+    }
+}
+
+/// Description of the call around the end of `line`, or of its options.
+pub fn call_hint(line: &str, surroundings: &CompletionContext) -> Option<CallHint> {
+    let input = Input::before(line, line.len());
+    if is_comment(&input) {
+        return None;
+    }
+    let expected = Expected::new(&input, surroundings);
+    if is_key(&expected) && !(expected.keys().is_empty() && expected.library_keys().is_empty()) {
         let (_, free) = complete(line, line.len(), surroundings);
         let names: Vec<_> = free.into_iter().map(|key| key.display).collect();
-        return Hint::note(names.join(", "));
+        return Some(CallHint::note(names.join(", ")));
     }
     let (level, callee) = expected.call()?;
     if expected.innermost().is_some_and(|innermost| innermost.bracket == Bracket::Map) {
-        return Hint::note(describe(expected.here().first()?));
+        return Some(CallHint::note(describe(expected.here().first()?)));
     }
     let rows = expected.rows(&callee);
     let is_long_enough =
         |called: &&ActiveCall| level.commas + called.before_dot < called.row.parameters.len();
     match rows.iter().find(is_long_enough).or(rows.first()) {
-        Some(called) => Hint::note(signature(called, &level)),
+        Some(called) => Some(signature(called, &level)),
         None => match script_function(&callee, surroundings) {
-            Some(function) => Hint::note(script_signature(function, &level)),
-            None => Hint::note(built_in_signature(&expected.built_ins(&callee), &level)?),
+            Some(function) => {
+                let names = &function.parameters;
+                Some(CallHint::signature(&function.name, names, level.commas, String::new()))
+            }
+            None => built_in_signature(&expected.built_ins(&callee), &level),
         },
     }
 }
 
-/// Signature of a function with the parameter at the cursor in angle quotes, and the description of this parameter.
-fn signature(called: &ActiveCall, level: &OpenBracket) -> String {
+fn signature(called: &ActiveCall, level: &OpenBracket) -> CallHint {
     let parameters = called.row.parameters.get(called.before_dot..).unwrap_or_default();
-    let names: Vec<String> = parameters
-        .iter()
-        .map(|parameter| match parameter.is_required() {
-            true => parameter.name.to_owned(),
-            false => format!("[{}]", parameter.name),
-        })
-        .collect();
-    match parameters.get(level.commas) {
-        Some(current) => {
-            let names = marked(names, level.commas);
-            format!("{}({})  {}", called.row.name, names.join(", "), describe(current))
-        }
-        None => format!("{}{}", called.row.name, arguments(parameters)),
-    }
+    let names: Vec<String> = parameters.iter().map(written).collect();
+    let about = parameters.get(level.commas).map(describe).unwrap_or_default();
+    CallHint::signature(called.row.name, &names, level.commas, about)
 }
 
-fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -> Option<String> {
+fn built_in_signature(known: &[(&BuiltIn, FunctionForm)], level: &OpenBracket) -> Option<CallHint> {
     let is_long_enough = |(_, form): &&(&BuiltIn, FunctionForm)| level.commas < form.listed().len();
     let (known, form) = known.iter().find(is_long_enough).or(known.first())?;
-    let names = marked(form.listed(), level.commas);
-    Some(format!("{}({})  {}", form.name, names.join(", "), known.summary))
-}
-
-fn marked(mut names: Vec<String>, current: usize) -> Vec<String> {
-    if let Some(name) = names.get_mut(current) {
-        *name = format!("‹{name}›");
-    }
-    names
+    let about = known.summary.to_owned();
+    Some(CallHint::signature(form.name, &form.listed(), level.commas, about))
 }
 
 /// Description of a parameter, such as `t: a number [time]; default: 0; doc`.
@@ -168,11 +194,6 @@ fn script_function<'s>(
             modules.flat_map(|module| &module.functions).find(named)
         }
     }
-}
-
-fn script_signature(function: &ScriptFunction, level: &OpenBracket) -> String {
-    let names = marked(function.parameters.clone(), level.commas);
-    format!("{}({})", function.name, names.join(", "))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ pub(crate) mod candidates;
 mod commands;
 pub mod completeness;
 pub mod completion;
+pub mod definition;
 mod expected;
 pub mod highlight;
 pub mod hints;

@@ -49,7 +49,8 @@ impl Diagnostic {
         }
     }
 
-    fn notes(&self, width: usize) -> Vec<String> {
+    /// Hint and call trace, one text each. The hint is wrapped at `width` columns.
+    pub fn notes(&self, width: usize) -> Vec<String> {
         let room = width.saturating_sub(BESIDE_HINT).max(NARROWEST);
         let hint = self.hint.iter().map(|hint| {
             let lines: Vec<String> = hint.lines().flat_map(|line| wrapped(line, room)).collect();
@@ -146,7 +147,8 @@ impl Location {
         offset(characters(bytes.start))..offset(characters(bytes.end))
     }
 
-    fn bytes(&self) -> Range<usize> {
+    /// Position in the text of the script [bytes].
+    pub fn bytes(&self) -> Range<usize> {
         let start = self.program.offset(self.line, self.column);
         start..self.program.offset(self.line, self.column + self.length).max(start)
     }

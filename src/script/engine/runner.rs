@@ -15,7 +15,7 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::messages::checks::Checks;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::stop::Stop;
-use crate::script::source::pitfalls::pitfalls;
+use crate::script::source::pitfalls;
 use crate::script::source::program::Program;
 use crate::script::state::context::Context;
 use crate::script::state::settings::{ErrorEstimation, RunMode, RunSettings};
@@ -117,7 +117,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     let mut errors = Vec::new();
     let run = |engine: &Engine| {
         let (ast, context) = (parse(engine, program)?, host.context());
-        pitfalls(&program.text, 0).iter().for_each(|note| context.print_message(note));
+        pitfalls::messages(&program.text, 0).iter().for_each(|note| context.print_message(note));
         let names = match context.inputs().are_defaults() && context.mode() == RunMode::Run {
             true => Vec::new(),
             false => declare_inputs(engine, context, (&ast, &program.text), &program.folder)?,

@@ -2,13 +2,19 @@
 
 use super::scanner::{Bracket, Token, TokenKind, is_name, scan};
 
-/// Notes on the doubtful expressions of `text`. `lines_before` is the number of lines before this text.
-pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
+/// Note on a valid expression that probably does not mean what its author intends.
+pub struct Pitfall {
+    /// Start of the expression [bytes].
+    pub at: usize,
+    pub note: String,
+}
+
+/// Notes on the doubtful expressions of a text, in the order of their places.
+pub fn pitfalls(text: &str) -> Vec<Pitfall> {
     let all = scan(text);
     let tokens: Vec<Token> = all.iter().copied().filter(Token::is_significant).collect();
     let comments = all.iter().filter(|token| token.kind == TokenKind::Comment);
-    let mut found: Vec<(usize, String)> =
-        comments.filter_map(|at| note_on_comment(text, at)).collect();
+    let mut found: Vec<Pitfall> = comments.filter_map(|at| note_on_comment(text, at)).collect();
     for (index, token) in tokens.iter().enumerate() {
         let note = match token.kind {
             TokenKind::Text => note_on_braces(token.of(text)),
@@ -18,26 +24,32 @@ pub fn pitfalls(text: &str, lines_before: usize) -> Vec<String> {
             }
             _ => None,
         };
-        found.extend(note.map(|note| (token.start, note)));
+        found.extend(note.map(|note| Pitfall { at: token.start, note }));
     }
-    found.sort_by_key(|(at, _)| *at);
-    let placed = |(at, note): (usize, String)| {
+    found.sort_by_key(|pitfall| pitfall.at);
+    found
+}
+
+/// Messages about [`pitfalls`] with their places. `lines_before` is the number of lines before the text.
+pub fn messages(text: &str, lines_before: usize) -> Vec<String> {
+    let placed = |Pitfall { at, note }| {
         let before = &text[..at];
         let line = before.matches('\n').count() + 1 + lines_before;
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
         format!("note: line {line}, column {column}: {note}")
     };
-    found.into_iter().map(placed).collect()
+    pitfalls(text).into_iter().map(placed).collect()
 }
 
-/// Note on a comment that consists of a number and follows a value, as in `7 // 2`, with its place in the text.
-fn note_on_comment(text: &str, comment: &Token) -> Option<(usize, String)> {
+/// Note on a comment that consists of a number and follows a value, as in `7 // 2`.
+fn note_on_comment(text: &str, comment: &Token) -> Option<Pitfall> {
     let divisor = comment.of(text).strip_prefix("//")?.trim().trim_end_matches(';').trim_end();
     divisor.parse::<f64>().ok()?;
     let before = text[..comment.start].trim_end_matches([' ', '\t']);
     let is_value = |last: char| is_name(last) || matches!(last, ')' | ']');
-    before.ends_with(is_value).then(|| {
-        (comment.start, "// begins a comment: write floor(a / b) for a whole quotient".to_owned())
+    before.ends_with(is_value).then(|| Pitfall {
+        at: comment.start,
+        note: "// begins a comment: write floor(a / b) for a whole quotient".to_owned(),
     })
 }
 

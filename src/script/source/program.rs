@@ -68,13 +68,24 @@ impl Program {
             let message = format!("cannot read the script '{name}': line {line} is not UTF-8 text");
             Unreadable { message, hint: "save the file as UTF-8".into() }
         })?;
+        Ok(Self::from_text(path, &text))
+    }
+
+    /// Creates a script from the text of a file.
+    pub fn from_text(path: &Path, text: &str) -> Self {
+        let name = path.display().to_string();
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        // A byte order mark is removed, and a line that starts with `#!` becomes a comment.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-        let text =
-            text.strip_prefix("#!").map_or_else(|| text.to_owned(), |rest| format!("// {rest}"));
-        Ok(Self { name, text: text.into(), folder: folder.into() })
+        // A byte order mark is removed, and a line that starts with `#!` becomes a comment of the same length.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = match text.strip_prefix("#!") {
+            Some(rest) => match rest.strip_prefix(['/', '!']) {
+                Some(rest) => format!("// {rest}"),
+                None => format!("//{rest}"),
+            },
+            None => text.to_owned(),
+        };
+        Self { name, text: text.into(), folder: folder.into() }
     }
 
     /// Byte offset of a line and column, both counted from 1. Columns are counted in characters.

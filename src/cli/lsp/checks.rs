@@ -1,0 +1,126 @@
+//! Checks of documents, as by `withy check`.
+
+use std::io::stdout;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use gen_lsp_types as lsp;
+use lsp::{Notification, Uri};
+
+use super::connection::send;
+use super::documents::Document;
+use super::{positions, uris};
+use crate::script::diagnose::{Diagnostic, Location};
+use crate::script::engine::runner::{self, Ending};
+use crate::script::messages::stop::Stop;
+use crate::script::packages::language;
+use crate::script::source::pitfalls::{Pitfall, pitfalls};
+use crate::script::source::program::Program;
+use crate::script::source::scanner::scan;
+use crate::script::state::limits::Limits;
+use crate::script::state::settings::{RunMode, RunSettings};
+
+/// Time without a change after which a document is checked.
+const PAUSE: Duration = Duration::from_millis(150);
+
+/// Largest run time of a check. After it, the rest of the script is not checked.
+const LONGEST_CHECK: Duration = Duration::from_secs(10);
+
+/// Starts a check of a document, and stops its previous check. The errors are sent to the client.
+pub fn start(uri: &Uri, document: &mut Document) {
+    stop(document);
+    document.check = Arc::default();
+    let program = document.program(uri);
+    let (uri, version, stopped) = (uri.clone(), document.version, Arc::clone(&document.check));
+    thread::spawn(move || {
+        thread::sleep(PAUSE);
+        if stopped.load(Ordering::Relaxed) {
+            return;
+        }
+        let found = check(&program, &stopped);
+        // The next message is not written between the test and the answer.
+        let _output = stdout().lock();
+        if !stopped.load(Ordering::Relaxed) {
+            let errors = found.iter().map(|error| error_of(error, &program));
+            let notes = pitfalls(&program.text).into_iter().map(|of| note_of(of, &program.text));
+            publish(uri, Some(version), errors.chain(notes).collect());
+        }
+    });
+}
+
+pub fn stop(document: &Document) {
+    document.check.store(true, Ordering::Relaxed);
+}
+
+/// Shows the diagnostics of a document in the editor.
+pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {
+    let method = lsp::PublishDiagnosticsNotification::METHOD.as_str();
+    let shown = lsp::PublishDiagnosticsParams { uri, version, diagnostics };
+    send(lsp_server::Notification::new(method.into(), shown));
+}
+
+/// Error of a script; `None` if no error was found in time.
+fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<Diagnostic> {
+    let settings = RunSettings {
+        interrupt: Arc::clone(stopped),
+        limits: Limits { time: Some(LONGEST_CHECK), ..Limits::default() },
+        ..RunSettings::silent(RunMode::DryRun)
+    };
+    let outcome = runner::run(program, &language(), settings);
+    match (outcome.ending, outcome.stopped_by) {
+        (_, Some(Stop::Time(_))) => None,
+        (Ending::Failed(diagnostic), _) => Some(diagnostic),
+        _ => None,
+    }
+}
+
+fn error_of(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {
+    let is_here = |at: &&Location| at.program.name == program.name;
+    let here = error.location.as_ref().filter(is_here);
+    let elsewhere = error.location.as_ref().filter(|at| !is_here(at));
+    // An error in an imported file is shown at the outermost call in this script.
+    let called = || error.trace.iter().rev().find(|frame| frame.file.is_none())?.line;
+    let range = match here {
+        Some(at) => positions::range(&at.program.text, at.bytes()),
+        None => line_range(&program.text, called().unwrap_or(1)),
+    };
+    let notes = error.notes(usize::MAX);
+    let lines: Vec<&str> = [&error.message].into_iter().chain(&notes).map(String::as_str).collect();
+    lsp::Diagnostic {
+        related_information: elsewhere.and_then(related).map(|place| vec![place]),
+        ..shown(range, lsp::DiagnosticSeverity::Error, lines.join("\n"))
+    }
+}
+
+fn note_of(Pitfall { at, note }: Pitfall, text: &str) -> lsp::Diagnostic {
+    let length = scan(&text[at..]).first().map_or(0, |token| token.end);
+    shown(positions::range(text, at..at + length), lsp::DiagnosticSeverity::Warning, note)
+}
+
+fn shown(range: lsp::Range, severity: lsp::DiagnosticSeverity, message: String) -> lsp::Diagnostic {
+    lsp::Diagnostic {
+        range,
+        severity: Some(severity),
+        source: Some("withy".into()),
+        message: lsp::Message::String(message),
+        ..lsp::Diagnostic::default()
+    }
+}
+
+fn related(at: &Location) -> Option<lsp::DiagnosticRelatedInformation> {
+    let uri = uris::uri(Path::new(&at.program.name))?;
+    let range = positions::range(&at.program.text, at.bytes());
+    let location = lsp::Location { uri, range };
+    Some(lsp::DiagnosticRelatedInformation { location, message: "the error is here".into() })
+}
+
+/// Text of a line, counted from 1, without its indentation.
+fn line_range(text: &str, line: usize) -> lsp::Range {
+    let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+    let line = text[start..].lines().next().unwrap_or_default();
+    let start = start + line.len() - line.trim_start().len();
+    positions::range(text, start..start + line.trim().len())
+}

@@ -1,0 +1,44 @@
+//! Messages on stdin and stdout.
+
+use std::io::{ErrorKind, Write, stdin, stdout};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+
+use lsp_server::{ErrorCode, Message};
+use serde_json::json;
+
+/// Messages from stdin, until it is closed. A separate thread reads them, so that the client never waits while a request is answered.
+/// A message that is not valid is answered with an error.
+pub fn messages() -> Receiver<Message> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        loop {
+            let read = Message::read(&mut stdin().lock());
+            let goes_on = match read {
+                Ok(Some(message)) => sender.send(message).is_ok(),
+                Ok(None) => false,
+                Err(error) => {
+                    refuse(&error.to_string());
+                    error.kind() == ErrorKind::InvalidData
+                }
+            };
+            if !goes_on {
+                return;
+            }
+        }
+    });
+    receiver
+}
+
+/// Writes a message. Errors are ignored, because a client that does not read any more also closes stdin.
+pub fn send(message: impl Into<Message>) {
+    let _ = message.into().write(&mut stdout().lock());
+}
+
+/// Reports a message without a readable number, for which the library has no type.
+fn refuse(why: &str) {
+    let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
+    let text = json!({ "jsonrpc": "2.0", "id": null, "error": error }).to_string();
+    let mut out = stdout().lock();
+    let _ = write!(out, "Content-Length: {}\r\n\r\n{text}", text.len()).and_then(|()| out.flush());
+}
