@@ -4,7 +4,8 @@ use super::block::{Block, MOST_DELAYED, UNTOUCHED};
 use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
-/// Largest ratio of the elimination work to the work for the same band without blocks for which the order of the band is kept.
+/// Largest accepted ratio of the elimination work to the work for the same band without blocks [-].
+/// If the ratio is larger, the order of the band is replaced.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.

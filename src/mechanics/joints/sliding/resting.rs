@@ -46,7 +46,7 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // For a path of zero length, the field `change` is half the second derivative of the kink length.
+        // For a path of zero length, `kink.along.change` is half the second derivative of the kink length.
         equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation

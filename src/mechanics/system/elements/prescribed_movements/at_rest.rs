@@ -6,7 +6,7 @@ use super::PrescribedMovements;
 use crate::geometry::larger;
 use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 
-/// Tolerance for equal positions, absolute and relative [length, rad; -].
+/// Largest difference of two positions that count as equal [length, rad]. For positions above 1, it is a fraction of the positions [-].
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
@@ -54,7 +54,7 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Records that the prescribed positions for a fraction of the load have been applied.
+    /// Records that the prescribed displacements, multiplied by `load_factor`, have been applied.
     pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;
