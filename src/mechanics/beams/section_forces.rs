@@ -1,6 +1,6 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The forces at quadrature points satisfy the balance of a step only with quadrature sums.
+//! The forces at quadrature points satisfy the balance of a step only if integrals are replaced by sums over quadrature points.
 //! Near the ends of a beam, the error of the forces at quadrature points is of first order.
 //! This module computes section forces as weighted sums over the quadrature points.
 //! The computed section forces satisfy the balance with exact integrals.

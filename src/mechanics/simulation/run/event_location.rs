@@ -385,7 +385,7 @@ impl Simulation {
             self.restart_kinks()?;
         }
         self.record_contact_changes();
-        // The arrival that ends the run must be the last entry.
+        // The arrival that ends the run must be the last entry of the list of arrivals.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())

@@ -48,7 +48,7 @@ pub trait InternalForce {
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
-    /// Prepares an increment of zero duration, such as a static load step, without damping.
+    /// Prepares a static increment, such as a static load step, in which the element has no damping.
     fn begin_movement(&mut self, bodies: &[Body]);
 
     /// Discards the rates of the last step after a jump of the rates.

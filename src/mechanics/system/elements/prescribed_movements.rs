@@ -152,7 +152,7 @@ impl PrescribedMovements {
         self.movements.len()
     }
 
-    /// Prescribed movements with the index of the drive and the index of the movement in the vector of all rates.
+    /// For each prescribed degree of freedom: its support, the index of its drive, and its index in the vector of all rates.
     pub fn numbered(&self) -> impl Iterator<Item = (&Support, usize, usize)> {
         let movements = self.movements.iter().zip(self.first..);
         movements.map(|(movement, rate)| (&movement.support, movement.drive, rate))

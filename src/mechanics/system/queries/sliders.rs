@@ -36,7 +36,7 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Number of steps in which the friction force of the slider was kept constant, because the step had no solution with the law of friction.
+    /// Number of steps in which the friction force was kept constant, because the step had no solution with the law of friction.
     pub fn steps_with_fixed_friction(&self, slider: usize) -> usize {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }

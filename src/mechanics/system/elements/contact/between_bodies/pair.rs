@@ -247,7 +247,7 @@ impl ContactPair {
             + foot * other.angular_mobility(self.start.foot.weights(0))
     }
 
-    /// Normal contact in the present iterate, with the friction; `None` without friction, or for an increment of zero duration.
+    /// Normal force in the present iterate, with the friction that it limits; `None` without friction, or for a static increment.
     fn friction_at(&mut self, time: ContactTime) -> Option<(NormalContact, &mut PairFriction)> {
         let (force, duration) = (-self.normal.tension.force, time.duration);
         let contact = NormalContact { force, duration, share: time.share() };

@@ -125,14 +125,14 @@ pub(super) struct ObstacleForces {
     surface: Surface,
     bodies: Vec<TouchingBody>,
     rate_history: RateHistory,
-    /// Rates of all unknowns at the start of the step; empty in an increment of zero duration.
+    /// Rates of all unknowns at the start of the step; empty in a static increment.
     rates: Vec<f64>,
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
 }
 
-/// Rates at the start of a step; `None` in an increment of zero duration.
+/// Rates at the start of a step; `None` in a static increment.
 fn step_rates(rates: &[f64]) -> Option<&[f64]> {
     (!rates.is_empty()).then_some(rates)
 }

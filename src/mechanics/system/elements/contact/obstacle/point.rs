@@ -305,7 +305,7 @@ impl ContactPoint {
         }
     }
 
-    /// Normal contact in the present iterate; `None` for an increment of zero duration, in which friction does not act.
+    /// Normal force in the present iterate, with the duration of the step; `None` for a static increment, in which friction does not act.
     fn normal_contact(&self, time: ContactTime) -> Option<NormalContact> {
         let duration = time.duration;
         let contact =
