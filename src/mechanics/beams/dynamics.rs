@@ -86,7 +86,7 @@ pub trait BodyDynamics: Send + Sync {
     ///
     /// The function of a part in `tangents` must use only the rows of control points of this part.
     /// A span with control points in two parts is passed to the functions of both parts.
-    /// It is the last span that the function of the earlier part receives, and the first span that the function of the later part receives.
+    /// The function of the earlier part receives the shared span last, the function of the later part receives it first.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,

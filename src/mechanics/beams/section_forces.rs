@@ -4,7 +4,7 @@
 //! Near the ends of a beam, the error of the forces at quadrature points is of first order.
 //! This module computes section forces as weighted sums over the quadrature points.
 //! The computed section forces satisfy the balance with exact integrals.
-//! They are projections of the exact section forces onto the derivatives of the basis functions.
+//! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
 //! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
 
 use super::sections::{Interpolation, Sections};

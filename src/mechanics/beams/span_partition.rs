@@ -2,7 +2,7 @@
 //!
 //! The beam is divided at control points, called cuts. A few spans have control points on both sides of a cut.
 //! The contributions of the spans at a cut are computed twice, because rounding depends on the order of additions.
-//! The first computation of such a span adds only to the control points after the cut.
+//! The first computation of a span at a cut adds only to the control points after the cut.
 //! The second computation adds only to the control points before the cut.
 
 use std::ops::Range;

@@ -23,7 +23,7 @@ impl TaperQuadrature {
 
     /// Computes the quadrature errors for the sections of a beam.
     /// A position at a fraction of the length is evaluated at the same fraction of the parameter range.
-    /// This conversion is exact for spans of equal length.
+    /// The conversion of lengths to parameters is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

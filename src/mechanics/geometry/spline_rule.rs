@@ -56,7 +56,7 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 }
 
 /// Values of the splines of one degree less, computed as sums of derivatives of the basis functions.
-/// Each of these splines is a positive multiple of a B-spline, and its integral is one.
+/// Each spline of one degree less is a positive multiple of a B-spline, and its integral is one.
 /// If the basis functions `a` to `a + p` are nonzero on a span, the splines `a` to `a + p - 1` are nonzero on it.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {

@@ -9,7 +9,7 @@ use crate::newton::ResidualPart;
 pub enum Stage {
     /// Start of the step.
     /// The factor of a load is replaced by a linear function of time whose mean and change in the step are those of the factor.
-    /// At this stage, the load has the value of the linear function at the start of the step.
+    /// At the stage `Start`, the load has the value of the linear function at the start of the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///

@@ -32,7 +32,7 @@ pub struct SharedFactorWork {
     pub leader: NewtonReport,
     /// Statistics of all companions together, or the error of a companion that failed.
     /// An iteration of a companion is an additional factorisation.
-    /// It is needed if the factors of the leader do not reduce the error sufficiently.
+    /// A companion needs iterations if the factors of the leader do not reduce its error sufficiently.
     pub companions: Result<NewtonReport, StepError>,
 }
 

@@ -10,8 +10,8 @@ const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
-/// The order depends only on the unknowns that the blocks and the distant blocks couple.
-/// The delayed unknowns of a block follow the last unknown that the block touches, because they have a pivot at this position.
+/// The order depends only on the sets of unknowns that the blocks and the distant blocks couple, not on the values of the matrix.
+/// The delayed unknowns of a block follow the last unknown that the block touches, because they have a nonzero pivot there.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {
     layout: BlockLayout,

@@ -6,7 +6,7 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
 /// Largest size of the row of a constraint, as a multiple of its second largest squared scaled entry [-].
-/// At this size, the elimination loses at most half of the digits.
+/// With the largest size, the elimination loses at most half of the digits.
 /// Corrections with the same factors recover the lost digits.
 const LARGEST_RATIO: f64 = 1e8;
 

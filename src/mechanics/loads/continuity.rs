@@ -21,7 +21,7 @@ const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 const HALVINGS: usize = 15;
 
 /// Smallest ratio of the second recorded difference to the first one that counts as a jump.
-/// The ratio is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// The ratio of the two differences is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 const JUMP_RATIO: f64 = 1.05;

@@ -11,7 +11,7 @@ const FAR: f64 = 0.15;
 const NEAR: f64 = 1e-2;
 
 /// Largest displacement in a pass that counts as zero, as a fraction of the size of the scene.
-/// After such a pass, Newton's method is tried even if the configuration is unstable.
+/// After a pass with zero displacement, Newton's method is tried even if the configuration is unstable.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor by which the damping rate is multiplied after a pass with a small displacement.

@@ -33,7 +33,7 @@ impl SplineString {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
                             // In the exact motion, the velocity is one beyond the kink and zero before the kink.
-                            // The velocity of the mesh at this point is `there`.
+                            // The velocity of the mesh at the parameter `x` is `there`.
                             // On the later spans, `missing` is the exact velocity minus `there`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {

@@ -189,9 +189,9 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
-    /// A tuple contains the derivatives for one control point of the master.
-    /// Its first two entries are factors of the identity matrix: the derivatives with respect to force and couple.
-    /// Its third entry is the derivative with respect to the sliding increment.
+    /// The first entry of a tuple is the derivative with respect to the force, the second with respect to the couple.
+    /// Both derivatives are factors of the identity matrix.
+    /// The third entry of a tuple is the derivative with respect to the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

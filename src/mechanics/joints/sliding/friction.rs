@@ -15,7 +15,7 @@ pub enum FrictionMode {
     Stick,
 }
 
-/// Friction of a contact in a step.
+/// Data for the friction of a contact in a step: friction state, start velocities and inertia.
 #[derive(Debug, Clone, Copy)]
 pub struct Friction<'a> {
     /// Coefficient of friction `μ` [-].

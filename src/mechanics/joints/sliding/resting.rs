@@ -59,7 +59,9 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the static contact forces on the control points of the master with respect to the contact unknowns.
-    /// Each control point has a multiple of the identity for the contact force, zero for the couple, and a vector for the sliding increment.
+    /// The first entry of a tuple is the derivative with respect to the force, as factor of the identity matrix.
+    /// The second entry is the derivative with respect to the couple, which is zero.
+    /// The third entry is the derivative with respect to the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

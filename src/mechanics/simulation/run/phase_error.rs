@@ -17,7 +17,7 @@ const ADVISED_ERROR: f64 = 0.007;
 /// Largest fraction of the kinetic energy in the vibration for which no warning is given [-].
 const LEAST_SHARE: f64 = 0.125;
 
-/// Error of positions up to which no warning is given, as a fraction of the size of the scene [-].
+/// Largest error of positions for which no warning is given, as a fraction of the size of the scene [-].
 const NEGLIGIBLE_ERROR: f64 = 5e-3;
 
 /// Largest phase per step for which the steps resolve the vibration [rad]. For larger phases, other warnings are given.

@@ -60,7 +60,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Largest ratio of the step size that resolves the motion of the scene to the mean step size without a warning [-].
-/// At this ratio, the steps resolve a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 const SLIDERS: usize = 6;

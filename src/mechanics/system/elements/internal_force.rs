@@ -22,8 +22,8 @@ pub struct SpringTrialState {
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
 /// The force of the element is an unknown. It is eliminated from the linearised equations, and corrected together with the increments.
-/// Its rounding error is therefore smaller than the rounding error of the configuration times the stiffness.
-/// The number of iterations does not increase with the stiffness.
+/// The rounding error of the force is therefore smaller than the rounding error of the configuration times the stiffness.
+/// The number of iterations does not increase with the stiffness of the element.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;

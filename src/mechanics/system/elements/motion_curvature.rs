@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
 /// Largest difference between the rates just before and just after the end of a step for which a motion counts as smooth.
-/// The difference is a fraction of the largest of the rates [-].
+/// The difference between the rates is a fraction of the largest rate in the step [-].
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
 /// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.

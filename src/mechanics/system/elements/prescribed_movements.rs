@@ -119,7 +119,7 @@ impl PrescribedMovements {
     /// Evaluates prescribed rates and accelerations just after a time.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no value at this time, and the reason of the failure.
+    /// Returns the name of the drive whose function has no value at this time, and the error of the function.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -222,7 +222,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed increments in a step, and the prescribed rates at the start of the step.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
+    /// Returns the name of the drive whose function has no finite value, and the error of the function.
     pub fn begin_step(
         &mut self,
         interval: Interval,

@@ -4,7 +4,7 @@ use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
 /// Largest difference between the means of a schedule over a step by two quadrature rules for which the step counts as short enough.
-/// The difference is a fraction of the largest value of the schedule [-].
+/// The difference between the means is a fraction of the largest value of the schedule [-].
 /// A jump causes a difference of at least a tenth of the jump. A sine with 2.7 steps per period causes the difference `LARGEST_MISS`.
 const LARGEST_MISS: f64 = 0.01;
 

@@ -16,7 +16,7 @@ use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
 /// Largest distance of a slider from an end of its master at which it counts as arriving simultaneously with another slider.
-/// The distance is a fraction of the parameter range of the master [-].
+/// The distance from the end is a fraction of the parameter range of the master [-].
 const TOGETHER: f64 = 1e-12;
 
 /// Smallest number of steps per period of the vibrations that are included in an impact. Faster vibrations are suppressed.
@@ -274,7 +274,7 @@ impl System {
     /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
     /// All speeds have a common factor. While the set of active contacts does not change, the impulses are proportional to this factor.
-    /// The returned energy is proportional to the square of this factor.
+    /// The returned energy is proportional to the square of the common factor.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -14,7 +14,7 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 const TENSILE: f64 = 1e-10;
 
 /// Largest distance of a slider from the axis at which it counts as landing simultaneously with another slider.
-/// The distance is a fraction of the length scale of the contact [-].
+/// The distance from the axis is a fraction of the length scale of the contact [-].
 const TOGETHER: f64 = 1e-12;
 
 impl System {
@@ -169,7 +169,7 @@ impl System {
 
     /// Impact law across the master for a slider that is in contact during an impact.
     /// A slider that has taken off and landed too often within a step stays in contact.
-    /// Otherwise, two sliders could push each other off their masters alternately without end.
+    /// Without this rule, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

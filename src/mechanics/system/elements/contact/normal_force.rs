@@ -139,7 +139,7 @@ impl NormalForce {
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
     /// The damping coefficient is limited to the value that it reaches in an impact of the effective mass on the contact.
-    /// Without this limit, the coefficient of a resting contact would be infinite, because the approach speed is zero.
+    /// Without the limit, the damping coefficient of a resting contact would be unbounded, because its approach speed is almost zero.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);

@@ -13,7 +13,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
+    /// Returns the name of the drive whose function has no finite value, and the error of the function.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Position(schedule) = &movement.motion {

@@ -53,7 +53,7 @@ pub(super) struct PairForces {
     last_force: Vec2,
     dissipated: f64,
     /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
-    /// It is zero if the boxes around two bodies overlap.
+    /// The bound is zero if the boxes around two bodies overlap.
     clearance: f64,
     /// True if the configuration `start` of the shapes is that at the start of the present step. It may be older if no bodies can touch.
     is_current: bool,
@@ -119,7 +119,7 @@ impl PairForces {
     }
 
     /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
-    /// Nothing is done if no bodies can touch.
+    /// The configuration is not changed if no bodies can touch.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.is_current = false;
         if self.is_clear_with(bodies, &[]) {

@@ -495,7 +495,7 @@ impl ContactPair {
     }
 
     /// Adds a generalised friction force to `out`.
-    /// It consists of forces on the contact point and on both feet, and of moments on both bodies.
+    /// The generalised force consists of forces on the contact point and on both feet, and of moments on both bodies.
     fn scatter_friction(
         &self,
         shapes: &[Shape],
