@@ -279,7 +279,7 @@ impl StepSolver {
 
     /// Ends the step with the present increments.
     /// The callback `rate` returns the rate of an unknown at the end of the step.
-    /// The arguments of `rate` are the index of the unknown, the rate at the start, and the deviation of the increment from constant velocity.
+    /// The arguments of `rate` are the index of the unknown, its rate at the start, and its deviation from constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

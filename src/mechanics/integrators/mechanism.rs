@@ -178,7 +178,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Ends a step with the given solution: updates configuration, rates, work and impulse.
     fn advance(&mut self, solution: &Solution<'_>);
 
-    /// Interface that stores and restores the state, for methods that repeat a part of a step.
+    /// Interface that stores and restores the state, for methods that return to an earlier state within a step.
     fn checkpoint(&mut self) -> &mut dyn Checkpoint;
 
     /// Interface that stores accelerations, for methods whose state includes them.

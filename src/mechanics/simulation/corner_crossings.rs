@@ -8,7 +8,7 @@ use crate::system::{Along, Branch, System};
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
 /// If a spring changes its branch within a step, the error of the step is increased.
-/// The error is increased by the difference between the rates after the whole step and after the half steps, times the duration of the step.
+/// The increase is the difference of the rates after the whole step and after the half steps, times the duration of the step.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

@@ -145,7 +145,7 @@ impl System {
         self.step.returned
     }
 
-    /// Measures of the temporal resolution of the motion in the steps so far.
+    /// Data from which warnings determine whether the steps so far resolve the motion.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }

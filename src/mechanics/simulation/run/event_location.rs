@@ -426,7 +426,7 @@ impl Simulation {
     }
 
     /// Period [time] in which repeated impacts or oscillations count as not resolved by steps of length `dt` [time].
-    /// Variable steps become longer between impacts. For them, the time in which a wave passes a span is used if it is shorter than `dt`.
+    /// Variable steps become longer between impacts. Therefore, they use the time in which a wave passes a span if it is shorter than `dt`.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {

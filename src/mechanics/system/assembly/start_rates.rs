@@ -104,7 +104,7 @@ impl Assembly<'_> {
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // The size converts differences of angular velocities to velocities.
-            // A body whose points are all at its centre has the size zero. One is used instead, because its rotation is not tied to other bodies.
+            // If all points of a body are at its centre, any size can be used, because the rotation of the body is not tied to others.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }

@@ -3,7 +3,8 @@
 /// Largest number of steps during a contact for which the steps do not resolve the bounce.
 const FEW: f64 = 3.0;
 
-/// Largest change of the elongation rate during a contact that does not count as a bounce, as a fraction of the rate at the start.
+/// Largest change of the elongation rate during a contact that does not count as a bounce.
+/// The change is a fraction of the elongation rate at the start of the contact [-].
 const TURNED: f64 = 0.5;
 
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.

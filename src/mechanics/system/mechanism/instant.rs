@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Unlike means over two consecutive steps, they contain vibrations that the steps do not resolve.
+//! Unlike means over two consecutive steps, instantaneous forces contain vibrations that the steps do not resolve.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};

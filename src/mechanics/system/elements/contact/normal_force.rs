@@ -130,7 +130,7 @@ impl NormalForce {
     }
 
     /// Largest tension in an iterate for which the mean tension of the step is not positive [force].
-    /// If the method evaluates forces at both ends of the step, it depends on the tension at the start of the step.
+    /// If the method evaluates forces at both ends of the step, the largest tension depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
