@@ -39,7 +39,7 @@ impl RateMismatch {
 const KEPT: f64 = 0.8;
 
 /// Largest ratio of the error `off` to the error `apart` (before squaring) for which the steps count as resolving the rate.
-/// The ratio is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
+/// The ratio of the errors is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 /// Weighted sums of the errors of the dashpot rates in the recent steps, from which the steps are judged to resolve the rates or not.

@@ -8,7 +8,7 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed difference between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
-/// The sampling error that accumulates over the time scale of a motion is then about half the tolerance (theory.md, section 13.1).
+/// The value 4 makes the sampling error that accumulates over the time scale of a motion about half the tolerance (theory.md 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).

@@ -293,7 +293,7 @@ impl Simulation {
     }
 
     /// Returns true if the arrival of a slider at a limit may be an impact.
-    /// A stop can only hold the slider unless the velocity of the slider, as far as the steps resolve it, points beyond the limit.
+    /// At a stop, the part of the velocity of the slider that the steps resolve must point beyond the limit for an impact.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -393,7 +393,7 @@ impl Simulation {
 
     /// Starts the kinks under sliders at ends of their masters with the present contact forces.
     /// If the previous arrival at an end was less than a step ago, the kinks start without load.
-    /// Contact forces between two such arrivals contain vibrations that the steps do not resolve.
+    /// Contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {

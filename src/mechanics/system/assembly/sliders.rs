@@ -15,7 +15,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
-/// Velocities at a dead centre of a mechanism have relative rounding errors of about this size.
+/// Velocities at a dead centre of a mechanism have relative rounding errors of about `SAME_VELOCITY`.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {

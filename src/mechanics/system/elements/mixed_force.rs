@@ -20,7 +20,7 @@ struct IterationState {
 }
 
 /// Factor that reduces the elongation in the scale of force differences, for laws with corners [-].
-/// The scale is the larger of the force and the stiffness times the elongation.
+/// The scale of force differences is the larger of the force and the stiffness times the elongation.
 /// A linear law is satisfied after one iteration. For a law with corners, a force difference remains, which must be small.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 

@@ -3,8 +3,8 @@
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Largest difference between the means of a schedule over a step by two quadrature rules for which the step counts as short enough.
-/// The difference between the means is a fraction of the largest value of the schedule [-].
+/// Largest difference between the results of two quadrature rules for the mean of a schedule that is accepted without a warning.
+/// The difference between the results is a fraction of the largest value of the schedule [-].
 /// A jump causes a difference of at least a tenth of the jump. A sine with 2.7 steps per period causes the difference `LARGEST_MISS`.
 const LARGEST_MISS: f64 = 0.01;
 

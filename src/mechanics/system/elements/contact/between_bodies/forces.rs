@@ -373,7 +373,7 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    /// If the configuration `start` is older than the step, the bodies came nowhere near each other in the step, so no path crosses a body.
+    /// If the configuration `start` is older than the step, no bodies came near each other in the step, so no path crosses a body.
     fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
         if !self.is_current || self.is_clear_with(bodies, increments) {
             return false;

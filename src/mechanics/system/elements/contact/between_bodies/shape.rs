@@ -140,7 +140,7 @@ struct SampledCurve {
     spans: Vec<Span>,
     /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
-    /// Fraction of its size by which the box around the control points of a span is enlarged so that it contains the curve [-].
+    /// Enlargement with which the box around the control points of a span contains the curve, as a fraction of the size of the box [-].
     growth: f64,
 }
 
