@@ -4,7 +4,7 @@ use crate::elementary::square;
 use crate::geometry::Vec2;
 
 /// Largest ratio of the path length in a step to the length of its chord in a disc [-].
-/// If the ratio is larger for an open contact point, the chord is ignored.
+/// For an open contact point, a shorter chord is ignored.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Straight path of a point relative to a disc in a step.
