@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Smallest nonzero derivative of the axis with respect to its parameter, as a fraction of the mean length. Smaller derivatives count as zero.
+/// Largest speed `|dx/dξ|` of an axis that counts as zero, as a fraction of its mean speed.
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]

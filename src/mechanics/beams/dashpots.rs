@@ -48,9 +48,9 @@ pub struct RateCollocation {
     /// Fraction of the step at which the directions of forces are evaluated [-].
     /// Positions and rotations are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
-    /// Factor of the change of the quantity in the step [1/time].
+    /// Coefficient `by_change` of the change of the quantity in the step [1/time].
     pub by_change: f64,
-    /// Factor of the rate of the quantity in the previous step [-].
+    /// Coefficient `by_last` of the rate of the quantity in the previous step [-].
     pub by_last: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
@@ -82,7 +82,8 @@ struct SpanDashpots {
     moments: Vec<MomentDashpot>,
 }
 
-/// Dashpots of a beam at its quadrature points. Increments, rates and forces are given for all control points.
+/// Dashpots of a beam at its quadrature points.
+/// The methods take and return increments, rates and forces of all control points of the beam.
 #[derive(Debug, Clone)]
 pub struct Dashpots {
     order: usize,
@@ -150,7 +151,7 @@ impl Dashpots {
         }
     }
 
-    /// Prepares an increment of zero duration, in which the dashpots have no effect.
+    /// Prepares a static increment, in which the dashpots exert no forces.
     pub(crate) fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);
@@ -205,7 +206,7 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the force corrections on control points that satisfy the damping laws.
+    /// Calls `give` with the changes of the forces on control points that would make all dashpot forces satisfy their damping laws.
     /// The directions of the force corrections are those of the last linearisation.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
@@ -222,7 +223,8 @@ impl Dashpots {
         }
     }
 
-    /// Ends a step of the given duration [time] with the given increments. The duration of an increment without damping is infinite.
+    /// Ends a step of the given duration [time] with the given increments.
+    /// The caller passes an infinite duration for a static increment, so that its rates are zero.
     /// Returns the energy that the dashpots dissipate [energy].
     pub fn advance(
         &mut self,

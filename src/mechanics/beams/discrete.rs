@@ -169,7 +169,7 @@ impl<const N: usize, S: Sections> BodyDynamics for DiscreteBeam<N, S> {
         let mut summaries = [ForceSummary::default(); MOST_PARTS];
         let summaries = &mut summaries[..parts.count()];
         parts.sum(groups, forces, summaries, |summary, groups, first, forces| {
-            // A local copy is used because the summaries of threads are adjacent in memory, where concurrent writes are slow (false sharing).
+            // Each thread writes to a local copy of its summary, because concurrent writes to adjacent summaries are slow (false sharing).
             let mut own = *summary;
             let forces = ForcesFrom { first, forces };
             ForceAssembly { iterate, forces, summary: &mut own }.over(groups);

@@ -85,7 +85,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Each part of a divided body has its own function in `tangents`.
     ///
     /// The function of a part in `tangents` must use only the rows of control points of this part.
-    /// A span with control points in two parts is passed to the function of the earlier part last, and to the function of the later part first.
+    /// A span with control points in two parts is passed to the functions of both parts.
+    /// The function of the earlier part receives the shared span last, the function of the later part receives it first.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,

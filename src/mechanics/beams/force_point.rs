@@ -38,7 +38,8 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain to the static stiffness of the span, and the rows of the geometric stiffness for a nonzero force.
+    /// Adds the rows of axial and shear strain to the static stiffness of the span.
+    /// If the section force is not zero, the rows of the geometric stiffness are also added.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {

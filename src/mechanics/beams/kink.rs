@@ -2,7 +2,8 @@
 //!
 //! A point force on a shear-flexible beam causes a jump of the tangent of its axis.
 //! A smooth mesh does not represent a part of the displacement under the point force.
-//! The displacement missing under a point force is the same as in a string with the same basis functions, quadrature points and weights.
+//! The missing displacement equals that of a string under a point force.
+//! The string has the same basis functions, quadrature points and weights as the beam.
 //! Derivation: docs/theory.md, section 10.1.
 
 mod running;
@@ -12,7 +13,7 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Largest kink length that is attributed to rounding, as a fraction of a span.
+/// Largest kink length that counts as a rounding error, as a fraction of the length of a span.
 const ROUNDING: f64 = 1e-11;
 
 /// Part of the kink under a point force that the mesh does not represent.
@@ -30,7 +31,8 @@ pub struct MissedKink {
 /// The displacement that is missing on the mesh is the kink length times the force, divided by the shear stiffness.
 ///
 /// The kink length is a polynomial of twice the degree of the basis on each span, and zero at knots where the basis is only C⁰.
-/// Returns `None` if the kink length is not positive at a smooth point, for example with fewer quadrature points than the patch rule has.
+/// Returns `None` if the kink length is not positive at a point where the basis is smooth.
+/// The kink length may be negative if the mesh has fewer quadrature points than the patch rule.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

@@ -19,7 +19,7 @@ pub enum Quadrature {
     Points(usize),
 }
 
-/// Discretisation of a beam: basis and quadrature.
+/// Mesh of a beam: basis functions for its displacements and rotations, and quadrature of its strains.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(Basis, Quadrature)")]
 pub struct Mesh {
@@ -144,7 +144,7 @@ impl Mesh {
         self.basis.spans().len()
     }
 
-    /// Description of the mesh, such as `cubic B-splines C², 14 spans`.
+    /// Text that describes the basis and the number of spans, such as `cubic B-splines C², 14 spans`.
     pub fn describe(&self) -> String {
         let degree = match self.basis.degree() {
             1 => "linear".to_owned(),

@@ -35,14 +35,14 @@ impl RateMismatch {
     }
 }
 
-/// Factor by which the weight of earlier steps decreases with each step.
+/// Factor by which each step multiplies the squared errors that have been summed over all earlier steps.
 const KEPT: f64 = 0.8;
 
-/// Largest deviation of the rate at the start of a step that counts as resolved, as a fraction of the change of the mean rates.
-/// Vibrations have smaller deviations if their angular frequency `ω` and the step length `h` satisfy `ω h < 2`.
+/// Largest ratio of the error `off` to the error `apart` (before squaring) for which the steps count as resolving the rate.
+/// The ratio of the errors is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
-/// Measure of the accuracy with which the recent steps resolve the dashpot rates.
+/// Weighted sums of the errors of the dashpot rates in the recent steps, from which the steps are judged to resolve the rates or not.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
     mismatches: [RateMismatch; 3],

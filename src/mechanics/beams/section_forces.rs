@@ -1,8 +1,9 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The forces at quadrature points satisfy the balance of a step only with quadrature sums.
+//! The forces at quadrature points satisfy the balance of a step only if integrals are replaced by sums over quadrature points.
 //! Near the ends of a beam, the error of the forces at quadrature points is of first order.
-//! This module computes section forces that satisfy the balance with exact integrals, as weighted sums over the quadrature points.
+//! This module computes section forces as weighted sums over the quadrature points.
+//! The computed section forces satisfy the balance with exact integrals.
 //! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
 //! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
 
@@ -11,7 +12,7 @@ use super::span_points::{SpanGroup, group_of};
 use super::{BeamError, Mesh, Section};
 use crate::geometry::{LowerSplines, Reproduction, Span, Vec2, cross, larger};
 
-/// Largest weight that counts as zero, as a fraction of the largest weight of a position.
+/// Largest weight of a quadrature point that counts as zero, as a fraction of the largest weight at the same position.
 const NO_WEIGHT: f64 = 1e-14;
 
 /// Section forces and strains at a cross section.

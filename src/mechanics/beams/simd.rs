@@ -68,7 +68,7 @@ impl Lanes {
     }
 }
 
-/// Number type in formulas for quadrature points: a scalar, or values in several lanes.
+/// Number type of formulas that are evaluated for one quadrature point (scalar) or for several quadrature points at once (vector lanes).
 pub trait Number:
     Copy
     + Add<Output = Self>

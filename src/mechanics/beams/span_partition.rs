@@ -1,8 +1,9 @@
 //! Division of the spans of a beam into parts that threads process concurrently, without an effect on the results.
 //!
-//! The beam is cut at control points. A few spans have control points on both sides of a cut.
+//! The beam is divided at control points, called cuts. A few spans have control points on both sides of a cut.
 //! The contributions of the spans at a cut are computed twice, because rounding depends on the order of additions.
-//! For a span at a cut, the first computation adds to the control points after the cut, the second computation to those before the cut.
+//! The first computation of a span at a cut adds only to the control points after the cut.
+//! The second computation adds only to the control points before the cut.
 
 use std::ops::Range;
 
@@ -104,7 +105,7 @@ impl SpanPartition {
 
     /// Adds contributions of spans to control points. The parts of the beam are processed concurrently.
     ///
-    /// The callback `work` receives the context of a part, some spans, the first control point of their sums, and the sums.
+    /// The callback `work` receives a value of `own`, some spans, the index of their first control point, and the sums at these points.
     /// For spans across a cut, `work` is called twice and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,

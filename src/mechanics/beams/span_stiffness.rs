@@ -21,15 +21,16 @@ pub struct SpanStiffness {
     /// First control point of the span.
     pub first: usize,
     /// Rows of derivatives of strains and curvatures with respect to displacements and rotations, stored one after the other.
-    /// The entries of a row have the unit [1/length], except derivatives of the shear strain with respect to rotations [-].
+    /// The entries of a row have the unit [1/length], except derivatives of axial and shear strain with respect to rotations [-].
     pub strains: Vec<f64>,
     /// Stiffness for each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
     /// Type of the strain in each row; empty for bodies that are not beams.
     pub kinds: Vec<StrainKind>,
-    /// Pairs of rows `p` and `q` of the geometric stiffness, stored one after the other [force; force·length for rotations, -].
+    /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`, stored one after the other.
+    /// The rows are derivatives with respect to displacements and rotations. The unit of the product `p qᵀ` is that of a stiffness.
     pub twists: Vec<f64>,
-    /// Fraction of the section force of each pair of rows that may be due to rounding [-].
+    /// Largest relative rounding error of the section force in each pair of rows [-].
     pub rounding_fractions: Vec<f64>,
 }
 

@@ -90,7 +90,7 @@ impl BodyPoint {
     }
 
     /// Position of a point of a rigid body whose initial angle is `angle` [rad].
-    /// The argument `point` is the index of the control point of the point (0 is the centre of mass).
+    /// The argument `point` is the index of the control point: 0 for the centre of mass, and 1 or more for the other points.
     pub fn of_point(body: usize, point: usize, angle: f64) -> Self {
         let mut shape = [0.0; MAX_DEGREE + 1];
         shape[0] = 1.0;

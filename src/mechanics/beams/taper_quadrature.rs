@@ -18,12 +18,12 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
-    /// Relative error above which a mesh is too coarse.
+    /// Largest quadrature error of a mesh that is not too coarse for the taper [-].
     pub const TOLERANCE: f64 = 5e-3;
 
     /// Computes the quadrature errors for the sections of a beam.
-    /// Positions along the beam are converted to the same fractions of the parameter.
-    /// The conversion of positions to parameters is exact for spans of equal length.
+    /// A position at a fraction of the length is evaluated at the same fraction of the parameter range.
+    /// The conversion of lengths to parameters is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

@@ -42,7 +42,7 @@ fn raise<const WIDTH: usize>(
 ) -> [f64; WIDTH] {
     let mut higher = [0.0; WIDTH];
     for (j, (value, (start, end))) in lower.iter().zip(supports).enumerate() {
-        // The quotients of the recurrence are computed first, because they are exactly 0 and 1 at the ends of the span.
+        // Each quotient is computed before it is multiplied by `value`, because it is then exactly 0 or 1 at an end of the span.
         higher[j] += (end - xi) / (end - start) * value;
         higher[j + 1] += (xi - start) / (end - start) * value;
     }

@@ -23,7 +23,8 @@ pub struct ContactPath {
     numbers: Vec<f64>,
 }
 
-/// Quantity of each basis function along a path. The rows of the table of path quantities have the order of these variants.
+/// Quantity that is computed for each basis function along a path.
+/// The table of these quantities has one row for each variant, in this order.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,

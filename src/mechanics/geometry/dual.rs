@@ -24,7 +24,8 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Variable with the given index. The derivative of a variable with a larger index than the number of variables is left out.
+    /// Variable with the given index: its derivative with respect to itself is one.
+    /// If the index is not below `SLOPES`, all stored derivatives are zero.
     pub fn variable(value: f64, at: usize) -> Self {
         let mut variable = Self::constant(value);
         variable.add_slope(at, 1.0);

@@ -7,7 +7,7 @@ use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
-/// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle is equal for all pieces.
+/// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle of every piece has the same value.
 /// The interpolating curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
@@ -63,7 +63,7 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Returns two chords beyond an end of the curve, which continue the rotation of the last two chords.
+/// Returns two additional chords beyond an end of the curve, extrapolated from the last two chords.
 /// The NURBS Book uses the chord `2 near - far`, computed from the chord `near` at the end and the next chord `far`.
 /// The function `continued` first scales the chord `far` to the length of `near`, which changes nothing for equally spaced points.
 /// Without the scaling of chords, a curve through unequally spaced points could start backwards.

@@ -1,6 +1,6 @@
 //! Symmetric positive definite band matrices, and entries of their inverse near the diagonal.
 
-/// Ratio of a pivot to the diagonal entry below which a matrix counts as singular.
+/// Smallest ratio of a pivot to its diagonal entry for which a matrix counts as nonsingular [-].
 const ROUNDING: f64 = 1e-11;
 
 /// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.

@@ -3,7 +3,7 @@
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// Space of the derivatives of the basis functions in a run of spans, with their scalar products.
+/// Function space spanned by the derivatives of the basis functions of a run of spans, with the matrix of their scalar products.
 ///
 /// The scalar products of a function with the elements of the space determine the projection of the function onto the space.
 /// For smooth functions, the projection error decreases as the span length to the power of the degree, up to the ends of the run.
@@ -111,7 +111,7 @@ impl Reproduction<'_> {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Difference between the integral of the kernel and its projection onto the space, at a parameter of a span.
+    /// Projection of the integral of the kernel onto the space, minus this integral, at a parameter of a span.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);

@@ -55,7 +55,8 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
     run.iter().enumerate().map(of).collect()
 }
 
-/// Splines of one degree less, computed as sums of derivatives. Each spline is a positive multiple of a B-spline, and its integral is one.
+/// Values of the splines of one degree less, computed as sums of derivatives of the basis functions.
+/// Each spline of one degree less is a positive multiple of a B-spline, and its integral is one.
 /// If the basis functions `a` to `a + p` are nonzero on a span, the splines `a` to `a + p - 1` are nonzero on it.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
@@ -202,7 +203,7 @@ fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Optio
             number += 1;
         }
     }
-    // Every point must lie within the support of the spline with the same index (Schoenberg & Whitney 1953).
+    // The weights are unique if each point lies within the support of the spline with the same index (Schoenberg & Whitney 1953).
     let has_own = |(at, row): (usize, &CollocationRow<f64>)| {
         (row.first..row.first + row.entries.len()).contains(&at)
     };

@@ -11,7 +11,8 @@ use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms,
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
-/// A rotation of about π folds the path. Then, the contact equations have no defined direction, and spurious solutions exist.
+/// If the master rotates by about π in a step, the chord in the mean configuration is short.
+/// The contact equations then have no defined direction, and spurious solutions exist.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]
@@ -114,7 +115,7 @@ pub(super) struct StepSolver {
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
-    /// Part of the residual that does not depend on the increments.
+    /// Part of the residual that is constant in the iteration of a step.
     constant_residual: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
@@ -164,7 +165,7 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Adds `share` times the forces of a stage at zero increments to the balance of the step.
+    /// Adds `share` times the forces of a stage, evaluated at zero increments, to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);
@@ -277,7 +278,8 @@ impl StepSolver {
     }
 
     /// Ends the step with the present increments.
-    /// The callback `rate` computes the final rate of an unknown from its index, its initial rate, and its deviation from constant velocity.
+    /// The callback `rate` returns the rate of an unknown at the end of the step.
+    /// The arguments of `rate` are the index of the unknown, its rate at the start, and its deviation from constant velocity.
     pub(super) fn accept(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -30,7 +30,7 @@ impl FourthOrder {
     /// Stages at which the method evaluates forces, one stage per substep.
     pub const STAGES: &[Stage] = &[Stage::Midpoint; ENDS.len()];
 
-    /// Lengths of the longest forward substep and of the backward substep, as fractions of a step.
+    /// Lengths of the longest forward substep (positive) and of the backward substep (negative), as fractions of a step.
     pub const LONGEST: [f64; 2] = [SHARES[2], ENDS[3] - ENDS[2]];
 
     pub(super) fn parts() -> [f64; ENDS.len()] {
@@ -84,7 +84,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Substep ends of the method of M. Suzuki (1990).
+    /// End times of the substeps in the method of M. Suzuki (1990), as fractions of the step.
     const SUZUKI: [f64; 5] = [
         0.414_490_771_794_375_7,
         0.828_981_543_588_751_4,

@@ -7,7 +7,7 @@ use crate::elementary::square;
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Generalized-α method of second order: Newmark's formulas, with inertia and forces balanced at different times (docs/theory.md, section 8.4).
-/// High frequencies are damped by a factor of down to `ρ∞` per step, low frequencies very little.
+/// The amplitudes of the highest frequencies are multiplied by about `ρ∞` in each step. The damping of low frequencies is very small.
 /// The method conserves neither energy nor momenta.
 ///
 /// Accelerations are part of the state. Accelerations are unknown at the start, after an impact, and at a jump of a load.

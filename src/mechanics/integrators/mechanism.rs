@@ -7,23 +7,26 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. A load has the start value of the linear function of time with the same mean and the same change in the step.
+    /// Start of the step.
+    /// The factor of a load is replaced by a linear function of time whose mean and change in the step are those of the factor.
+    /// At the stage `Start`, the load has the value of the linear function at the start of the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
     /// The work of the internal forces at this stage is exactly the change of the strain energy in the step.
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
-    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces of a later strain.
-    /// The strain is the mean strain plus `χ/2` times the change of the strain in the step.
-    /// The value of this variant is the dissipation parameter `χ`.
+    /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces that belong to a later strain.
+    /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
+    /// The value of this variant is the dissipation parameter `χ` [-].
     DampedMidpoint(f64),
-    /// End of the step. A load has the end value of the linear function of time with the same mean and the same change in the step.
+    /// End of the step. The load has the value of the linear function of [`Start`](Self::Start) at the end of the step.
     End,
 }
 
 impl Stage {
-    /// Stages at which loads have different values, in the order of time.
+    /// Stages with separate load values, in the order of time.
+    /// The stage [`DampedMidpoint`](Self::DampedMidpoint) has the loads of [`Midpoint`](Self::Midpoint).
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
@@ -84,7 +87,7 @@ pub trait Forces {
 
 /// Constraints of a mechanical system, whose multipliers are unknowns.
 pub trait Constraints {
-    /// Number of constraint unknowns, and the largest number of entries of the constraint equations.
+    /// Number of constraint unknowns, and an upper bound of the number of nonzero derivatives of the constraint equations.
     fn constraint_shape(&self) -> BorderShape;
 
     /// Blocks of five constraint unknowns; `None` if the constraints are not eliminated block by block.
@@ -95,7 +98,7 @@ pub trait Constraints {
     /// Predicts the constraint unknowns of a step over the interval.
     fn predict_constraints(&mut self, interval: Interval, unknowns: &mut [f64]);
 
-    /// Adds the constraint forces and then the constraint violations to `out`.
+    /// Adds the constraint forces and the constraint violations to `out`, at the indices of degrees of freedom and of constraints.
     fn add_constraints(&mut self, increments: &[f64], unknowns: &[f64], out: &mut [f64]);
 
     /// Adds the constraint forces and the constraint violations to `out`.
@@ -130,7 +133,7 @@ pub trait Constraints {
         Ok(())
     }
 
-    /// Shortest chord of the path of a slider in the mean configuration, as a fraction of the initial length of the path [-].
+    /// Smallest chord of the path of a slider in the mean configuration, as a fraction of the initial length of the path [-].
     fn shortest_chord(&self) -> f64;
 }
 
@@ -160,7 +163,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Rates of the unknowns at the start of the step [length/time, 1/time].
     fn rates(&self) -> &[f64];
 
-    /// Rates for the prediction of the next step [length/time, 1/time].
+    /// Rates that the next step uses for the start values of its iteration [length/time, 1/time].
     fn expected_rates(&self) -> &[f64];
 
     /// Prescribed motions in the present step.
@@ -175,10 +178,10 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Ends a step with the given solution: updates configuration, rates, work and impulse.
     fn advance(&mut self, solution: &Solution<'_>);
 
-    /// Interface for methods that return to an earlier state within a step.
+    /// Interface that stores and restores the state, for methods that return to an earlier state within a step.
     fn checkpoint(&mut self) -> &mut dyn Checkpoint;
 
-    /// Interface for methods that have accelerations in their state.
+    /// Interface that stores accelerations, for methods whose state includes them.
     fn accelerated(&mut self) -> &mut dyn Accelerated;
 }
 
@@ -214,12 +217,12 @@ pub struct Solution<'a> {
     pub rates: &'a [f64],
     /// Residual of the equations [force, force·length]. At supported degrees of freedom, it is the support reaction.
     pub residual: &'a [f64],
-    /// Stages with weights [-], for which the weighted sum of forces is the rate of change of the momenta.
+    /// Stages and their weights [-]. The weighted sum of the forces at these stages is the rate of change of the momenta in the step.
     /// The list of stages is empty if the method balances accelerations instead of momenta.
     pub balanced: &'a [(Stage, f64)],
 }
 
-/// Constraint event within a step, such as a passed limit, for which the step is rejected.
+/// Event of a constraint because of which a step is rejected, for example a slider that passes the end of its master.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overshoot {
     /// Index of the event among the events of all constraints.

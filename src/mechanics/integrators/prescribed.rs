@@ -14,7 +14,7 @@ pub struct PrescribedKinematics {
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Acceleration of the prescribed degrees of freedom in the balance of a method.
+/// Prescribed acceleration that the balance of a step uses: the mean over the step, or the value at a fraction of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,
@@ -33,7 +33,7 @@ impl PrescribedKinematics {
         }
     }
 
-    /// Number of vector entries after the unknowns.
+    /// Number of entries for constraint multipliers and prescribed degrees of freedom; zero without prescribed motions.
     pub fn width(&self) -> usize {
         self.increments.len()
     }

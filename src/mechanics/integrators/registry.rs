@@ -31,14 +31,14 @@ pub enum Method {
     },
 }
 
-/// Claim about the conservation of energy by a method.
+/// Property of a method: conservation of energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
     /// The energy is conserved to rounding.
     Conserved,
     /// The energy never increases by more than rounding.
     NonIncreasing,
-    /// The method has no claim about the energy.
+    /// The energy may increase or decrease.
     Unclaimed,
 }
 
@@ -47,7 +47,7 @@ pub enum EnergyClaim {
 pub struct Claims {
     /// Order of convergence in time.
     pub order: u32,
-    /// Claim about the conservation of energy.
+    /// Conservation of energy by the method.
     pub energy: EnergyClaim,
     /// True if linear momentum is conserved to rounding.
     pub momentum: bool,
@@ -76,7 +76,7 @@ pub struct MethodParameter {
     pub meaning: &'static str,
     /// Smallest value [-].
     pub least: f64,
-    /// Largest value [-]; may be infinite.
+    /// Largest value of the parameter [-]; infinite without an upper limit.
     pub most: f64,
     /// Default value [-].
     pub default: f64,

@@ -18,9 +18,9 @@ pub enum Releasable {
 /// Event that triggers a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
-    /// Time since the start [time]. A step ends at this time.
+    /// Release at the given time since the start [time]. A step ends at this time.
     Time(f64),
-    /// Call by the user of the simulation, between two steps.
+    /// Release by a call of the user of the simulation, between two steps.
     Outside,
 }
 

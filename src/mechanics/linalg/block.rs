@@ -58,7 +58,7 @@ pub(super) struct Block {
     /// Unknowns of the band that are coupled to the block, except its own unknowns.
     pub(super) touched: Vec<usize>,
     front: Vec<f64>,
-    /// Buffer for the vectors of a pivot row, with zeros up to the pivot.
+    /// Buffer for a pivot row, divided into vectors of `LANES` entries. The entries up to the pivot are zero.
     pivot_row: Vec<[f64; LANES]>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,

@@ -26,7 +26,7 @@ pub struct BorderedMatrix {
 pub struct BorderShape {
     /// Number of border rows and columns.
     pub width: usize,
-    /// Largest number of entries of the border rows in the columns of the band.
+    /// Upper bound of the number of nonzero entries in the rows `C` of the border.
     pub row_entries: usize,
 }
 
@@ -199,8 +199,9 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with joint elimination of the band and a dense border, for bands that may be singular alone.
-    /// The last `full` rows and columns, which have entries everywhere, remain a border.
+    /// Returns the matrix with joint elimination of the band and the border.
+    /// Joint elimination is needed if the band without the border may be singular.
+    /// The last `full` rows and columns, which have entries everywhere, are not included in the joint elimination and remain a border.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),

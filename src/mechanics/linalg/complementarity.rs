@@ -2,7 +2,7 @@
 
 use super::{BandedMatrix, LinearError};
 
-/// Condition on an unknown and its response.
+/// Condition that an unknown and its response `w = A z + q` must satisfy together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pairing {
     /// Equality: the response is zero, and the unknown may have any value.
@@ -14,7 +14,7 @@ pub enum Pairing {
 /// Number of block exchanges without progress after which pairs are exchanged one by one.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
-/// Largest negative unknown or response that counts as zero, as a fraction of the largest value.
+/// Largest magnitude of a negative unknown or response that counts as zero, as a fraction of the largest value.
 const NOTHING: f64 = 1e-13;
 
 /// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`.

@@ -19,13 +19,13 @@ const LANES: usize = 4;
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
-/// Smallest half-bandwidth at which the stored part of a row contains a panel and the whole vectors after the panel.
+/// Smallest half-bandwidth for which the storage of a row has space for a panel and the vectors that are read after the panel.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
 /// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.
 const LARGEST_SQUARE: f64 = 64.0;
 
-/// Returns true if a multiplier is too small for a row exchange.
+/// Returns true if a multiplier is so small that no row exchange is needed.
 /// The arguments are the multiplier, and the squared sizes of the pivot row and of the eliminated row.
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
-//! The caller decides about a refinement of the solution.
+//! The solution is not refined here. The caller can correct the solution with the same factors.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
@@ -14,7 +14,7 @@ use crate::elementary::square;
 /// Number of border columns that are stored and solved together, which equals the number of unknowns of a sliding contact.
 const STRIP: usize = 5;
 
-/// Weight of length rows relative to force rows in the choice of pivots.
+/// Weight of rows with the unit of a length, relative to rows with the unit of a force, in the choice of pivots [-].
 /// Force rows, such as the equation of a frictionless contact, are preferred as pivot rows if this choice loses at most four digits.
 /// With force rows as pivot rows, a contact force of zero is computed without rounding error.
 const LENGTHS: f64 = 1e-4;

@@ -41,7 +41,7 @@ fn order_by_levels(count: usize, groups: &[Vec<usize>]) -> Vec<usize> {
     }
     let neighbours =
         |node: usize| groups_of[node].iter().flat_map(|&group| groups[group].iter().copied());
-    // The levels should start at a free end of the structure. Unknowns with few couplings are close to a free end.
+    // The search for the first unknown starts at unknowns with few couplings, because they are close to a free end of the structure.
     let degree =
         |node: usize| groups_of[node].iter().map(|&group| groups[group].len()).sum::<usize>();
 

@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Limit of the largest squared scaled entry in the row of a constraint, relative to the second largest entry [-].
-/// If the ratio of squared entries equals the limit, elimination with the smaller diagonal entry loses half of the digits.
-/// Corrections with the same factors recover the digits lost in the elimination.
+/// Largest size of the row of a constraint, as a multiple of its second largest squared scaled entry [-].
+/// With the largest size, the elimination loses at most half of the digits.
+/// Corrections with the same factors recover the lost digits.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.
@@ -24,7 +24,7 @@ pub(super) struct Storage {
     pub(super) last_columns: Vec<usize>,
     /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, equal by default. The choice of pivots compares rows with different units by their sizes.
+    /// Squared sizes of the rows, which are all equal by default. The choice of pivots divides the entries of a row by the size of the row.
     /// A row exchange also exchanges the row sizes.
     pub(super) sizes: Vec<f64>,
 }

@@ -9,19 +9,19 @@ use crate::elementary::{rounded_to, whole_power};
 /// Smallest significant difference of two values, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
 
-/// Exponents `i` of the two sampling times `8⁻ⁱ` shortly after the start.
+/// Exponents `i` of the two sampling times `8⁻ⁱ` just after the start [time].
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Ratio of the changes of a function from the start to the two sampling times above which the function jumps.
+/// Smallest ratio of the change up to the nearer sampling time to the change up to the farther one that counts as a jump.
 /// The ratio of the two changes is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
-/// Number of bisections before a difference is recorded, and again after the record.
+/// Number of bisections before the first of two differences is recorded, and between the two records.
 const HALVINGS: usize = 15;
 
-/// Fraction of a difference that remains after repeated bisection, above which the function jumps.
-/// The remaining fraction is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// Smallest ratio of the second recorded difference to the first one that counts as a jump.
+/// The ratio of the two differences is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 const JUMP_RATIO: f64 = 1.05;

@@ -6,21 +6,22 @@ use super::{Equations, NewtonError, ResidualNorms};
 use crate::elementary::whole_power;
 use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 
-/// Residual norm below which earlier factors are reused, as long as they reduce the residual.
+/// Largest residual norm after an iteration for which corrections with the same factors are tried [-].
 const NEAR: f64 = 1e-4;
 
-/// Largest number of corrections that take less time than one iteration.
-/// An iteration with new factors squares the residual norm. A correction with earlier factors only reduces the residual norm.
+/// Largest number of corrections that reuse the factors of an iteration.
+/// An iteration with new factors squares the residual norm. A correction with earlier factors multiplies it by a constant factor.
 const MOST_CORRECTIONS: i32 = 5;
 
-/// Largest number of corrections that reuse the factorised tangent of similar equations. Each correction should gain several digits.
+/// Largest number of corrections that reuse the factorised tangent of similar equations.
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// The norm `FOLLOWED` is a billionth of the residual change that the perturbation of a parameter causes.
+/// The perturbation of a parameter changes the residual norm by about 1e9 times this value.
 const FOLLOWED: f64 = 1e-14;
 
-/// Ratio of two successive residuals above which rounding prevents a further reduction.
+/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-].
+/// A larger ratio is attributed to rounding.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -32,7 +33,8 @@ pub struct Tolerance {
     pub strain: f64,
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
-    /// Residual norm above which a converged solution is corrected one more time with the last factors, to reach rounding [-].
+    /// Largest residual norm that is attributed to rounding [-].
+    /// A converged solution with a larger residual norm is corrected again with the last factors.
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,

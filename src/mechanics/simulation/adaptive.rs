@@ -37,7 +37,7 @@ pub(super) struct StepPlan {
 }
 
 /// Order of accuracy of a method in a scene.
-/// Methods with numerical damping are of second order in scenes without deformable elements.
+/// The method `energy_decaying` is of second order in scenes without beams and springs, because its damping acts on strains only.
 fn order_of(method: Method, scene: &Scene) -> u32 {
     let strains = !scene.beams.is_empty() || scene.springs().next().is_some();
     match method {

@@ -12,11 +12,11 @@ pub enum ArrivalKind {
     Stopped,
     /// The slider bounced.
     Bounced,
-    /// The slider is held at the stop.
+    /// A stop holds the slider at the end of its master.
     Held,
     /// The slider was released.
     Released,
-    /// The slider passed a seam of its track, or, in flight, the axis of its master beyond an end.
+    /// The slider passed a seam of its track, or a slider in flight passed the extension of its master beyond an end without contact.
     Passed,
     /// The slider left the axis of its master.
     TookOff,

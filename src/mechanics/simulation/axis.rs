@@ -11,7 +11,7 @@ pub struct Axes<'a> {
     drawn: System,
 }
 
-/// Station of a beam, with the initial geometry of the axis at this station.
+/// Station of a beam, with the slope and the curvature of the initial axis at this station.
 #[derive(Debug, Clone)]
 pub struct AxisStation {
     values: BasisValues,

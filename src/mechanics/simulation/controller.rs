@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::elementary::power;
 
-/// Safety factor: ratio of the selected step size to the step size with the allowed error.
+/// Safety factor: ratio of the selected step size to the step size for which the controller predicts the allowed error [-].
 const SAFETY: f64 = 0.9;
 
 const MOST_GROWTH: f64 = 5.0;
@@ -15,10 +15,10 @@ const LEAST_GROWTH: f64 = 0.2;
 
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent for the error of the last step in the formula of the PI controller.
+/// Exponent of the error of the last step in the formula for the next step size (PI controller).
 const NOW: f64 = 0.7;
 
-/// Exponent for the error of the second last step in the formula of the PI controller.
+/// Exponent of the error of the second last step in the formula for the next step size (PI controller).
 const BEFORE: f64 = 0.4;
 
 /// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by this value.

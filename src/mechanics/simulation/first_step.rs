@@ -8,7 +8,7 @@ use crate::system::{Scene, System, UnknownKind};
 /// First step of a scene without beams, as a fraction of the time in which the scene moves by its length scale.
 const PART: f64 = 1e-3;
 
-/// Smallest distance `v²/g` that is a length scale, as a fraction of the largest distance of a body from the origin.
+/// Smallest distance `v²/g` that is used as length scale, as a fraction of the largest distance of a body from the origin.
 /// The distance `v²/g` is computed from the start speed `v` and gravity `g`.
 const SHORTEST_WAY: f64 = 1e-3;
 

@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Lower bounds of the scales by which the drifts of invariants are divided.
+/// Data for the smallest scales by which the drifts of invariants are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].

@@ -28,7 +28,7 @@ pub struct WorkCounts {
     pub retries: usize,
     /// Number of steps rejected by the tolerance.
     pub rejected: usize,
-    /// Number of attempted steps in the search for arrivals of sliders.
+    /// Number of steps that were attempted in order to find the times at which sliders arrive.
     pub arrival_tries: usize,
     /// Wall-clock time spent in steps. It is not stored in files, so that equal runs write equal files.
     #[serde(skip)]

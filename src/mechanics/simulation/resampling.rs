@@ -8,7 +8,7 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed difference between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
-/// In the time scale of a motion, the accumulated error due to sampling is about half the tolerance (theory.md, section 13.1).
+/// The value 4 makes the sampling error that accumulates over the time scale of a motion about half the tolerance (theory.md 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
@@ -17,7 +17,7 @@ const SHARE: f64 = 4.0;
 /// The second half step is repeated with controller values that are sampled in the middle of the step.
 /// The difference between the two results of the second half step is the error due to sampling.
 pub(super) struct Resampling {
-    /// Power of the step size in the difference of positions in one step [-].
+    /// Exponent of the step size to which the difference between the two results of a half step is proportional [-].
     order: i32,
     allowed: f64,
     length: f64,

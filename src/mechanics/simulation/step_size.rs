@@ -62,10 +62,10 @@ pub enum StepSizeError {
     )]
     Order {
         name: &'static str,
-        /// Value of the smaller bound [time].
+        /// Value of the bound `name` [time], which is larger than `limit`.
         value: f64,
         next: &'static str,
-        /// Value of the larger bound [time].
+        /// Value of the bound `next` [time], which must not be smaller than `value`.
         limit: f64,
     },
 }

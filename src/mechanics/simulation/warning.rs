@@ -16,7 +16,7 @@ pub(super) const MOST_SPANS: f64 = 1.0;
 /// Factor by which the severity of a warning must increase before the warning is repeated.
 const REPEAT_FACTOR: f64 = 2.0;
 
-/// Factor by which the step size should be reduced if a bounce lasted at most three steps.
+/// Factor by which the warning recommends to reduce the step size if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
 /// Smallest number of steps per period for which no warning is given.

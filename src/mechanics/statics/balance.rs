@@ -9,7 +9,7 @@ use crate::system::{StaticForces, System, UnknownKind};
 /// Static forces of a model, and the scale of their residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// Length that converts moments to forces, for loads that consist of moments only [length].
+    /// Length by which moments are divided for the scale of forces, if the loads consist of moments only [length].
     pub(super) length: f64,
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
@@ -25,7 +25,7 @@ impl Balance<'_> {
             UnknownKind::Rotation => larger(most, r.abs() / self.length),
             UnknownKind::Force => most,
         });
-        // If all forces are zero, the residual has no scale.
+        // Without forces, the scale is zero and the quotient would be NaN.
         let force = if largest == 0.0 { 0.0 } else { largest / scale };
         let constraint = self.model.violation_at_rest(forces, scale);
         ResidualNorms { force, strain: strain_mismatch, constraint }

@@ -13,17 +13,17 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of halvings of a step that does not reach an equilibrium.
+/// Largest number of times that a step is halved because no equilibrium is found.
 const MOST_HALVINGS: u32 = 8;
 
 /// Largest distance between two consecutive equilibria, as a multiple of the step length.
 /// Equilibria that are farther apart may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
-/// Ratio of the displacements per load increment in two consecutive steps above which the structure has snapped through.
+/// Largest ratio of the displacements per load increment in two consecutive steps that does not count as snap-through [-].
 const SNAP_THROUGH_RATIO: f64 = 4.0;
 
-/// Smallest reference displacement for the detection of snap-through, as a fraction of the size of the scene.
+/// Smallest displacement that is used as reference in the detection of snap-through, as a fraction of the size of the scene.
 const NEARBY: f64 = 1e-3;
 
 /// Number of iterations per step that the step size control tries to reach.

@@ -4,13 +4,14 @@ use super::StaticsError;
 use super::continuation::Continuation;
 use super::error::StepFailure;
 
-/// Largest root mean square displacement in a pass, as a fraction of the size of the scene.
+/// Largest root mean square displacement that is accepted in a pass, as a fraction of the size of the scene.
 const FAR: f64 = 0.15;
 
-/// Displacement in a pass below which Newton's method is tried without viscous damping, as a fraction of the size of the scene.
+/// Largest displacement in a pass after which Newton's method is tried without viscous damping, as a fraction of the size of the scene.
 const NEAR: f64 = 1e-2;
 
-/// Displacement in a pass below which even an unstable configuration counts as stationary, as a fraction of the size of the scene.
+/// Largest displacement in a pass that counts as zero, as a fraction of the size of the scene.
+/// After a pass with zero displacement, Newton's method is tried even if the configuration is unstable.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor by which the damping rate is multiplied after a pass with a small displacement.
@@ -23,7 +24,8 @@ const MOST_FIRST_PASSES: usize = 60;
 
 const MOST_PASSES: usize = 400;
 
-/// Sum of the displacements of all passes above which the motion counts as endless, as a multiple of the size of the scene.
+/// Largest total displacement over all passes, as a multiple of the size of the scene.
+/// After a larger displacement, the scene counts as a mechanism.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.

@@ -21,9 +21,9 @@ pub enum Stability {
     Stable,
     /// At least one small disturbance of the equilibrium grows.
     Unstable,
-    /// Undetermined stability, because the stiffnesses differ so much that rounding hides the smallest stiffnesses.
+    /// The stability is undetermined, because the stiffnesses differ so much that the smallest ones are below the rounding error.
     BelowRounding,
-    /// Undetermined stability, because a follower load has no potential.
+    /// The stability is undetermined, because a load is a follower load, which has no potential.
     Follower,
 }
 
@@ -213,7 +213,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model in its initial state, with the loads at the time of the loading.
+/// Model in its initial state, with the schedules of its loads evaluated at the time `loading.time`.
 fn prepare(
     scene: &Scene,
     loading: &Loading,

@@ -145,7 +145,7 @@ impl System {
         self.step.returned
     }
 
-    /// Measures of the temporal resolution of the motion in the steps so far.
+    /// Data from which warnings determine whether the steps so far resolve the motion.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
@@ -176,7 +176,7 @@ impl System {
     /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the reason of the failure.
+    /// Returns the name of an element without a finite value, and the error of its schedule.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)

@@ -32,8 +32,9 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // The exact motion is one at parameters above the parameter of the kink, and zero below.
-                            // The motion of the mesh is `there`. The difference between the exact motion and `there` is `missing`.
+                            // In the exact motion, the velocity is one beyond the kink and zero before the kink.
+                            // The velocity of the mesh at the parameter `x` is `there`.
+                            // On the later spans, `missing` is the exact velocity minus `there`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -13,8 +13,8 @@ pub(in crate::beams) trait MassIntegral:
     /// Integral of the product of the two basis functions, without the inertia per length [length].
     fn length(self) -> f64;
 
-    /// Integrals to which the inertia of each component is proportional.
-    /// The integrals are unweighted for every component, or weighted with mass and inertia per length.
+    /// Integrals of the product of the two basis functions for the inertia of x, y and rotation.
+    /// For a tapered beam, the integrals contain mass and inertia per length. For a uniform beam, `shares` contains them.
     fn weights(self) -> Movement;
 
     fn shares(uniform: &Section) -> Movement;

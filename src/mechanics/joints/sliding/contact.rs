@@ -104,7 +104,7 @@ pub struct Contact<'a> {
     pub kink: Option<Kink>,
     /// Friction of the slider along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
-    /// Length of the master divided by its parameter range [length]. The contact equations are divided by this length.
+    /// Mean length of the master per unit of its parameter [length]. The contact equations are divided by this length.
     pub length: f64,
 }
 
@@ -189,7 +189,9 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
-    /// Each control point has a factor for the force, a factor for the couple, and a vector for the sliding increment.
+    /// The first entry of a tuple is the derivative with respect to the force, the second with respect to the couple.
+    /// Both derivatives are factors of the identity matrix.
+    /// The third entry of a tuple is the derivative with respect to the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

@@ -7,8 +7,8 @@ use crate::geometry::{Dual, DualVector, Vec2};
 /// Number of derivatives of a dual number: one for each variable of the contact equations.
 pub(super) const ALL_SLOPES: usize = 11;
 
-/// Number of derivatives of a dual number that is only a value.
-/// Values and dual numbers are computed by the same operations, so that their values agree to the last bit.
+/// Number of derivatives if only the values of the equations are needed.
+/// The values are computed by the same operations as with derivatives, so that both agree to the last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;

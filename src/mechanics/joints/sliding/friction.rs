@@ -15,7 +15,7 @@ pub enum FrictionMode {
     Stick,
 }
 
-/// Friction of a contact in a step.
+/// Data for the friction of a contact in a step: friction state, start velocities and inertia.
 #[derive(Debug, Clone, Copy)]
 pub struct Friction<'a> {
     /// Coefficient of friction `μ` [-].
@@ -82,7 +82,7 @@ impl Contact<'_> {
         EndMotion { velocity, along, change_across }
     }
 
-    /// Forces and velocities of the contact with friction.
+    /// Computes the forces and velocities of the contact in an iterate, for the given friction.
     pub fn friction_forces(&self, friction: &Friction<'_>) -> FrictionForces {
         let (tangent, force) = (self.tangent().value, self.unknowns.force);
         let couple = self.unknowns.couple.dot(&self.tangent_change().value);

@@ -39,7 +39,7 @@ impl<const SLOPES: usize> KinkOnPath<SLOPES> {
     }
 
     /// Residuals of the contact equations.
-    /// The argument `jump` is the kink at the end of the step, given as the force that causes it statically [force].
+    /// The argument `jump` is the jump of the tangent at the end of the step, given as the force that causes this jump statically [force].
     /// The argument `balance` is the residual of the force balance along the path [force·length].
     pub fn imbalances(
         &self,

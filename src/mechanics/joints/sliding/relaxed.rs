@@ -6,7 +6,7 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 /// Largest gap that is attributed to rounding, as a fraction of the length of the master. The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
-/// Relaxed sliding law, which closes the gap on average over each step. A closed gap may open.
+/// Relaxed sliding law: the mean of the gap over each step is zero. The gap at the end of a step need not be zero.
 /// The relaxed law conserves energy, linear and angular momentum.
 /// The relaxed law is that of Sibileau & Muñoz, equations 11 to 14.
 ///

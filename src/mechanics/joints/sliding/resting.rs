@@ -46,7 +46,7 @@ fn not_driven(contact: &Contact<'_>) -> Equation {
         let half = 0.5 * kink.compliance * scale;
         equation.value += half * kink.along.slope * force.norm_squared();
         equation.by_unknowns.force += force * (2.0 * half * kink.along.slope);
-        // For a path of zero length, the field `change` is half the second derivative of the kink length.
+        // For a path of zero length, `kink.along.change` is half the second derivative of the kink length.
         equation.by_unknowns.increment += 2.0 * half * kink.along.change * force.norm_squared();
     }
     equation
@@ -59,7 +59,9 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the static contact forces on the control points of the master with respect to the contact unknowns.
-    /// Each control point has a multiple of the identity for the contact force, zero for the couple, and a vector for the sliding increment.
+    /// The first entry of a tuple is the derivative with respect to the force, as factor of the identity matrix.
+    /// The second entry is the derivative with respect to the couple, which is zero.
+    /// The third entry is the derivative with respect to the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -16,18 +16,19 @@ use crate::system::{
 /// Largest number of attempts to find the time of an arrival. A few attempts are usual.
 const MOST_TRIES: usize = 60;
 
-/// Distance from an end below which an approaching slider has reached the end, as a fraction of the length of the master.
+/// Largest distance from an end at which an approaching slider counts as having reached the end, as a fraction of the length of the master.
 /// A step over a very short distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Fraction of a step within which an end of slip or a take-off is moved to the start of the step.
+/// Time after the start of a step within which an end of slip or a take-off is moved to the start, as a fraction of the step length.
 /// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
 const SHORT: f64 = 1e-6;
 
-/// Number of halvings of a step in the search for a temporary motion of a slider away from its end.
+/// Largest number of halvings of a step that starts with a slider at an end of its master.
+/// The halvings search for a shorter step in which the slider moves away from the end.
 const PROBES: i32 = 12;
 
-/// Number of impacts at the same end, within as many steps, after which the stop holds the slider.
+/// If this number of impacts at the same end occurs within the same number of steps, the stop holds the slider.
 const CHATTER: usize = 3;
 
 /// Largest number of arrivals within one step of the grid. More arrivals are an error.
@@ -42,13 +43,13 @@ enum Event {
     Slider(SliderEvent),
     /// A slider would pass a limit within the step, so the step ends just before the limit.
     JustBefore,
-    /// Sliders leave their stops, because the stop forces have become tensile.
+    /// Stop forces have become tensile, so sliders are released from their stops.
     StopRelease,
 }
 
 enum ArrivalEstimate {
     Between(TimeBracket),
-    /// A step that ends at the event was taken, or no step is needed.
+    /// The event is at the end of a step that was taken, or at the start of the interval.
     Located(EventStep),
 }
 
@@ -62,7 +63,7 @@ struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
     last: Option<BracketSide>,
-    /// Duration below which no step is tried [time].
+    /// Shortest duration of a step that the search tries [time].
     shortest: f64,
 }
 
@@ -81,7 +82,8 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Narrows the bracket: replaces the end that lies on the same side of the arrival as the attempted step.
+    /// Narrows the bracket of the arrival time by an attempted step.
+    /// The end of the step replaces the end of the bracket that is on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -229,7 +231,7 @@ impl Simulation {
         number: usize,
         mut after: (f64, f64),
     ) -> Result<ArrivalEstimate, StepError> {
-        // A slider that hardly moves in the whole step is held at the limit. Shorter steps would only show rounding errors.
+        // The search ends if the slider passes the limit by at most `NEAR`, because shorter steps would only show rounding errors.
         for halving in 1..=PROBES {
             if after.1 <= NEAR {
                 break;
@@ -291,7 +293,8 @@ impl Simulation {
         }
     }
 
-    /// Returns true if a slider strikes its limit according to the velocities that the steps resolve. Otherwise, the slider can only be held.
+    /// Returns true if the arrival of a slider at a limit may be an impact.
+    /// At a stop, the part of the velocity of the slider that the steps resolve must point beyond the limit for an impact.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -383,15 +386,15 @@ impl Simulation {
             self.restart_kinks()?;
         }
         self.record_contact_changes();
-        // The arrival that ends the run must be the last entry.
+        // The arrival that ends the run must be the last entry of the list of arrivals.
         arrivals.sort_by_key(|arrival| arrival.kind == ArrivalKind::Stopped);
         self.progress.arrivals.extend(arrivals);
         Ok(())
     }
 
-    /// Starts kinks at ends with the present contact forces.
-    /// If the previous impact was less than a step ago, the kinks start without load.
-    /// Contact forces between two impacts within a step belong to vibrations that the steps do not resolve.
+    /// Starts the kinks under sliders at ends of their masters with the present contact forces.
+    /// If the previous arrival at an end was less than a step ago, the kinks start without load.
+    /// Contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
@@ -401,8 +404,8 @@ impl Simulation {
     }
 
     /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
-    /// The stop holds the slider after repeated impacts within few steps, and for an elastic contact that the next steps resolve.
-    /// The stop also holds a slider that would pass the limit in a step from the limit, although its velocity does not point beyond the limit.
+    /// The stop holds the slider after repeated impacts within few steps, and if the steps resolve the elastic contact with the stop.
+    /// A slider that was at the limit already is held if its velocity does not point beyond the limit.
     fn stays_held(
         &mut self,
         limit: MasterLimit,
@@ -423,8 +426,8 @@ impl Simulation {
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
-    /// Time within which repeated impacts or oscillations are not resolved by steps of length `dt` [time].
-    /// Variable steps become longer between impacts. Therefore, the time in which a wave passes a span replaces the step length.
+    /// Period [time] in which repeated impacts or oscillations count as not resolved by steps of length `dt` [time].
+    /// Variable steps become longer between impacts. Therefore, they use the time in which a wave passes a span if it is shorter than `dt`.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {

@@ -9,17 +9,17 @@ use crate::simulation::Axes;
 use crate::simulation::warning::short;
 use crate::system::{Element, SliderState};
 
-/// Ratio of deformed to initial length of the axis at a point below which the axis is crushed.
+/// Smallest local ratio of the deformed to the initial length of the axis that is not reported as extreme compression [-].
 const COMPRESSED: f64 = 0.5;
 
-/// Ratio of deformed to initial length of the axis at a point above which the axis is torn.
+/// Largest local ratio of the deformed to the initial length of the axis that is not reported as extreme stretching [-].
 const STRETCHED: f64 = 1.5;
 
-/// Contact force above which the axis folds, as a fraction of the shear stiffness of the beam.
+/// Largest contact force that is not reported as a possible cause of a failed step, as a fraction of the shear stiffness of the beam.
 const FOLDING_FORCE: f64 = 0.1;
 
-/// Smallest distance from an end of its master that a slider can reach, as a fraction of the length of the master.
-/// The kink of the master under the contact force prevents a slider from coming closer to the end.
+/// Smallest distance of a slider from an end of its master that is not reported, as a fraction of the length of the master.
+/// With the sliding rule `kinked`, a step may fail if the slider is closer to the end.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

@@ -8,16 +8,16 @@ use crate::geometry::larger;
 use crate::integrators::Method;
 use crate::simulation::{StepSize, Warning};
 
-/// Error of positions above which a warning is given, as a fraction of the amplitude of the motion [-].
+/// Largest error of positions without a warning, as a fraction of the amplitude of the motion [-].
 const LARGEST_ERROR: f64 = 0.02;
 
-/// Error of positions for the recommended step size, as a fraction of the amplitude of the motion [-].
+/// Error of positions that the step size recommended in the warning would have, as a fraction of the amplitude of the motion [-].
 const ADVISED_ERROR: f64 = 0.007;
 
-/// Smallest share of the vibration in the kinetic energy for which a warning is given.
+/// Largest fraction of the kinetic energy in the vibration for which no warning is given [-].
 const LEAST_SHARE: f64 = 0.125;
 
-/// Error of positions up to which no warning is given, as a fraction of the size of the scene [-].
+/// Largest error of positions for which no warning is given, as a fraction of the size of the scene [-].
 const NEGLIGIBLE_ERROR: f64 = 5e-3;
 
 /// Largest phase per step for which the steps resolve the vibration [rad]. For larger phases, other warnings are given.

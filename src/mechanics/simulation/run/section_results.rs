@@ -47,7 +47,7 @@ impl Simulation {
         self.model.instant()
     }
 
-    /// Energy of a body by type. Body indices count beams first, then particles, then rigid bodies.
+    /// Energy of a body: kinetic, strain and potential energy. Body indices count beams first, then particles, then rigid bodies.
     pub fn energy_of(&mut self, body: usize) -> BodyEnergy {
         self.model.energy_of(body)
     }

@@ -62,7 +62,7 @@ impl Simulation {
                             self.keep_row();
                         }
                         let arrived = self.execute(&located);
-                        // If the slider arrived without a step, no snapshot is stored. A run from the previous snapshot reaches the arrival again.
+                        // An arrival at the start of the step needs no snapshot: a run from the last snapshot reaches the arrival again.
                         if located.step.is_some() {
                             self.store_snapshot();
                         }
@@ -115,7 +115,7 @@ impl Simulation {
             other => other,
         };
         if self.stepper.sensitivities.is_some() && self.model.has_frozen_contacts() {
-            // The equations of perturbed runs that were solved without constant kinks would differ from the equations of the main run.
+            // The perturbed runs keep no kinks or friction forces constant, so their equations would differ from those of the main run.
             self.disable_derivatives(
                 "the kink under a slider or its friction force is kept constant in a step",
             );

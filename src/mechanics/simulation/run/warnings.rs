@@ -16,20 +16,20 @@ use crate::system::{
 };
 use crate::vibration::{Modes, VibrationError};
 
-/// Unresolved fraction of the kinetic energy above which a warning states that the steps are too long.
+/// Largest unresolved fraction of the kinetic energy without a warning that the steps are too long [-].
 /// A single vibration with 3.5 steps per period has an unresolved fraction of 0.2. Its computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Unresolved fraction of the kinetic energy above which a warning is given if the phase per step also exceeds [`HIDDEN_TURN`].
+/// Largest unresolved fraction of the kinetic energy without a warning if the phase per step exceeds [`HIDDEN_TURN`] [-].
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// Phase of a vibration per step above which a small unresolved fraction causes a warning [rad].
+/// Smallest phase of a vibration per step for which the smaller limit [`HIDDEN_SHARE`] applies [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
 /// Smallest kinetic energy of the damped beams that are checked, as a fraction of the total kinetic energy.
 const NOTHING: f64 = 1e-8;
 
-/// Energy drift above which a warning is given. Rounding errors of about ten thousand steps remain below it, for any stiffness.
+/// Largest relative energy drift without a warning [-]. Rounding errors of about ten thousand steps are smaller, for any stiffness.
 const LARGEST_DRIFT: f64 = 1e-7;
 
 /// Rounding error of dissipated energies, as a fraction of these energies.
@@ -41,7 +41,7 @@ const MUCH: f64 = 0.3;
 /// Largest number of unknowns for which modes of the initial configuration are computed.
 const MOST_UNKNOWNS: usize = 1200;
 
-/// Numbers of modes that are computed one after the other, until a mode is not a rigid-body mode.
+/// Numbers of modes that are computed in successive attempts, until one of the modes is a vibration.
 const MODES: [usize; 3] = [4, 8, 16];
 
 /// Largest strain of the elastic wave of an impact that counts as zero [-].
@@ -53,14 +53,14 @@ const RECENT_STEPS: usize = 200;
 /// Smallest relative change of the step length from one step to the next that counts as an alternation.
 const ALTERNATION: f64 = 0.1;
 
-/// Number of alternations of the step length among the recent steps above which a warning is given.
+/// Smallest number of alternations of the step length among the recent steps that causes a warning.
 const MOST_TURNS: usize = 20;
 
-/// Number of adaptive steps above which a warning about their number may be given.
+/// Smallest number of adaptive steps that can cause a warning.
 const MANY_STEPS: usize = 5000;
 
-/// Ratio of the step size that resolves the motion of the scene to the mean step size above which a warning is given.
-/// Steps that are shorter by `MUCH_SHORTER` follow a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Largest ratio of the step size that resolves the motion of the scene to the mean step size without a warning [-].
+/// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 const SLIDERS: usize = 6;

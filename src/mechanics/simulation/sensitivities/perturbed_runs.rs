@@ -1,4 +1,4 @@
-//! Pair of perturbed runs for a parameter.
+//! Runs with a positive and a negative perturbation of one parameter.
 
 use super::{DerivativeError, PerturbedSide, Variation};
 use crate::simulation::{Simulation, SimulationError};

@@ -5,7 +5,7 @@ use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Constraint force per unit of gap above which the constraint force is not unique.
+/// Largest constraint force per unit of gap for which the constraint force counts as unique.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {

@@ -6,10 +6,10 @@
 use crate::system::errors::SliderError;
 use crate::system::{Scene, System, SystemError};
 
-/// Ratio of a pivot of the Cholesky factorisation to the diagonal entry below which the pivot is due to rounding.
+/// Largest ratio of a pivot of the Cholesky factorisation to its diagonal entry that is attributed to rounding [-].
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Largest velocity change of a slider due to a unit impulse that counts as zero, as a fraction of the velocity change of the total mass.
+/// Largest velocity response of a slider to a unit impulse that counts as zero, as a fraction of the response of the total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

@@ -15,7 +15,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
-/// The constant `SAME_VELOCITY` is about the size of the rounding errors of velocities at a dead centre of a mechanism.
+/// Velocities at a dead centre of a mechanism have relative rounding errors of about `SAME_VELOCITY`.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
@@ -72,7 +72,7 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// Contact path of a beam. Computed contact paths are stored in `found`.
+    /// Contact path of a beam. A path that is created for the beam is stored in `found` for later calls.
     fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()

@@ -7,7 +7,7 @@ use super::{Body, DegreesOfFreedom, Momenta, Tracker};
 use crate::beams::{BodyPoint, Mesh, Movement};
 use crate::geometry::{Vec2, larger};
 
-/// Value of a basis function at a node below which the function counts as zero at the node.
+/// Largest value of a basis function at a node that counts as zero [-].
 const NO_WEIGHT: f64 = 1e-12;
 
 /// Bodies of a model: beams, then particles, then rigid bodies. The type dereferences to a slice of bodies.
@@ -19,7 +19,7 @@ pub struct Bodies {
     /// Mass of the beams [mass].
     mass: f64,
     pub(super) threads: usize,
-    /// Division of the bodies into two halves for two threads; `None` for a small number of bodies.
+    /// Division of the bodies into two halves that two threads process; `None` if there are too few bodies.
     pub(super) halves: Option<BodyHalves>,
 }
 

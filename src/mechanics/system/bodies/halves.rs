@@ -9,7 +9,7 @@ use super::Body;
 /// Smallest number of control points of a half. Smaller halves gain little time, and lose time if the other core is busy (docs/studies.md).
 const SMALLEST_HALF: usize = 1500;
 
-/// Largest fraction of control points in bodies with rows in both halves of the tangent. Such bodies are evaluated twice.
+/// Largest allowed fraction of control points in bodies that have rows in both halves of the tangent and are therefore evaluated twice.
 const LARGEST_ASTRIDE: f64 = 0.1;
 
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use crate::beams::{BodyPoint, Movement, Rotation, RotationIncrement};
 
-/// Point of a body with the angle of its section, updated in every step.
+/// Point of a body at which the rotation of the section is added up from step to step.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     pub place: BodyPoint,

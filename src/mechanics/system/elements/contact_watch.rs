@@ -1,9 +1,10 @@
 //! Detection of contacts that last only a few steps, for springs that can be slack, such as bumpers and ropes.
 
-/// Largest number of steps of an unresolved bounce. Three steps cover half of the contact period.
+/// Largest number of steps during a contact for which the steps do not resolve the bounce.
 const FEW: f64 = 3.0;
 
-/// Change of the elongation rate during a contact that counts as a bounce, as a fraction of the rate at the start of the contact.
+/// Largest change of the elongation rate during a contact that does not count as a bounce.
+/// The change is a fraction of the elongation rate at the start of the contact [-].
 const TURNED: f64 = 0.5;
 
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.

@@ -36,9 +36,9 @@ impl From<f64> for DampingLaw {
 /// Range of rates in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
-    /// Point of the law at which the force adds energy: rate [length/time, rad/time] and force [force, force·length].
+    /// The force of the law adds energy at the point with this rate [length/time, rad/time] and force [force, force·length].
     At { rate: f64, force: f64 },
-    /// Linear extrapolation of the law beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
+    /// The law is extrapolated linearly beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },
 }
 

@@ -51,7 +51,8 @@ enum Measure {
 }
 
 /// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
-/// The coordinates of a length are the x and y increments of its terminals. The coordinates of an angle are the rotation increments.
+/// The change of a length depends on the x and y increments of its terminals. The change of an angle depends on the rotation increments.
+/// The increments on which an elongation depends are called its coordinates.
 #[derive(Debug, Clone)]
 pub struct Elongation {
     measure: Measure,
@@ -64,7 +65,7 @@ pub struct Elongation {
     corrected: Vec<f64>,
     pub change: f64,
     settled: (f64, f64),
-    /// Secant [-]: the vector whose scalar product with the coordinate changes equals the elongation change.
+    /// Secant [-]: vector whose scalar product with the coordinates equals the elongation change.
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end of the step.
     pub secant: Vec<f64>,
     /// Derivative of the elongation change with respect to the coordinates [-].

@@ -7,8 +7,8 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
-/// Collocation of the forces at a stage.
-/// For a stage at the start or the end of a step, rotation increments are increments of the angle.
+/// Fractions of the step and type of rotation increments with which internal and external forces are evaluated at a stage.
+/// At the start and at the end of a step, rotation increments are increments of the angle.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -35,7 +35,7 @@ pub struct TrialState<'a> {
 pub struct LoadAccount {
     /// Work of the load since the start [energy].
     pub work: f64,
-    /// Mean value of the load in the last step: force, moment, or force per length.
+    /// Mean value of the load in the last step [force, force·length, or force/length].
     pub value: f64,
 }
 
@@ -69,7 +69,7 @@ pub trait ExternalForce {
         false
     }
 
-    /// Largest change of the schedule that the steps so far have not resolved.
+    /// Largest change of the schedule between the samples of a step so far; `None` if the steps resolve the schedule.
     fn missed_change(&self) -> Option<UnsampledChange> {
         None
     }
@@ -112,7 +112,7 @@ pub trait ExternalForce {
 
     fn restore(&mut self, _next: &mut dyn FnMut() -> f64) {}
 
-    /// Describes the evaluation of the element in a step, for each of the given methods.
+    /// Text for `explain()` that describes the force and its evaluation by the given integration methods.
     fn explain(&self, methods: &[Method]) -> String;
 
     fn functions(&self) -> usize {

@@ -21,10 +21,9 @@ pub struct SpringTrialState {
 
 /// Element that resists the motion of bodies and stores or dissipates energy.
 ///
-/// Residuals use the present value of the force.
-/// Linearisations eliminate the force. Corrections update the force together with the increments.
-/// A force that is an unknown does not contain the rounding error of the configuration times the stiffness.
-/// With the force as an unknown, the number of iterations does not increase with the stiffness.
+/// The force of the element is an unknown. It is eliminated from the linearised equations, and corrected together with the increments.
+/// The rounding error of the force is therefore smaller than the rounding error of the configuration times the stiffness.
+/// The number of iterations does not increase with the stiffness of the element.
 /// Each method is called dynamically, once per element and iterate.
 pub trait InternalForce {
     fn name(&self) -> &str;
@@ -49,7 +48,7 @@ pub trait InternalForce {
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
     fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
 
-    /// Prepares an increment of zero duration, such as a static load step, without damping.
+    /// Prepares a static increment, such as a static load step, in which the element has no damping.
     fn begin_movement(&mut self, bodies: &[Body]);
 
     /// Discards the rates of the last step after a jump of the rates.
@@ -170,6 +169,6 @@ pub trait InternalForce {
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64);
 
-    /// Describes the contribution of the element to the equations of a step.
+    /// Text for `explain()` that describes the force of the element and its evaluation in a step.
     fn explain(&self) -> String;
 }

@@ -2,7 +2,7 @@
 
 use super::spring_law::SpringLaw;
 
-/// Distance from a range that is attributed to rounding, as a fraction of the range.
+/// Largest distance of a value from a range that is attributed to rounding, as a fraction of the size of the range.
 const ROUNDING: f64 = 1e-9;
 
 /// Argument of a force law.
@@ -22,7 +22,7 @@ pub struct OutsideLaw {
     /// Smallest and largest argument in the table of the law [length or rad; for rates length/time or rad/time].
     /// A limit of the range is infinite if the force is constant at this limit of the table.
     pub range: [f64; 2],
-    /// Value of the argument farthest outside the range.
+    /// Value of the argument that was farthest outside the range [length or rad; for rates length/time or rad/time].
     pub reached: f64,
 }
 

@@ -1,5 +1,5 @@
 //! Force of an element as an independent unknown.
-//! The iterations make the force equal to the target force, which the law of the element requires.
+//! The iterations of a step reduce the difference between the force and the target force. The law of the element defines the target force.
 
 use crate::geometry::larger;
 
@@ -19,8 +19,9 @@ struct IterationState {
     at: (f64, f64),
 }
 
-/// Force tolerance for laws with corners, as a fraction of the rounding error of the elongation times the stiffness.
-/// For a linear law, the residual of the law is zero after one iteration. For a law with corners, a residual remains.
+/// Factor that reduces the elongation in the scale of force differences, for laws with corners [-].
+/// The scale of force differences is the larger of the force and the stiffness times the elongation.
+/// A linear law is satisfied after one iteration. For a law with corners, a force difference remains, which must be small.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 
 /// Number of linearisations after which the impedance is estimated from secants. Smooth laws usually converge earlier.
@@ -41,7 +42,7 @@ impl MixedForce {
         if self.mismatch == 0.0 { 0.0 } else { self.mismatch.abs() / size }
     }
 
-    /// Elongation change for which the target force would equal the present force, to first order.
+    /// Change of the elongation that would make the target force equal to the present force, to first order.
     /// The elongation change is infinite if the slope of the law is not positive.
     pub fn missing_change(&self) -> f64 {
         match self.mismatch == 0.0 {
@@ -79,7 +80,7 @@ const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
     /// Target force and slope at the intersection of an increasing law with a line of negative slope.
-    /// The slope of the line is the impedance of all other objects of the scene.
+    /// The line represents the response of all other objects of the scene: its slope is minus their impedance.
     /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,

@@ -3,10 +3,11 @@
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Largest change of the rate of a smooth motion from one step to the next, as a fraction of the rate.
+/// Largest jump of the rate of a motion from one step to the next that does not count as a kink.
+/// The jump is a fraction of the largest rate in the step [-].
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion: change of the prescribed rate within a step. Integrators assume a smooth motion within each step.
+/// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start of the step [time].

@@ -30,9 +30,9 @@ struct Driven {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct PresentMotion {
-    /// Acceleration at the end of the last step [length/time², 1/time²].
+    /// Prescribed acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// Largest change of the rate within an earlier step. The change within the present step is stored in `step_curvature`.
+    /// Largest kink of the motion in the steps before the present step. The kink in the present step is stored in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
     /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.
@@ -40,7 +40,7 @@ struct PresentMotion {
     /// Reaction of the drive [force, force·length]. A reaction moment is conjugate to the angle of the section.
     reaction: StepMean<f64>,
     impact_momentum: f64,
-    /// Static position or angle under the full load [length, rad].
+    /// Static displacement from the initial position under the full load [length, rad].
     goal: f64,
     /// Part of the displacement to `goal` that has already been applied [length, rad].
     placed: f64,
@@ -119,7 +119,7 @@ impl PrescribedMovements {
     /// Evaluates prescribed rates and accelerations just after a time.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no value at this time, and the reason of the failure.
+    /// Returns the name of the drive whose function has no value at this time, and the error of the function.
     pub fn begin_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (at, (movement, present)) in self.movements.iter().zip(&mut self.present).enumerate() {
             let MotionAtStart { rate, acceleration } = movement
@@ -152,7 +152,7 @@ impl PrescribedMovements {
         self.movements.len()
     }
 
-    /// Prescribed movements with the index of the drive and the index of the movement in the vector of all rates.
+    /// For each prescribed degree of freedom: its support, the index of its drive, and its index in the vector of all rates.
     pub fn numbered(&self) -> impl Iterator<Item = (&Support, usize, usize)> {
         let movements = self.movements.iter().zip(self.first..);
         movements.map(|(movement, rate)| (&movement.support, movement.drive, rate))
@@ -210,7 +210,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Names of the drives whose prescribed rate changes between the samples of a step, with the largest such change of each drive.
+    /// Names of the drives whose prescribed rate changes between the sampling points of a step, with the largest such change of each drive.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -222,7 +222,7 @@ impl PrescribedMovements {
     /// Evaluates the prescribed increments in a step, and the prescribed rates at the start of the step.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
+    /// Returns the name of the drive whose function has no finite value, and the error of the function.
     pub fn begin_step(
         &mut self,
         interval: Interval,
@@ -290,7 +290,7 @@ impl PrescribedMovements {
         std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
-    /// Stores the momentum changes of an impact at the prescribed degrees of freedom.
+    /// Stores the changes of momentum that an impact causes at the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;

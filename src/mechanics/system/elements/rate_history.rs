@@ -4,7 +4,7 @@ use super::collocation;
 use crate::beams::RateCollocation;
 use crate::integrators::Stage;
 
-/// Durations of the present step and the previous step [time]. In an increment of zero duration, there are no rates.
+/// Durations of the present step and the previous step [time].
 #[derive(Debug, Clone, Copy)]
 pub struct RateHistory {
     duration: f64,
@@ -22,7 +22,7 @@ impl RateHistory {
         self.duration = duration;
     }
 
-    /// Duration of the present step [time]; infinite for an increment of zero duration.
+    /// Duration of the present step [time]; infinite for a static increment, in which all rates are zero.
     pub fn duration(&self) -> f64 {
         self.duration
     }

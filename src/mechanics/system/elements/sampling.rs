@@ -3,18 +3,18 @@
 use super::spring_law::SpringLaw;
 use crate::geometry::larger;
 
-/// Allowed deviation of the table from the sampled function, as a fraction of the largest force.
+/// Largest allowed difference between the table and the sampled function, as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-7;
 
 const SEGMENTS: usize = 32;
 
 const MOST_POINTS: usize = 20_000;
 
-/// Second test point of a segment, as a fraction of its length [-].
-/// At the middle of a segment, an oscillating function may match the polygon by chance.
+/// Position of the second test point in a segment, as a fraction of the length of the segment [-].
+/// The second test point is needed, because an oscillating function may agree with the polygon in the middle of a segment by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
-/// Factor by which the allowed deviation is larger at the second test point than at the middle of a segment.
+/// Ratio of the allowed difference at the second test point to the allowed difference in the middle of a segment [-].
 const OFF_MIDDLE_MARGIN: f64 = 4.0;
 
 type Polygon = Vec<(f64, f64)>;

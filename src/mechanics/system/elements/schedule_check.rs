@@ -3,9 +3,9 @@
 use crate::integrators::Interval;
 use crate::loads::{Schedule, StepMean};
 
-/// Relative difference between two quadrature rules for the mean of a schedule over a step, above which the step is too long.
-/// The difference is relative to the largest value of the schedule.
-/// For a jump, the difference is at least a tenth of the jump. For a sine with 2.7 steps per period, it equals `LARGEST_MISS`.
+/// Largest difference between the results of two quadrature rules for the mean of a schedule that is accepted without a warning.
+/// The difference between the results is a fraction of the largest value of the schedule [-].
+/// A jump causes a difference of at least a tenth of the jump. A sine with 2.7 steps per period causes the difference `LARGEST_MISS`.
 const LARGEST_MISS: f64 = 0.01;
 
 /// Largest difference between two quadrature rules for the mean of a schedule over a step.

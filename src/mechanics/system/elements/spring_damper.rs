@@ -30,7 +30,7 @@ pub struct SpringDamper {
     law: Option<SpringLaw>,
     /// True if the law has corners and is monotonically increasing.
     rises: bool,
-    /// Corners of the law, at which the stiffness jumps, as elongation changes from the initial configuration [length, rad].
+    /// Changes of the elongation from the initial configuration at which the stiffness of the law jumps [length, rad].
     corners: Vec<f64>,
     /// Elongation for which the argument of the force law is zero [length, rad].
     offset: f64,
@@ -40,7 +40,7 @@ pub struct SpringDamper {
     released: Option<(Option<SpringLaw>, DampingLaw)>,
     spring: MixedForce,
     damper: MixedForce,
-    /// Duration `Δt` of the step; infinite for increments of zero duration [time].
+    /// Duration `Δt` of the step [time]; infinite for a static increment, in which all rates are zero.
     duration: f64,
     last: (f64, f64),
     rotations: RotationIncrement,

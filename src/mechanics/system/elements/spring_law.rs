@@ -8,7 +8,7 @@ use crate::geometry::larger;
 /// Largest force that counts as zero, as a fraction of the largest force of the law.
 const ROUNDING: f64 = 1e-12;
 
-/// Change of the stiffness at a sharp corner, as a fraction of the largest stiffness of the law.
+/// Smallest change of the stiffness at a corner that counts as sharp, as a fraction of the largest stiffness of the law.
 const SHARP_CORNER: f64 = 0.5;
 
 /// Restoring force as a function of an elongation `q`, which is a length or an angle.

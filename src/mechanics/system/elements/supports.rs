@@ -64,7 +64,7 @@ impl Supports {
 
     /// Impulse of the fixed supports in the step whose increments are stored in the bodies.
     ///
-    /// Reactions act at the mean position in the step, because a roller moves in its free direction.
+    /// The reaction is applied at the mean position of the support in the step, because a roller moves in its free direction.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> WorkAndImpulse {
         self.impulse(residual, duration, |body, point| {
             let [x, y, _] = bodies[body].moved()[point];

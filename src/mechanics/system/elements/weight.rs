@@ -49,7 +49,7 @@ impl ExternalForce for Weight {
         self.forces.largest(1.0)
     }
 
-    /// Excludes the work of the weight, which appears as the change of the potential.
+    /// Impulse of the weight. The work is zero in the result, because the potential energy contains the work of the weight.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse {
         WorkAndImpulse { work: 0.0, ..self.forces.exchange(bodies, 1.0, duration) }
     }

@@ -7,7 +7,7 @@ use crate::geometry::{Vec2, larger};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// Rigid links, in the order of bodies and points, and inclined rollers, in the order of joints.
+/// Rigid links (in the order of bodies and points) and inclined rollers (in the order of joints) of a model.
 pub struct Links {
     rigid: Vec<RigidLink>,
     rollers: Vec<InclinedRoller>,
@@ -47,7 +47,7 @@ impl Links {
         self.rigid.iter()
     }
 
-    /// Largest arm of a rigid link [length]; zero without links.
+    /// Largest distance between the two points of a rigid link [length]; zero without links.
     pub fn largest_arm(&self) -> f64 {
         self.rigid.iter().map(|link| link.arm().norm()).fold(0.0, larger)
     }
@@ -175,7 +175,8 @@ impl Links {
     }
 
     /// Largest constraint violation in a residual [-].
-    /// The violation of a link is divided by its increments and arm. The violation of a roller is divided by the size of the scene.
+    /// The violation of a link is divided by a length computed from its increments and its arm.
+    /// The violation of a roller is divided by the size of the scene.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))
@@ -194,7 +195,8 @@ impl Links {
         self.rollers.iter_mut().for_each(|roller| roller.advance(self.force_unknowns, values));
     }
 
-    /// Calls `take` with the static stiffness of each constraint, which is replaced by a spring of the given penalty stiffness [force/length].
+    /// Calls `take` with the static stiffness of each link and roller.
+    /// The constraint is replaced by a spring with the penalty stiffness `stiffness` [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

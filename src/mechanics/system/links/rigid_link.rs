@@ -12,9 +12,9 @@ use crate::system::bodies::Bodies;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceUnknowns {
-    /// In a step, the unknown is the impulse of the force. The value of this variant is the duration of the step [time].
+    /// Unknowns in a step: the impulses of the constraint forces. The value of this variant is the duration of the step [time].
     Step(f64),
-    /// In a displacement between two equilibria, the unknown is the change of the force.
+    /// Unknowns in a displacement between two equilibria: the changes of the constraint forces.
     AtRest,
 }
 
@@ -38,7 +38,7 @@ impl ForceUnknowns {
     }
 }
 
-/// Fraction of a step at which an integrator evaluates the arms of the forces of rigid links.
+/// Type of rotation increments and fraction of the step with which the arms of rigid links are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
@@ -226,8 +226,8 @@ impl RigidLink {
         self.arm() * (-spin * spin)
     }
 
-    /// Difference between the velocity of the linked point and the velocity of the body at the place of this point [length/time].
-    /// At the end of a step, the velocity difference is an error of second order, whose sign alternates from step to step.
+    /// Velocity of the linked point, minus the velocity that follows from the rigid motion of the body [length/time].
+    /// At the end of a step, this difference is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];

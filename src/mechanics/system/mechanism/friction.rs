@@ -9,7 +9,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::state::InertiaSolver;
 
-/// Velocity along the master below which a slider sticks at the start, as a fraction of the velocity of the fastest point of the model.
+/// Largest velocity along the master at which a slider sticks at the start, as a fraction of the largest velocity in the model.
 const AT_REST: f64 = 1e-9;
 
 impl System {
@@ -29,8 +29,8 @@ impl System {
         }
     }
 
-    /// Computes the inertia across the master of every slider with friction.
-    /// The inertia is zero if the slider does not respond to an impulse.
+    /// Computes the inertia of every slider with friction for impulses across its master.
+    /// The inertia is zero if an impulse causes no relative velocity of slave and master.
     pub(super) fn measure_inertia_across(&mut self) {
         let Ok(mut solver) = self.take_inertia_solver() else { return };
         let Self { sliders, bodies, .. } = self;

@@ -16,11 +16,11 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Ratio of two velocity responses to an impulse below which the bodies are rigid in the direction of the impulse.
+/// Largest ratio of two velocity responses to an impulse for which the bodies count as rigid in the direction of the impulse [-].
 /// The first response is computed with the included deformations only, the second response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Generalised forces of a unit impulse in one direction, with the resulting velocities.
+/// Unit impulse in one direction: generalised forces, and the velocity changes that the impulse causes.
 pub(super) struct ImpulseResponse {
     pub(super) forces: Vec<f64>,
     pub(super) rates: Vec<f64>,
@@ -51,8 +51,8 @@ impl ImpulseResponse {
 /// Impact law: condition on the impulse of a contact, and on its velocities before and after the impact.
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
-/// Laws of stops use the mean velocity in the same impact without stop impulses.
-/// Velocities across masters are excluded, because their signs change from step to step.
+/// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
+/// The mean velocity does not contain velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -213,7 +213,7 @@ impl System {
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
     /// Velocity differences below `negligible` are ignored [length/time].
-    /// Without this adjustment, the sign of the velocity difference would alternate from step to step.
+    /// Without this adjustment, the difference between the velocities would change its sign in every step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -336,8 +336,8 @@ impl System {
     }
 
     /// Creates the impact problem for the given contact directions.
-    /// The argument `links` is the factor by which the velocity violation of each rigid link changes.
-    /// With a factor of -2, the violations are reversed, and the links do no work.
+    /// The impact changes the velocity violation of each rigid link by `links` times the violation.
+    /// With the factor -2, the impact reverses the violations, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -31,7 +31,7 @@ pub struct Impulses {
     links: Vec<[usize; 2]>,
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
-    /// Residual of the balance, with additional space for contact equations.
+    /// Residual of the balance. Its length includes the entries of the contact equations.
     residual: Vec<f64>,
     /// Impulses since the end of the last step [force·time, force·length·time].
     /// The impulses on control points are stored first, followed by the impulses of inclined rollers.

@@ -34,8 +34,8 @@ impl System {
         })
     }
 
-    /// Forces at the unknowns divided by the diagonal of the inertia matrix [length/time², 1/time²].
-    /// The coupling by inertia is ignored. The result is zero for unknowns without inertia.
+    /// Approximate accelerations of the unknowns: forces divided by the diagonal of the inertia matrix [length/time², 1/time²].
+    /// The off-diagonal entries are ignored. The result is zero for unknowns without inertia.
     pub fn uncoupled_accelerations(&self, forces: &[f64]) -> Vec<f64> {
         let inertia = self.diagonal_of_inertia();
         let of = |(force, inertia): (&f64, f64)| if inertia > 0.0 { force / inertia } else { 0.0 };

@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
 //! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Accelerations and forces at one time contain vibrations that the steps do not resolve, unlike means over two consecutive steps.
+//! Unlike means over two consecutive steps, instantaneous forces contain vibrations that the steps do not resolve.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};
@@ -87,7 +87,7 @@ impl System {
         })
     }
 
-    /// Computes the present contact forces in `self.step.present`.
+    /// Computes the present contact forces and stores them in `self.step.present`.
     /// Nothing is allocated after the first call, unless the number of contacts grows.
     ///
     /// # Errors
@@ -109,7 +109,7 @@ impl System {
         SystemError::NoInstant { time: self.motion.time, reason }
     }
 
-    /// Adds all forces at the present time except inertia and contacts to `out`, in the present numbering of the bodies.
+    /// Adds all forces at the present time to `out`, except inertia forces and contact forces.
     /// The argument `rates` contains the rates by control point.
     fn add_present_forces(
         &mut self,
@@ -232,7 +232,7 @@ impl System {
         });
     }
 
-    /// Adds the friction of slipping sliders to the responses to forces across their masters.
+    /// Adds the friction that a force across the master causes at a slipping slider to the response to this force.
     /// The direction of friction depends on the sign of the force across the master in the solution without friction.
     /// Returns true if a slider slips.
     fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {

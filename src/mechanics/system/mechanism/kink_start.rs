@@ -65,7 +65,7 @@ impl System {
         self.rotate_onto_kinks(&starting)
     }
 
-    /// Rotates the relative velocities of sliders at ends from the axis of the master onto the kinked axis, without work.
+    /// Rotates the relative velocities of sliders at ends of masters from the smooth axis onto the kinked axis, without work.
     /// Sets the speeds of kinks to the speeds of their sliders.
     fn rotate_onto_kinks(&mut self, starting: &[usize]) -> Result<(), SystemError> {
         let at_ends = starting.iter().filter(|at| !self.sliders[**at].is_compliant());
@@ -83,7 +83,7 @@ impl System {
     }
 
     /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// The displacement leaves the mean of the later motion unchanged, because an unloaded kink would oscillate about the new position.
+    /// The new position is that about which the bodies would oscillate if the kink began without load.
     /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {

@@ -1,6 +1,6 @@
 //! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The impulses of section forces are separate unknowns. Their resultant is zero, so rounding does not affect the momenta.
+//! The impulses of section forces are separate unknowns. Their sum over a beam is zero, so their rounding does not affect the momenta.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
@@ -10,8 +10,8 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of the weighted stiffness of a degree of freedom to its inertia.
-/// With the ratio `MOST`, a suppressed deformation is zero to at least five digits.
+/// Largest ratio of the stiffness with which a deformation is suppressed to the inertia of a degree of freedom [-].
+/// At the largest ratio, a suppressed deformation is smaller than 1e-5 of the same deformation without suppression.
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;
@@ -19,7 +19,7 @@ const CORRECTIONS: usize = 4;
 /// Largest number of corrections that reduce the suppressed strains to zero.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Energy of the suppressed strains at which the corrections end, as a fraction of the energy of the impulse [-].
+/// Largest energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
 const NO_STRAIN: f64 = 1e-20;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +46,7 @@ impl StrainResistance {
     }
 }
 
-/// Strains of the present configuration with their weights in an impact.
+/// Strains of the present configuration, with the weights by which an impact suppresses them.
 pub(super) struct Rigidity {
     resistances: Vec<StrainResistance>,
 }

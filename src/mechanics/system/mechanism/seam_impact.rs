@@ -13,20 +13,21 @@ use crate::geometry::{Vec2, cross, perpendicular};
 use crate::linalg::{BandedMatrix, LinearError, Pairing, complementary};
 use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 
-/// Angle between two tangents below which they are parallel [rad].
+/// Largest angle between two tangents that count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Smallest determinant of the velocity response, as a fraction of its squared trace.
-/// With a smaller determinant, an impulse changes the velocity in only one direction, and the velocity is not rotated.
+/// Largest determinant of the velocity response that counts as zero, as a fraction of its squared trace.
+/// If the determinant is zero, impulses change the velocity in one direction only, and the velocity is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
-/// Largest number of corrections of the rotation angles, for coupled sliders that pass corners simultaneously.
+/// Largest number of iterations for the rotation angles of coupled sliders that pass corners simultaneously.
 const CORRECTIONS: usize = 40;
 
-/// Tolerance of the rotation angle at a corner [rad].
+/// Largest error of the rotation angle at a corner at which the iteration ends [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Plausible range of the estimated derivative of the rotation angle with respect to its parameter. Other estimates are not used.
+/// Range of accepted estimates of the derivative of the rotation angle with respect to its parameter.
+/// Estimates outside the range are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner of a track that a slider passes, with the directions before and after the corner [-].
@@ -53,7 +54,7 @@ impl SeamCorner {
     }
 }
 
-/// Sliders that pass seams at the same time.
+/// Sliders that pass seams at the same time, with the corners at these seams.
 pub(super) struct SeamCrossings {
     passing: Vec<(usize, MasterEnd, Seam)>,
     sections: Vec<SeamCorner>,
@@ -67,7 +68,7 @@ impl SeamCrossings {
     }
 }
 
-/// Relative velocity of a slider due to an impulse: a symmetric matrix, given by rows [1/mass].
+/// Symmetric matrix whose product with an impulse on a slider is the change of the relative velocity of the slider, given by rows [1/mass].
 #[derive(Debug, Clone, Copy)]
 struct Response([Vec2; 2]);
 

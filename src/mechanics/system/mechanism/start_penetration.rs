@@ -5,15 +5,16 @@ use crate::geometry::Vec2;
 use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
 
-/// Largest ratio of the contact force on a body to its other forces at which the other forces explain the penetration.
+/// Largest ratio of the contact force on a body to its other forces for which the penetration counts as caused by the other forces [-].
 const EXPLAINED: f64 = 2.0;
 
-/// Penetration due to the approximation of a curved axis by the mesh, as a fraction of the largest coordinate of the body.
+/// Largest penetration that is attributed to the approximation of the axis by the mesh.
+/// The penetration is a fraction of the largest coordinate of the body [-].
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
-    /// Name of a contact whose force has no direction at the start, and the index of the body in the contact.
-    /// The body lies on the axis of a body that it touches, or at the centre of a disc.
+    /// Name of the first contact whose force has no direction at the start, and the index of the body in the contact.
+    /// The force has no direction if the body lies on the axis of the body that it touches, or at the centre of a disc.
     pub(in crate::system) fn undirected_contact(&self) -> Option<(&str, usize)> {
         self.elements.resistances().find_map(|contact| {
             let inside = contact.penetrations(&self.bodies);

@@ -15,10 +15,11 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of a second slider from the end of its master at a simultaneous arrival, as a fraction of the parameter range of the master.
+/// Largest distance of a slider from an end of its master at which it counts as arriving simultaneously with another slider.
+/// The distance from the end is a fraction of the parameter range of the master [-].
 const TOGETHER: f64 = 1e-12;
 
-/// Smallest number of steps per period of a vibration that an impact includes. Faster vibrations are suppressed.
+/// Smallest number of steps per period of the vibrations that are included in an impact. Faster vibrations are suppressed.
 pub(super) const RIGID: f64 = 4.0;
 
 /// Largest ratio of step length to impact duration for which the steps resolve the impact [-].
@@ -218,7 +219,7 @@ impl System {
         let met = [(&turned[..], at_corners), (&directions, at_stops)];
         let problem = self.impact_problem(&met, -2.0)?;
         let Some(impulses) = deflect_at_corners(&problem, corners, &laws)? else {
-            // Without a solution for the rotation angles, the impacts at stops are applied first, and the corners afterwards.
+            // If the rotation angles are not reached, the impacts at stops are applied before the impulses at corners.
             self.apply_impulses(hits, &[], [Deformation::All, at_stops])?;
             return self.deflect(corners, at_corners);
         };
@@ -272,8 +273,8 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
-    /// While the set of active contacts does not change, the impulses are proportional to a common factor of the speeds.
-    /// The returned energy is proportional to the square of the common factor of the speeds.
+    /// All speeds have a common factor. While the set of active contacts does not change, the impulses are proportional to this factor.
+    /// The returned energy is proportional to the square of the common factor.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

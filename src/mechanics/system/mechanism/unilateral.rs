@@ -13,12 +13,13 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 /// Largest tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
-/// Distance from the axis up to which a slider lands simultaneously with another slider, as a fraction of the size of the contact.
+/// Largest distance of a slider from the axis at which it counts as landing simultaneously with another slider.
+/// The distance from the axis is a fraction of the length scale of the contact [-].
 const TOGETHER: f64 = 1e-12;
 
 impl System {
     /// Checks the present contact forces of sliders that only push, at the end of a step that has converged.
-    /// A tensile contact force is a take-off. If the step has to end at a take-off, the contact force of that slider must be zero.
+    /// A slider with a tensile contact force takes off. If a step has to end at the take-off of a slider, its contact force must be zero.
     ///
     /// # Errors
     /// Fails if a slider takes off before the end of the step, or if it misses the take-off at which the step has to end.
@@ -60,7 +61,7 @@ impl System {
         contacts.map_or(0.0, |contacts| -contacts[slider].dot(&across))
     }
 
-    /// Distance of a slider in flight from the axis of its master, as a fraction of the size of the contact [-].
+    /// Distance of a slider in flight from the axis of its master, as a fraction of the length scale of the contact [-].
     pub(crate) fn relative_gap(&mut self, slider: usize) -> f64 {
         self.sliders[slider].relative_gap(&self.bodies)
     }
@@ -167,8 +168,8 @@ impl System {
     }
 
     /// Impact law across the master for a slider that is in contact during an impact.
-    /// A slider with too many events stays in contact.
-    /// Without the limit of events, two sliders could push each other off their masters alternately without end.
+    /// A slider that has taken off and landed too often within a step stays in contact.
+    /// Without this rule, two sliders could push each other off their masters alternately without end.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

@@ -34,7 +34,7 @@ pub struct BeamSample {
 }
 
 impl BeamPlaces {
-    /// Number of positions between two knots that represents the variation of section forces.
+    /// Number of positions between two knots that is sufficient to represent the variation of section forces.
     pub const WITHIN_A_SPAN: usize = 3;
 
     /// Removes, at each joint inside the beam, the first of the two positions with the same arc length.

@@ -11,7 +11,7 @@ use crate::system::elements::{ExternalForce, InternalForce};
 use crate::system::errors::{MOST, in_words, plural};
 use crate::system::{BeamDefinition, Drive, Scene, System, SystemError};
 
-/// Feature of the mechanics, with its use in a simulation.
+/// Feature of the mechanics, with a text on its use in a simulation or on the reason why it is omitted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SystemFeature {
     /// Description of the feature.
@@ -25,7 +25,7 @@ pub struct SystemFeature {
 pub enum Usage {
     /// Used feature. The text describes its use.
     Used(String),
-    /// Omitted feature. The text describes the saved effort.
+    /// Omitted feature. The text describes the computations that are not needed.
     Omitted(String),
 }
 

@@ -36,12 +36,13 @@ impl System {
         self.slider(slider).steps_per_impact
     }
 
-    /// Number of steps with a constant friction force of the slider, because the law of friction had no solution in the step.
+    /// Number of steps in which the friction force was kept constant, because the step had no solution with the law of friction.
     pub fn steps_with_fixed_friction(&self, slider: usize) -> usize {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }
 
-    /// Largest speed along the master for which the kink varies with the contact force [length/time]; `None` for rules without a kink.
+    /// Largest speed along the master for which the kink varies with the contact force [length/time].
+    /// Returns `None` for sliding rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }

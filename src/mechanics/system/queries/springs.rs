@@ -4,7 +4,7 @@ use crate::integrators::Mechanism;
 use crate::system::System;
 use crate::system::elements::{Branch, InternalForce, OutsideLaw, ShortBounce, SpringTrialState};
 
-/// Rounding error of an elongation, as a fraction of the elongation.
+/// Relative rounding error of an elongation [-].
 const ROUNDING: f64 = 1e-14;
 
 /// State of a spring or a damper.
@@ -31,7 +31,7 @@ impl System {
         })
     }
 
-    /// Returns true if the force of a spring exceeds rounding.
+    /// Returns true if the force of at least one spring exceeds its rounding error.
     pub(crate) fn is_strung(&self) -> bool {
         let all = self.elements().resistances();
         all.filter_map(|one: &dyn InternalForce| one.stretched()).any(|spring| {

@@ -15,7 +15,7 @@ const ROUNDED: f64 = 1e-9;
 #[derive(Default)]
 struct Group {
     points: Vec<Vec2>,
-    /// Longest natural length of the springs [length].
+    /// Largest natural length of the springs in the group [length].
     natural_length: f64,
 }
 

@@ -17,7 +17,7 @@ const MOST_SPANS: usize = 64;
 /// Smallest number of spans between neighbouring concentrated forces.
 const SPANS_BETWEEN_FORCES: f64 = 2.0;
 
-/// Distance between two forces below which they act at the same place, as a fraction of the length of the beam.
+/// Largest distance between two forces that count as acting at the same place, as a fraction of the length of the beam.
 const SAME_PLACE: f64 = 1e-6;
 
 /// Largest error of the length of a curved axis on its mesh, as a fraction of its length.

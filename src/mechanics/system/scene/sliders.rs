@@ -9,7 +9,7 @@ use crate::system::errors::{Approach, SliderError, SliderParts, written};
 use crate::system::{BeamDefinition, SystemError};
 
 /// Largest initial distance of a slave from its master, as a fraction of the length of the master plus the distance from the origin.
-/// The constant `CLOSED` admits coordinates with six digits. The slave is then moved exactly onto its master.
+/// The limit `CLOSED` allows coordinates with six digits. A slave within the limit is moved exactly onto its master.
 const CLOSED: f64 = 1e-6;
 
 struct StartGap {

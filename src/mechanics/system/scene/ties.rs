@@ -10,7 +10,7 @@ use crate::system::errors::{Turning, written};
 /// Largest initial gap of a joint, as a fraction of the length of its beam plus the distance of the joint from the origin.
 const CLOSED: f64 = 1e-12;
 
-/// Angle below which two inclined rollers count as parallel [rad].
+/// Largest angle between the directions of two inclined rollers that count as parallel [rad].
 const PARALLEL: f64 = 1e-9;
 
 /// Disjoint sets, implemented by union–find with path halving (R. E. Tarjan, J. ACM 22 (1975) 215–225).

@@ -50,7 +50,7 @@ pub(in crate::system) enum QuantityReader {
     Force(fn(Vec2, f64) -> f64),
     /// Value of an object of one type, read by the index of the object.
     Index(fn(&System, usize) -> f64),
-    /// Contribution of an object of any type to a total of the scene, such as the dissipated energy.
+    /// Contribution of one object to a sum over all objects of the scene, such as the dissipated energy.
     Sum(fn(&System, SensorSource) -> Option<f64>),
     /// The caller provides the value.
     External,
@@ -83,10 +83,10 @@ pub(in crate::system) static OF_STATIONS: [Quantity; 15] = [
     quantity("curvature", "1/length", Present, Section(|section| section.curvature)),
 ];
 
-/// Number of quantities that particles have: the first of the quantities of stations.
+/// Number of quantities of stations that are also defined for particles: the first 7 entries of `OF_STATIONS`.
 pub(in crate::system) const OF_PARTICLES: usize = 7;
 
-/// Number of quantities that points of rigid bodies have: the first of the quantities of stations.
+/// Number of quantities of stations that are also defined for points of rigid bodies: the first 9 entries of `OF_STATIONS`.
 pub(in crate::system) const OF_POINTS: usize = 9;
 
 pub(in crate::system) static OF_BODIES: [Quantity; 7] = [

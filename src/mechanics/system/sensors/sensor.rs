@@ -36,7 +36,7 @@ pub enum SensorSource {
     InternalForce(usize),
     /// Whole scene.
     Scene,
-    /// No object: the caller of the simulation provides the value after every row.
+    /// Sensor without an object of the scene. The caller of the simulation provides its value after every row.
     External,
 }
 
@@ -57,7 +57,7 @@ impl Sensor {
         Self { name: format!("{}.{object}", quantity.name), source, quantity }
     }
 
-    /// Returns true if the values of the sensor are means over the last step with the given integrator.
+    /// Returns true if the given integrator makes the values of the sensor means over the last step.
     pub(crate) fn is_step_mean(&self, method: Method) -> bool {
         match self.quantity.timing {
             ValueTime::StepMean | ValueTime::SummedMean => true,

@@ -53,7 +53,7 @@ impl Sliders {
         self.target = event;
     }
 
-    /// Number of contact unknowns, and the largest number of entries of the contact equations.
+    /// Number of contact unknowns, and an upper bound of the number of nonzero derivatives of the contact equations.
     pub fn border(&self) -> BorderShape {
         BorderShape {
             width: CONTACT_UNKNOWNS * self.len(),
@@ -281,8 +281,9 @@ impl Sliders {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
-    /// Directions [-] of the present contact forces, with the index of the slider.
-    /// Contact forces act across masters without a compliant axis, and along masters for sliders that are held or stick.
+    /// Index of a slider and unit vector, for each component of a contact force that is an unknown at the present time [-].
+    /// The component across the master is an unknown unless the axis is compliant.
+    /// The component along the master is an unknown if the slider is held or sticks.
     pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
         self.iter().enumerate().flat_map(|(at, slider)| {
             let (has_across, has_along) = match slider.state {

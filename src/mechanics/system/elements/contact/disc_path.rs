@@ -3,7 +3,8 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Ratio of the path length in a step to the length of its chord in a disc, above which an open contact point ignores the chord.
+/// Largest ratio of the path length in a step to the length of its chord in a disc [-].
+/// For an open contact point, a shorter chord is ignored.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Straight path of a point relative to a disc in a step.

@@ -12,20 +12,20 @@ use crate::geometry::larger;
 use crate::system::elements::coordinate::rounding_error;
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 
-/// Damping factor at which a sticking contact is critically damped. Larger damping factors are reduced to this value.
+/// Damping factor at which a sticking contact is critically damped [-]. Larger factors are reduced to this value.
 const MOST_DAMPING: f64 = 2.0;
 
 #[derive(Debug, Clone, Copy)]
 struct FrictionLaw {
     /// Stiffness along the surface [force/length].
     stiffness: f64,
-    /// Largest magnitude of the force [force].
+    /// Friction limit: largest magnitude of the friction force [force].
     limit: f64,
     /// Elastic deflection of the contact along the surface at the start of the step [length].
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Share of the step in which the friction force acts [-].
+    /// Weight of the friction force in the mean friction force of the step [-].
     share: f64,
 }
 
@@ -74,7 +74,7 @@ impl FrictionLaw {
     }
 }
 
-/// Slip in an iterate as a function of `N` local coordinates, and the directions of the friction force.
+/// Slip in an iterate as a function of `N` local coordinates, and the generalised force of a unit friction force.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipTrial<const N: usize> {
     /// Slip [length].
@@ -114,7 +114,7 @@ pub struct PointFriction<const N: usize> {
     coefficient: f64,
     /// Stiffness along the surface [force/length].
     stiffness: f64,
-    /// Damping coefficient while the contact sticks [force·time/length].
+    /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     damping: f64,
     /// Effective mass of the body along the surface [mass].
     mass: f64,
@@ -127,14 +127,14 @@ pub struct PointFriction<const N: usize> {
     linearised: SlipTrial<N>,
 }
 
-/// Normal force that limits a friction force in an iterate, and the duration of both forces.
+/// Normal force that limits the friction force of a contact in an iterate, with the duration of the step.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub force: f64,
     /// Duration of the step [time].
     pub duration: f64,
-    /// Share of the step in which the friction force acts [-].
+    /// Weight of the friction force in the mean friction force of the step [-].
     pub share: f64,
 }
 
@@ -184,8 +184,8 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Compares the friction force with its law.
-    /// Returns the relative difference; zero if rounding of the increments explains the difference between friction force and law.
+    /// Returns the relative difference between the friction force and the force that the friction law requires.
+    /// Returns zero if the difference can be a rounding error of the increments.
     pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);
@@ -282,7 +282,7 @@ impl<const N: usize> PointFriction<N> {
         rates.direction.map(|by| by * force.clamp(-limit, limit))
     }
 
-    /// Damping coefficient while the contact sticks [force·time/length].
+    /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub fn sticking_damping(&self) -> f64 {
         self.damping
     }

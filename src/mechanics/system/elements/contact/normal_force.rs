@@ -9,7 +9,8 @@ use crate::system::elements::coordinate::{Coordinate, rounding_error};
 use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedForce};
 use crate::system::elements::rate_history::RateHistory;
 
-/// Largest ratio of the stiffness of a contact to the impedance of the body for which the contact law is linearised at the present iterate.
+/// Largest ratio of contact stiffness to impedance of the body for which the contact counts as soft [-].
+/// The law of a soft contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
 /// Law of the normal force.
@@ -29,20 +30,20 @@ pub struct ContactTime {
     pub weight: f64,
     /// Coefficients of rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
-    /// Duration of the step [time]; infinite for an increment of zero duration.
+    /// Duration of the step [time]; infinite for a static increment, in which all rates are zero.
     pub duration: f64,
 }
 
 impl ContactTime {
-    /// Creates the contact time of a stage with its weight. Damping is disabled for an increment of zero duration.
+    /// Creates the contact time of a stage and its weight. In a static increment, damping is not evaluated.
     pub fn new(rate_history: &RateHistory, (stage, weight): (Stage, f64)) -> Self {
         let duration = rate_history.duration();
         let rates = rate_history.at(stage, weight).filter(|_| duration.is_finite());
         Self { stage, weight, rates, duration }
     }
 
-    /// Factor of the damping force in the tension [-].
-    /// Methods with forces at both ends of a step evaluate the damping once per step, at the end.
+    /// Weight of the force at the end of a step in the mean force of the step [-]; 1 at the other stages.
+    /// The damping force is divided by this weight, because it is evaluated only at the end of the step.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }
     }
@@ -128,8 +129,8 @@ impl NormalForce {
         ForceTarget { force, stiffness }
     }
 
-    /// Largest tension for which the mean force of the step is not tensile.
-    /// If forces act at both ends of the step, the largest tension depends on the tension at the start of the step.
+    /// Largest tension in an iterate for which the mean tension of the step is not positive [force].
+    /// If the method evaluates forces at both ends of the step, the largest tension depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
@@ -137,8 +138,8 @@ impl NormalForce {
 
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
-    /// The damping coefficient is limited to its largest value in an impact that is governed by the contact.
-    /// Without a limit of the damping coefficient, a resting contact would be damped without bound.
+    /// The damping coefficient is limited to the value that it reaches in an impact of the effective mass on the contact.
+    /// Without the limit, the damping coefficient of a resting contact would be unbounded, because its approach speed is almost zero.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
@@ -154,7 +155,7 @@ impl NormalForce {
         }
     }
 
-    /// Tension and stiffness for the linearised equations.
+    /// Tension and stiffness at the point where the contact law is linearised.
     /// A stiff contact is linearised at the intersection of the contact law with the line that represents the impedance of the body.
     /// In equilibria, the impedance of the body is estimated from secants.
     pub fn linearisation_target(
@@ -179,8 +180,8 @@ impl NormalForce {
         }
     }
 
-    /// Compares the tension with its target.
-    /// Returns the relative difference; zero if rounding of the increments explains the difference between tension and target.
+    /// Returns the relative difference between the tension and the target that the contact law requires.
+    /// Returns zero if the difference can be a rounding error of the increments.
     pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
         let stiffness = larger(target.stiffness, self.stiffness(law));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());

@@ -4,8 +4,8 @@ use crate::beams::RotationIncrement;
 use crate::elementary::atan;
 use crate::geometry::Vec2;
 
-/// Difference of two rotation increments [rad] below which the mean derivative replaces the difference quotient.
-/// The error of the mean derivative is of second order in the difference.
+/// Largest difference of two rotation increments for which the mean derivative replaces the difference quotient [rad].
+/// The error of the mean derivative is of second order in the difference of the increments.
 const SAME_TURN: f64 = 1e-5;
 
 pub(in crate::system::elements) struct ElongationTerm {

@@ -6,14 +6,14 @@ use super::PrescribedMovements;
 use crate::geometry::larger;
 use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 
-/// Tolerance for equal positions, absolute and relative [length, rad; -].
+/// Largest difference of two positions that count as equal [length, rad]. For positions above 1, it is a fraction of the positions [-].
 const SAME_PLACE: f64 = 1e-12;
 
 impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
     ///
     /// # Errors
-    /// Returns the name of the drive whose function has no finite value, and the reason of the failure.
+    /// Returns the name of the drive whose function has no finite value, and the error of the function.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             if let PrescribedMotion::Position(schedule) = &movement.motion {
@@ -54,7 +54,7 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Records that the prescribed positions for a fraction of the load have been applied.
+    /// Records that the prescribed displacements, multiplied by `load_factor`, have been applied.
     pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

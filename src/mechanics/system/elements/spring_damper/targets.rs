@@ -37,8 +37,8 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // Numerical damping needs a positive slope of the law. With a negative slope, it would add energy.
-                // Single components of a vector have no numerical damping, because it would rotate the direction of the damping force.
+                // Only linear laws receive numerical damping. With a negative stiffness, it would add energy.
+                // Separate x and y components receive none, because their numerical damping would rotate the force relative to the spring.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -51,7 +51,7 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the spring is linearised at the intersection of its law with a straight line.
-    /// The straight line represents the impedance of all other objects of the scene. Its intersection with an increasing law is unique.
+    /// The straight line is the response of all other objects to the force of the spring. It intersects an increasing law once.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

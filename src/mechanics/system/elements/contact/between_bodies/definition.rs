@@ -61,8 +61,8 @@ impl PairContact {
     }
 
     /// Friction between two members; `None` without friction.
-    /// The arm of the friction force is divided in the ratio of the radii of the members.
-    /// A particle does not rotate, so the whole arm acts on the other body.
+    /// The moment of the friction force about the contact is divided between the members in the ratio of their radii.
+    /// A particle does not rotate, so the whole moment acts on the other body.
     fn friction_of_pair(&self, own: usize, other: usize) -> Option<FrictionOfPair> {
         let radius =
             |member: usize| if self.rotates(member) { self.members[member].radius } else { 0.0 };

@@ -32,7 +32,7 @@ pub(super) struct CandidatePair {
 pub(super) struct FrictionOfPair {
     /// Coefficient of friction [-].
     pub(super) coefficient: f64,
-    /// Shares of the arm of the friction force that act on `shape` and on `target` [-]. The sum of the shares is one.
+    /// Fractions of the moment of friction that act on `shape` and on `target` [-]. The sum of the fractions is one.
     pub(super) shares: [f64; 2],
 }
 
@@ -52,9 +52,10 @@ pub(super) struct PairForces {
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
-    /// Lower bound of the distance between bodies whose start points are those of the shapes [length]. It is zero if bodies are near each other.
+    /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
+    /// The bound is zero if the boxes around two bodies overlap.
     clearance: f64,
-    /// True if the shapes start at the start of the present step.
+    /// True if the configuration `start` of the shapes is that at the start of the present step. It may be older if no bodies can touch.
     is_current: bool,
     watch: ContactWatch,
     last_rate: f64,
@@ -98,8 +99,8 @@ impl PairForces {
         self.clearance = distances.fold(f64::INFINITY, f64::min).max(0.0);
     }
 
-    /// Returns true if no bodies can touch, because no control point is farther from its start point than half of the clearance.
-    /// The argument returns the position of a control point of a body.
+    /// Returns true if no bodies can touch, because all control points are close to their positions in the configuration `start`.
+    /// The argument `position` returns the present position of a control point of a body.
     fn is_clear(&self, position: impl Fn(usize, usize) -> Vec2) -> bool {
         let is_near_start = |shape: &Shape| {
             let moved = |(at, start): (usize, &Vec2)| position(shape.body, at) - start;
@@ -117,7 +118,8 @@ impl PairForces {
         })
     }
 
-    /// Sets the start configuration, and finds the pairs that touch in it, unless no bodies can touch.
+    /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
+    /// The configuration is not changed if no bodies can touch.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.is_current = false;
         if self.is_clear_with(bodies, &[]) {
@@ -177,7 +179,7 @@ impl PairForces {
         self.prepare_pairs();
     }
 
-    /// Prepares the bodies that are touched for searches of nearest points.
+    /// Computes the boxes and samples of all touched bodies, which the search for nearest points needs.
     fn prepare_pairs(&mut self) {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
@@ -371,7 +373,7 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    /// If the shapes do not start at the start of the step, no iterate came near enough for a contact.
+    /// If the configuration `start` is older than the step, no bodies came near each other in the step, so no path crosses a body.
     fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
         if !self.is_current || self.is_clear_with(bodies, increments) {
             return false;

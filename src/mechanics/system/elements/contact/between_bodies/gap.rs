@@ -19,7 +19,7 @@ use crate::geometry::{Dual, DualVector, Vec2, larger};
 
 /// Number of local coordinates: two components of each of four vectors.
 /// The first three vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
-/// The fourth vector is the derivative of the displacement of the curve with respect to ξ at `ξ₁`.
+/// The fourth vector is the derivative with respect to ξ, at `ξ₁`, of the displacement of the curve.
 pub(super) const LOCAL: usize = 8;
 
 /// Smallest sum `A₀ + A₁` for which the share `θ` is computed, as a fraction of the squared distance.
@@ -44,7 +44,7 @@ pub(super) struct GapMovement {
     pub(super) moved: [Vec2; 3],
     /// Vector from `c(ξ₀)` to `c(ξ₁)` at the start of the step [length].
     pub(super) slid: Vec2,
-    /// Length that determines the rounding error of the vector `slid` [length].
+    /// Largest increment from which the vector `slid` is computed [length]. The rounding error of `slid` is proportional to it.
     pub(super) increment: f64,
     /// Derivatives of the curve with respect to ξ at `c(ξ₁)` [length].
     /// Order: first derivative at the start of the step, first and second derivative at the end of the step.
@@ -71,7 +71,7 @@ pub(super) struct GapTrial {
     pub(super) secant_slope: [Slope; 6],
     /// Derivative of the parameter `ξ₁` with respect to the local coordinates [1/length].
     pub(super) foot_slope: Slope,
-    /// Moment about the curve of a unit friction force, which is perpendicular to the gap [length].
+    /// Total moment on both bodies of a unit friction force, which is perpendicular to the gap [length].
     pub(super) arm: f64,
     /// Derivative of the friction moment `arm` with respect to the local coordinates [-].
     pub(super) arm_slope: Slope,
@@ -89,7 +89,7 @@ impl GapTrial {
         arm_slope: [0.0; LOCAL],
     };
 
-    /// Gap without a change, for the given vector from the nearest point of the curve to the contact point.
+    /// Zero change of the gap in a configuration. `apart` is the vector from the nearest point of the curve to the contact point [length].
     pub(super) fn at_rest(apart: Vec2) -> Self {
         let arm = apart.norm();
         let normal = if arm > 0.0 { apart / arm } else { Vec2::zeros() };

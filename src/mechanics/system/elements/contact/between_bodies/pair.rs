@@ -57,7 +57,8 @@ impl PairIndex {
         state.extend([self.shape, self.site, self.target].map(|index| index as f64));
     }
 
-    /// Indices of a saved contact with their candidate pair; `None` if the saved indices do not fit the shapes.
+    /// Reads the indices of a saved contact, and returns them with the candidate pair of the contact.
+    /// Returns `None` if the model has no such contact.
     pub(super) fn restored<'c>(
         shapes: &[Shape],
         candidates: &'c [CandidatePair],
@@ -85,7 +86,7 @@ pub(super) struct LocalRows {
 
 #[derive(Debug, Clone)]
 struct PairFriction {
-    /// Shares of the arm of the friction force that act on the body of the point and on the other body [-].
+    /// Fractions of the moment of friction that act on the body of the point and on the other body [-].
     shares: [f64; 2],
     force: PointFriction<WITH_ROTATIONS>,
 }
@@ -100,7 +101,7 @@ pub(super) struct ContactPair {
     foot: Foot,
     linearised: GapTrial,
     linearised_foot: Foot,
-    /// Forces on the point at the start of the step and in the present iterate, as internal forces [force].
+    /// Internal forces (minus the forces on the point) at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
     friction: Option<Box<PairFriction>>,
 }
@@ -149,7 +150,7 @@ impl ContactPair {
         self.index.place(shapes)
     }
 
-    /// Uses the foot at the end of the last accepted step, so that the gap is continuous.
+    /// Sets the foot to that at the end of the last accepted step, so that the gap is continuous.
     pub(super) fn begin_configuration(&mut self, shapes: &[Shape]) {
         self.use_foot(shapes, self.start.foot);
     }
@@ -237,7 +238,7 @@ impl ContactPair {
         }
     }
 
-    /// Inverse of the effective mass that the rotations of both bodies have for a force along the axis [1/mass].
+    /// Contribution of the rotations of both bodies to the inverse of the effective mass along the axis [1/mass].
     fn angular_mobility(&self, shapes: &[Shape]) -> f64 {
         let Some(friction) = &self.friction else { return 0.0 };
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
@@ -246,7 +247,7 @@ impl ContactPair {
             + foot * other.angular_mobility(self.start.foot.weights(0))
     }
 
-    /// Normal contact in the present iterate, with the friction; `None` without friction, or for an increment of zero duration.
+    /// Normal force in the present iterate, with the friction that it limits; `None` without friction, or for a static increment.
     fn friction_at(&mut self, time: ContactTime) -> Option<(NormalContact, &mut PairFriction)> {
         let (force, duration) = (-self.normal.tension.force, time.duration);
         let contact = NormalContact { force, duration, share: time.share() };
@@ -321,7 +322,7 @@ impl ContactPair {
             summary.strain_mismatch = larger(strain_mismatch, friction.force.compare(contact));
             let forces = friction.force.present().map(|by| by * time.weight);
             self.applied[at] += Vec2::new(forces[0], forces[1]);
-            // The rounding error of the normal force limits the accuracy of the moments.
+            // The scale of the moments includes the normal force, because its rounding error causes an error of the moments.
             summary.moment =
                 forces[LOCAL].abs() + forces[LOCAL + 1].abs() + self.trial.arm * force.abs();
             self.scatter_friction(shapes, bodies, (&self.foot, forces), out);
@@ -379,7 +380,7 @@ impl ContactPair {
                     let secant = stiffness * secant[vector][component];
                     from_fn(|column| secant * slope[column] + force * by[column])
                 }
-                // The weights of the control points change with the foot.
+                // The foot `ξ₁` moves along the curve, which changes the weights of the control points.
                 None => foot_slope.map(|by| force * secant[2][component] * by),
             }
         })
@@ -493,7 +494,8 @@ impl ContactPair {
         foot.weights(0).for_each(|(at, by)| add(target, at, on_end * by));
     }
 
-    /// Adds a generalised friction force to `out`: forces on the contact point and on both feet, and moments on both bodies.
+    /// Adds a generalised friction force to `out`.
+    /// The generalised force consists of forces on the contact point and on both feet, and of moments on both bodies.
     fn scatter_friction(
         &self,
         shapes: &[Shape],
@@ -659,7 +661,7 @@ impl LocalRows {
     }
 
     /// Entries of the tangent for the collected unknowns, row by row.
-    /// The argument contains the derivatives with respect to the first `N` local coordinates.
+    /// `tangent` contains the derivatives of the generalised forces with respect to the first `N` local coordinates.
     pub(super) fn entries<const N: usize>(
         &self,
         tangent: &[[f64; N]; N],
@@ -677,7 +679,7 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Vector from one foot to another in a configuration, and the increment that determines its rounding error.
+/// Vector from one foot to another in a configuration, and the increment to which its rounding error is proportional [length].
 /// For two feet on the same span, the vector is computed from the Taylor polynomial at the first foot.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;

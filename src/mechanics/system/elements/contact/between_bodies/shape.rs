@@ -12,7 +12,7 @@ const SAMPLES: usize = 4;
 
 const MOST_ITERATIONS: usize = 60;
 
-/// Largest cosine of the angle between the axis and the line to the nearest point for which this line counts as perpendicular to the axis.
+/// Largest cosine of the angle between two lines that count as perpendicular: the axis, and the line from the contact point to its foot.
 const PERPENDICULAR: f64 = 1e-6;
 
 /// Relative rounding error of distances.
@@ -71,14 +71,14 @@ impl Bounds {
 pub(super) struct Foot {
     pub(super) xi: f64,
     pub(super) span: usize,
-    /// Weights of the control points, and the derivatives of the weights with respect to ξ.
+    /// Weights of the control points in the position of the foot, and the derivatives of these weights with respect to ξ.
     pub(super) values: BasisValues,
     /// True if the foot can move along the axis of the touched body. False at the ends of a beam, at corners, and for discs.
     pub(super) is_free: bool,
 }
 
 impl Foot {
-    /// Index of each control point with the derivative of its weight of the given order.
+    /// Pairs of a control point and the derivative of its weight. `order` is the order of the derivative.
     pub(super) fn weights(&self, order: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.values.first..).zip(self.values.derivatives(order).iter().copied())
     }
@@ -140,7 +140,7 @@ struct SampledCurve {
     spans: Vec<Span>,
     /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
-    /// Enlargement of the box around the control points of a span, as a fraction of the box [-].
+    /// Enlargement with which the box around the control points of a span contains the curve, as a fraction of the size of the box [-].
     growth: f64,
 }
 
@@ -224,7 +224,7 @@ impl Shape {
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass].
-    /// A massless point of a rigid body has the whole mass of the body.
+    /// For a point of a rigid body without its own mass, the inverse mass of the whole body is returned.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
@@ -281,7 +281,7 @@ impl Shape {
         at
     }
 
-    /// Largest displacement of the axis for control points that move by at most one length.
+    /// Upper bound of the displacement of a point of the axis, as a multiple of the largest displacement of a control point [-].
     pub(super) fn amplification(&self) -> f64 {
         match &self.axis {
             Axis::Point(_) => 1.0,
@@ -303,7 +303,7 @@ impl Shape {
         self.start.bounds.joined(self.end.bounds)
     }
 
-    /// Foot at a parameter of a span; `None` outside the span or if the axis has fewer spans.
+    /// Foot at a parameter of a span; `None` if the parameter is outside the span, or if the span does not exist.
     pub(super) fn foot_in(&self, span: usize, xi: f64) -> Option<Foot> {
         match &self.axis {
             Axis::Point(foot) => (span == 0).then_some(**foot),
@@ -315,7 +315,7 @@ impl Shape {
         }
     }
 
-    /// Nearest point of the axis in a configuration; `None` if no point satisfies the limits of the search.
+    /// Nearest point of the axis to the position of the search; `None` if the point is too far away or not in the searched parts.
     pub(super) fn nearest(&self, at: &Configuration, search: &NearestSearch) -> Option<Foot> {
         let NearestSearch { position, allowed, limit, hint } = *search;
         let (basis, spans) = match &self.axis {
@@ -470,7 +470,7 @@ impl SpanSearch<'_> {
         [place - self.position, slope, bend]
     }
 
-    /// Smallest squared distance between two parameters, with the parameter of the nearest point.
+    /// Smallest squared distance from the position to the part of the axis between two parameters, with the parameter of the nearest point.
     fn nearest_in(&self, low: f64, high: f64) -> (f64, f64) {
         let is_whole = (low, high) == (self.span.start, self.span.end);
         let squared = |at: usize| match is_whole {

@@ -5,8 +5,8 @@
 //! slip Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω') with A = Σₖ nₖ·dₖ and the mean vector dₖ from c(ξₖ) to the point
 //! ```
 //!
-//! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` act on both bodies.
-//! With shares `ρ + ρ' = 1` of the friction arm, the slip is zero in a rigid rotation.
+//! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` of a unit friction force act on the two bodies.
+//! Since `ρ + ρ' = 1`, the slip is zero if both bodies rotate together like one rigid body.
 //! The sum of the moments of friction is zero, so that the angular momentum is conserved.
 
 use super::gap::{GapMovement, GapTrial, LOCAL};
@@ -16,12 +16,12 @@ use crate::system::elements::contact::SlipTrial;
 /// Number of local coordinates with friction: those of the gap, and the rotations of both bodies.
 pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
 
-/// Rotations of both bodies in an iterate, and the shares of the arm of the friction force that act on the bodies.
+/// Rotations of both bodies in an iterate, and the fractions of the moment of friction that act on them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotations {
     /// Rotations of the body of the contact point and of the other body [rad].
     pub(super) turned: [f64; 2],
-    /// Shares of the arm of the friction force [-]. The sum of the shares is one.
+    /// Fractions of the moment of friction that act on the two bodies [-]. The sum of the fractions is one.
     pub(super) shares: [f64; 2],
 }
 
@@ -54,7 +54,7 @@ pub(super) fn slip_trial(
     for column in 0..LOCAL {
         slope[column] +=
             direction[column] + by_foot * foot_slope[column] - arm_slope[column] * rolled;
-        // The weights of the control points change with the foot.
+        // The foot `ξ₁` moves along the curve, which changes the weights of the control points.
         direction_slope[6][column] = last.x * foot_slope[column];
         direction_slope[7][column] = last.y * foot_slope[column];
         for (row, share) in shares.iter().enumerate() {

@@ -26,8 +26,8 @@ impl<'s> GapSearch<'s> {
         Self { shapes, configurations, gap: all.map_or(0.0, |all| all.diagonal()) }
     }
 
-    /// Smallest gap of the candidate pairs, for the given gaps of closed contacts [length].
-    /// It is not larger than the diagonal of the box around all bodies.
+    /// Smallest gap of the candidate pairs [length]. `closed` contains the gaps of closed contacts.
+    /// Without a smaller gap, the diagonal of the box around all bodies is returned.
     pub(super) fn smallest(
         mut self,
         candidates: &[CandidatePair],
@@ -51,7 +51,8 @@ impl<'s> GapSearch<'s> {
         self.shapes[shape].radius + self.shapes[target].radius
     }
 
-    /// Distance between two axes above which the gap between the bodies is not smaller than the gap found so far [length]. `reach` is the sum of the radii.
+    /// Largest distance between two axes at which the gap between their bodies is smaller than the smallest gap found so far [length].
+    /// `reach` is the sum of the radii of the bodies [length].
     fn limit(&self, reach: f64) -> f64 {
         (1.0 - ACCURACY) * self.gap.max(0.0) + reach
     }
@@ -63,7 +64,8 @@ impl<'s> GapSearch<'s> {
         self.gap > 0.0 && own.squared_distance(&other) < square(limit)
     }
 
-    /// Reduces the gap to the distance between the ends of the spans of two bodies. This bound excludes most contact points from the search.
+    /// Reduces the gap to the smallest gap between ends of spans of the two bodies.
+    /// The reduced gap excludes most contact points from the search.
     fn add_vertices(&mut self, candidate: &CandidatePair) {
         let CandidatePair { shape, target, .. } = *candidate;
         if shape == target || !self.is_near(candidate) {
@@ -77,7 +79,7 @@ impl<'s> GapSearch<'s> {
         self.gap = self.gap.min((squared.sqrt() - self.reach(candidate)).max(0.0));
     }
 
-    /// Reduces the gap to that of a contact point.
+    /// Reduces the gap to the gap of a contact point, if that gap is smaller.
     fn add_site(&mut self, index: PairIndex) {
         let reach = index.reach(self.shapes);
         let limit = self.limit(reach);

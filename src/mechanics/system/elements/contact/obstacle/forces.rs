@@ -3,7 +3,7 @@
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
-//! Due to the intersection of both laws, the number of iterations does not depend on the stiffness of the contact.
+//! Linearisation at the intersection makes the number of iterations independent of the stiffness of the contact.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
@@ -21,11 +21,12 @@ use crate::system::elements::{TrialState, WorkAndImpulse};
 pub(super) struct TouchingBody {
     body: usize,
     points: Vec<ContactPoint>,
-    /// True if the contact points lie in the convex hull of the control points of the body.
+    /// True if all contact points lie in the convex hull of the control points of the body, as on B-splines.
     is_convex: bool,
-    /// True if the hull of the control points does not touch the obstacle at the start of the step.
+    /// True if the convex hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,
-    /// True if the hull touches the obstacle at the start of the step or in an iterate. Otherwise, the points have no forces and are not updated.
+    /// True if the convex hull of the control points touches the obstacle at the start of the step or in an iterate.
+    /// If `is_active` is false, the contact points have no forces and are not updated.
     is_active: bool,
     watch: ContactWatch,
     /// Mean rate of the gap with the largest force in the last step [length/time].
@@ -77,7 +78,8 @@ impl TouchingBody {
         }
     }
 
-    /// Starts the increment at the present positions of the points. `rates` are the rates at the start of a step; `None` for an increment of zero duration.
+    /// Prepares the contact points for a step or a static increment from their present positions.
+    /// `rates` are the rates at the start of a step; `None` for a static increment.
     fn activate(&mut self, surface: &Surface, body: &Body, rates: Option<&[f64]>) {
         self.is_active = true;
         for point in &mut self.points {
@@ -123,14 +125,14 @@ pub(super) struct ObstacleForces {
     surface: Surface,
     bodies: Vec<TouchingBody>,
     rate_history: RateHistory,
-    /// Rates of all unknowns at the start of the step; empty in an increment of zero duration.
+    /// Rates of all unknowns at the start of the step; empty in a static increment.
     rates: Vec<f64>,
     stage: (Stage, f64),
     last_force: Vec2,
     dissipated: f64,
 }
 
-/// Rates at the start of a step; `None` in an increment of zero duration.
+/// Rates at the start of a step; `None` in a static increment.
 fn step_rates(rates: &[f64]) -> Option<&[f64]> {
     (!rates.is_empty()).then_some(rates)
 }

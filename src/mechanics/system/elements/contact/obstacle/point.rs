@@ -40,7 +40,8 @@ impl Surface {
         }
     }
 
-    /// Returns true if all positions lie beyond the tangent of the obstacle that faces the position `towards`.
+    /// Returns true if a body through all positions cannot touch the obstacle.
+    /// All positions must be farther than the radius of the body from the tangent of the obstacle that faces the position `towards`.
     pub(super) fn is_beyond(
         &self,
         towards: Vec2,
@@ -61,7 +62,7 @@ impl Surface {
         positions.all(|at| normal.dot(&at) - offset >= self.radius)
     }
 
-    /// Gradient of the gap [-] at a point, which is given by its vector from the obstacle.
+    /// Gradient of the gap with respect to the position of a point [-]. The argument is the vector from the obstacle to the point.
     fn gradient(&self, from_obstacle: Vec2) -> Vec2 {
         let none = Vec2::zeros();
         GapTrial::new(self.shape, from_obstacle, none, RotationIncrement::Angle).slope
@@ -87,7 +88,7 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    /// Zero change of the gap, for a surface with the given normal.
+    /// Trial with zero change of the gap at a surface with the given normal.
     pub(super) fn along(normal: Vec2) -> Self {
         Self { secant: normal, slope: normal, ..Self::NONE }
     }
@@ -123,7 +124,7 @@ impl GapTrial {
 struct PointInertia {
     /// Velocity per unit impulse [1/mass].
     mobility: f64,
-    /// Rate of rotation per unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
+    /// Angular velocity due to a unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
     angular_mobility: f64,
     /// True for a point off the centre of mass, which a rigid link connects to the centre.
     is_linked: bool,
@@ -305,7 +306,7 @@ impl ContactPoint {
         }
     }
 
-    /// Normal contact in the present iterate; `None` for an increment of zero duration, in which friction does not act.
+    /// Normal force in the present iterate, with the duration of the step; `None` for a static increment, in which friction does not act.
     fn normal_contact(&self, time: ContactTime) -> Option<NormalContact> {
         let duration = time.duration;
         let contact =
@@ -342,7 +343,7 @@ impl ContactPoint {
             strain_mismatch = larger(strain_mismatch, friction.compare(contact));
             let [x, y, applied] = friction.present().map(|by| by * time.weight);
             self.applied_moment = applied;
-            // The rounding error of the normal force limits the accuracy of the moment.
+            // The scale of the moment includes the normal force, because its rounding error causes an error of the moment.
             moment = applied.abs() + surface.radius * force.abs();
             self.applied[1] += Vec2::new(x, y);
             self.scatter_moment(body, applied, out);
@@ -569,15 +570,15 @@ pub(super) struct ClosedContact {
     pub(super) tension: ForceTarget,
     /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
-    /// Damping coefficient of friction that sticks [force·time/length].
+    /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub(super) sticking_damping: f64,
     pub(super) radius: f64,
-    /// Distance from the centre of a disc [length]; infinite for a half-plane.
+    /// Distance of the contact point from the centre of a disc [length]; infinite for a half-plane.
     pub(super) radius_of_curvature: f64,
 }
 
 impl ClosedContact {
-    /// Tension for a velocity of the point [force].
+    /// Tension if the contact point has the given velocity [force]. It is never positive.
     fn tension(&self, velocity: Vec2) -> f64 {
         (self.tension.force + self.damping * self.gradient.dot(&velocity)).min(0.0)
     }

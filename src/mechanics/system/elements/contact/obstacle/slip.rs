@@ -5,8 +5,8 @@ use crate::beams::Movement;
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::system::elements::contact::SlipTrial;
 
-/// Slip of the surface of a body with a radius, for the displacement and the rotation of its contact point.
-/// The secant of the gap is the direction of the normal force.
+/// Slip of the surface of a body along the obstacle, for the displacement and the rotation of its contact point.
+/// `radius` is the distance of the surface of the body from the contact point. `gap.secant` is the direction of the normal force.
 pub(super) fn slip_trial(gap: &GapTrial, radius: f64, [x, y, rotation]: Movement) -> SlipTrial<3> {
     let movement = Vec2::new(x, y);
     let (normal, by) = (gap.secant, gap.secant_slope);
