@@ -13,16 +13,18 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Residual of a converged pair, as a fraction of the inverted stiffness. The error of the eigenvalue is of the order of the squared residual.
+/// Largest residual of a converged pair, as a fraction of the norm of the inverted stiffness.
+/// The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation below which the result consists of rounding errors.
+/// Factor by which orthogonalisation reduces the length of a vector if the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation below which the vector is orthogonalised again.
+/// Factor by which orthogonalisation may reduce the length of a vector. After a larger reduction, the vector is orthogonalised again.
 const SHRUNK: f64 = 1e-4;
 
-/// Remaining component in the basis above which a vector is orthogonalised again, as a fraction of the length of the vector.
+/// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.
+/// A vector with a larger component is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 const ORTHONORMAL: f64 = 1e-14;

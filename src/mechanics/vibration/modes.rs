@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::System;
 
-/// Squared frequency below which a mode counts as unrestrained, as a fraction of the squared frequency of the lowest bending mode.
+/// Largest squared frequency of a mode that counts as unrestrained, as a fraction of the squared frequency of the lowest bending mode.
 const UNRESTRAINED: f64 = 1e-10;
 
 /// Natural mode of small vibration.

@@ -12,10 +12,10 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Largest magnitude of an accurate eigenvalue, as a multiple of the shift.
+/// Largest magnitude of an eigenvalue that is computed accurately, as a multiple of the shift.
 const LARGEST_RATIO: f64 = 1e6;
 
-/// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
+/// Largest factor between two successive shifts.
 const FARTHEST: f64 = 1e12;
 
 /// Displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at the damper.

@@ -7,15 +7,16 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual for which a squared frequency is accurate to all digits. The error of the squared frequency is of the order of the squared residual.
+/// Residual at which no further correction is made, because the squared frequency is then accurate to all digits.
+/// The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Ratio of two successive residuals above which further corrections have no effect.
+/// Largest ratio of two successive residuals at which corrections continue. A larger ratio shows that corrections no longer help.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue above which each pair is refined separately.
+/// Largest ratio of the largest to the smallest eigenvalue at which pairs are refined together.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {

@@ -21,11 +21,12 @@ const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
 
-/// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.
+/// Largest relative change of an eigenvalue by an accepted correction, including the effect of rounding.
+/// A larger change leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of an eigenvalue near the shift above which a correction is rejected if the change is much larger than rounding.
-/// A larger change indicates several close eigenvalues whose shapes are mixed.
+/// Largest relative change of an eigenvalue by an accepted correction, without the effect of rounding.
+/// A larger change shows that the shapes of several close eigenvalues are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
@@ -33,7 +34,8 @@ const ROUNDING_CHANGE: f64 = 1e-12;
 /// A shift at the distance `BESIDE` from the eigenvalue gives a matrix of the inverse iteration that is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping above which the force of a dashpot is an unknown. A larger matrix entry would reduce the accuracy of weakly damped modes.
+/// Largest damping that is an entry of the matrix. The forces of stronger dashpots are unknowns.
+/// Larger matrix entries would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {

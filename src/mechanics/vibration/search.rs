@@ -20,17 +20,16 @@ const DENSE_COPIES: usize = 5;
 /// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair of eigenvalue and shape is rejected.
+/// Largest residual of an accepted pair of eigenvalue and shape.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of a squared frequency below which the squared frequency counts as zero.
+/// Squared frequency that counts as zero, as a multiple of its rounding error.
 const ROUNDING: f64 = 64.0;
 
-/// Squared frequency that counts as zero, as a fraction of the shift.
-/// Rigid motions have squared frequencies below the limit `HIDDEN` because of rounding.
+/// Squared frequency that counts as zero, as a fraction of the shift. Rounding gives rigid motions smaller squared frequencies than this limit.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero squared frequency.

@@ -3,8 +3,8 @@
 use crate::beams::Section;
 use crate::elementary::square;
 
-/// Masses that an impact along a master accelerates immediately.
-/// A mass is `None` if the body is fixed, or too heavy to be accelerated.
+/// Effective masses of slave and master for an impulse between them along the master.
+/// A mass is `None` if its body is fixed, or so heavy in comparison with the other body that the impulse hardly changes its velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].
@@ -15,7 +15,6 @@ pub struct AxialImpact {
 
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactBar {
-    /// Length of the undeformed beam [length].
     pub length: f64,
     pub section: Section,
 }

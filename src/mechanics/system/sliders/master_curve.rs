@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Relative rounding tolerance of positions of sliders, as a fraction of the parameter range or of the size of a contact [-].
+/// Rounding tolerance of a distance between a slider and its master, or between a slider and an end of the master [-].
+/// A distance along the master is a fraction of the parameter range. A distance from the axis is a fraction of the length scale of the contact.
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
@@ -73,7 +74,7 @@ impl SliderState {
     }
 }
 
-/// Limit of the motion of a slider at an end of its master.
+/// End of a master, at which the motion of a slider along the master is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
     /// Index of the slider.

@@ -7,7 +7,7 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Distance between the ends of two beams below which the two ends coincide.
+/// Largest distance between the ends of two beams at which the ends count as the same point.
 /// The distance is a fraction of the length of the beam plus the distance of the beam ends from the origin.
 const SAME: f64 = 1e-9;
 

@@ -13,7 +13,7 @@ pub struct MotionState {
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
     resolution: Resolution,
-    /// Bodies whose resolution is measured separately; empty if there is only one body.
+    /// Bodies for which the resolution measures are also computed separately; empty if there is only one body.
     monitored: Vec<MonitoredBody>,
 }
 

@@ -14,15 +14,16 @@ const STOPPED: f64 = 1e-6;
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
 const ROUNDING: f64 = 1e-14;
 
-/// Duration of a step below which friction does not act, as a fraction of the longest step.
+/// Shortest step in which friction acts, as a fraction of the longest step so far.
 /// The forces of a very short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Duration of a step above which friction always follows its law, as a fraction of the longest step.
-/// In shorter steps without a solution, the friction force is kept constant.
+/// Longest step in which the friction force may be kept constant, as a fraction of the longest step so far.
+/// The force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Number of transitions between slip and stick in successive steps, from which steps are not shortened to the end of the slip.
+/// Number of recent transitions between slip and stick from which a step is no longer shortened to the end of the slip.
+/// Each transition increases this number by one, and each step without a transition reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition of a slider with friction at the end of an attempted step.
@@ -56,7 +57,7 @@ pub struct SliderFriction {
     /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
     transitions: usize,
-    /// Constant friction force in the present step, instead of the law of slip [force].
+    /// Friction force that replaces the friction law in the present step [force]; `None` if the law applies.
     fixed_force: Option<f64>,
     /// Number of accepted steps with a constant friction force.
     pub fixed_steps: usize,
@@ -118,7 +119,7 @@ impl SliderFriction {
         self.transitions < MOST_TRANSITIONS
     }
 
-    /// State of the friction as a number: the sign of the slip, or zero for a sticking slider.
+    /// Sign of the slip, or zero for a sticking slider.
     fn mode_number(&self) -> f64 {
         match self.mode {
             FrictionMode::Slip(sign) => sign,
@@ -132,7 +133,7 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that represent the state of the friction: the sign of the slip, and the mean force.
+    /// Numbers that `restore` reads: the sign of the slip, and the mean friction force.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [self.mode_number(), self.force]
     }
@@ -234,7 +235,7 @@ impl SliderContact {
         (reversed.abs() > negligible).then_some(reversed)
     }
 
-    /// Largest velocity along the master that counts as zero [length/time].
+    /// Largest velocity along the master that counts as zero at the end of a slip [length/time].
     fn negligible_slip(&self, friction: &SliderFriction) -> f64 {
         STOPPED * friction.start_velocity_along.abs() + ROUNDING * self.size / friction.duration
     }
@@ -251,7 +252,6 @@ impl SliderContact {
         sign * self.along(bodies).dot(&self.relative_velocity(bodies, rates)) < 0.0
     }
 
-    /// Returns true if the slider sticks to its master.
     pub fn sticks(&self) -> bool {
         self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
     }
