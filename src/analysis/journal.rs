@@ -38,7 +38,6 @@ fn build() -> Build {
     })
 }
 
-/// Error of reading or writing a journal.
 #[derive(Debug, thiserror::Error)]
 #[error("the journal '{}' of the study cannot be {action}: {source}", path.display())]
 pub struct JournalError {
@@ -104,7 +103,6 @@ impl Journal {
         self.known.len()
     }
 
-    /// Returns true if the journal contains no results.
     pub fn is_empty(&self) -> bool {
         self.known.is_empty()
     }

@@ -14,7 +14,7 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Line width and marker radius of faint series, and the remaining fraction of their colour.
+/// Style of faint series: line width and marker radius [pixels], and the fraction of the colour in its mixture with white.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
@@ -26,7 +26,7 @@ pub enum SeriesColour {
     Next,
     /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
-    /// Colour of titles, for series that summarise all others.
+    /// Black, for series that summarise all other series.
     Black,
 }
 
@@ -46,7 +46,7 @@ pub enum SeriesEmphasis {
 pub struct Series {
     pub name: String,
     pub points: Vec<Point>,
-    /// Line style of the series. If `None`, the chart draws continuous lines until all colours are used.
+    /// Line style of the series. If `None`, the line is continuous. After each complete use of the palette, the chart selects the next line style.
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the line style has markers.
     pub marker: Marker,

@@ -40,7 +40,6 @@ pub enum CommandOutcome {
 /// Destination of replies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplyTarget {
-    /// A terminal with the given style.
     Terminal(TerminalStyle),
     /// Another program or a file.
     Pipe,
@@ -211,7 +210,6 @@ impl Shell {
         !is_there || read_file(path, LARGEST_SCRIPT).is_ok_and(|bytes| Some(&*bytes) == ours())
     }
 
-    /// Records that a script was saved to a file.
     pub fn record_saved(&mut self, path: &Path, script: String) {
         self.saved.insert(path.to_owned(), script);
     }
@@ -263,7 +261,7 @@ impl Shell {
         }
     }
 
-    /// Number of characters in a line.
+    /// Largest width of a line of output [columns].
     pub fn width(&self) -> usize {
         match self.screen {
             ReplyTarget::Terminal(style) => style.width,

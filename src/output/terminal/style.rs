@@ -12,7 +12,6 @@ pub enum Glyphs {
     Ascii,
 }
 
-/// Use of colours in a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
     /// Plain text.

@@ -165,7 +165,7 @@ impl<'c, 'r> Call<'c, 'r> {
         ScriptError::new(format!("{}: {what}", self.row.name))
     }
 
-    /// Describes a value in a message.
+    /// Short text that stands for a value in a message, such as `the text "abc"` or `an array of 3`.
     pub fn describe(&self, value: &Dynamic) -> String {
         describe(self.native.engine(), value)
     }

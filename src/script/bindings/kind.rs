@@ -176,7 +176,6 @@ pub enum NumberRange {
 }
 
 impl NumberRange {
-    /// Returns true if `x` is in the range.
     pub fn contains(self, x: f64) -> bool {
         let bounded = match self {
             Self::Unlimited => return true,

@@ -182,7 +182,6 @@ impl Parameter {
         self
     }
 
-    /// Returns true if the parameter is required.
     pub const fn is_required(&self) -> bool {
         matches!(self.presence, Presence::Required)
     }

@@ -63,7 +63,6 @@ struct ContextData {
 }
 
 impl Context {
-    /// Creates the state at the start of a run.
     pub fn new(settings: RunSettings) -> Self {
         let writing = settings.studies.part.map_or(settings.mode, |_| RunMode::DryRun);
         Self(Rc::new(ContextData {

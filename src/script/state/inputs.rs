@@ -168,7 +168,6 @@ impl std::fmt::Display for InputValue {
     }
 }
 
-/// Declaration of an input by a script.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputDeclaration {
     /// Name.
