@@ -32,7 +32,7 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 pub enum ErrorVerdict {
     /// The runs agree to rounding.
     Exact,
-    /// The observed order agrees with the order of the method or, if the order of the method is unknown, is at least one.
+    /// The observed order is at least 0.7 times the order of the method, or at least 0.7 if this order is unknown, and the error is small.
     Converged,
     /// The runs do not converge yet. The estimate is a lower bound.
     PreAsymptotic,

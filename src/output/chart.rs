@@ -46,7 +46,8 @@ pub enum SeriesEmphasis {
 pub struct Series {
     pub name: String,
     pub points: Vec<Point>,
-    /// Line style of the series. If `None`, the line is continuous. After each complete use of the palette, the chart selects the next line style.
+    /// Line style of the series. If `None`, the line is continuous.
+    /// After each complete use of the palette, the chart then selects the next line style.
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the line style has markers.
     pub marker: Marker,

@@ -1,4 +1,4 @@
-//! Lowest modes, computed by the block Lanczos method with shift and inversion.
+//! Computation of the lowest modes by the block Lanczos method with a shifted and inverted stiffness.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
 //! All vectors of the search are orthogonal with respect to the inertia.
@@ -51,7 +51,7 @@ pub(super) struct Lanczos<'a> {
 }
 
 impl<'a> Lanczos<'a> {
-    /// Starts a search with random vectors, which are the same in every run.
+    /// Creates a search whose first block consists of random vectors, which are the same in every run.
     pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
         let mut search = Self {
             pencil,

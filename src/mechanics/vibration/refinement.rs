@@ -1,5 +1,5 @@
 //! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
-//! The residual of a pair is the size of its last correction.
+//! The residual of a pair is computed from the last correction.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};

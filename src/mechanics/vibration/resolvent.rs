@@ -15,8 +15,8 @@ use crate::elementary::square;
 /// Largest number of QR iterations per eigenvalue in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero.
-/// If the Schur decomposition does not converge, the next larger size is used.
+/// Largest subdiagonal entries that the Schur decomposition treats as zero, relative to the diagonal entries.
+/// If the decomposition does not converge with the first limit, the next limit is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
@@ -31,7 +31,7 @@ const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// A shift at the distance `BESIDE` from the eigenvalue gives a matrix of the inverse iteration that is not singular.
+/// With this distance, the matrix of the inverse iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Largest damping that is an entry of the matrix. The forces of stronger dashpots are unknowns.
@@ -139,7 +139,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Eigenvalue near `start` after corrections, as a multiple of the shift.
+    /// Eigenvalue that is obtained from the approximation `start` by corrections, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();

@@ -23,7 +23,7 @@ const MOST_SHIFTS: usize = 14;
 /// Largest residual of an accepted pair of eigenvalue and shape.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
+/// Largest relative difference of two shifted squared frequencies that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
 /// Squared frequency that counts as zero, as a multiple of its rounding error.
@@ -32,10 +32,11 @@ const ROUNDING: f64 = 64.0;
 /// Squared frequency that counts as zero, as a fraction of the shift. Rounding gives rigid motions smaller squared frequencies than this limit.
 const HIDDEN: f64 = 1e-14;
 
-/// Largest ratio of the shift to the lowest nonzero squared frequency.
+/// Largest ratio of the shift to the lowest nonzero squared frequency at which the search is not repeated with a smaller shift.
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// Smallest ratio of the shift to the lowest nonzero squared frequency if some squared frequencies are zero.
+/// Smallest ratio of the shift to the lowest nonzero squared frequency at which the search is not repeated with a larger shift.
+/// The limit applies only if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the modes found with the first shift are used, with residuals that show their accuracy.
+            // If the search with the better shift fails, the modes from the first shift are returned. Their residuals show their accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -129,8 +130,8 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs with the same eigenvalue as the last requested pair may be missing.
-        // All pairs with smaller frequencies than the last requested pair must have been found.
+        // The search may have missed pairs with the same eigenvalue as the last requested pair.
+        // The search must have found all pairs with smaller frequencies than the last requested pair.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

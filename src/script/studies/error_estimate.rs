@@ -27,7 +27,8 @@ pub const POSITIONS: &str = "positions";
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
-/// Smallest number of spans of a beam for coarsening by a factor of four. Shorter beams are also refined.
+/// Number of spans of the shortest beam from which both additional meshes of the estimate are coarser than the mesh of the simulation.
+/// With fewer spans, at least one of these meshes is finer.
 const SPANS_TO_COARSEN: usize = 4;
 
 #[derive(Debug, Clone)]

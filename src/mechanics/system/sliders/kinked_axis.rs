@@ -1,4 +1,4 @@
-//! Axis of the master of a slider with a kink at the slider. The mesh of the master does not represent the kink.
+//! Kink of the axis of a master at its slider. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Largest kink length at which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
-/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. At larger speeds, the kink is kept constant.
+/// First limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// Near this speed, the stiffness of a moving kink is nearly zero. Above the limit, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// Second limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
 /// At the critical speed, the stiffness of the kink is zero.
 /// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
@@ -22,7 +22,7 @@ const FASTEST_ON_MESH: f64 = 0.9;
 /// Near the ends of a master, kinks are shorter than this limit and are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed at which a kink starts from an end of the master, as a fraction of the largest speed at which a kink varies.
+/// Largest speed at which a kink starts with a load at an end of the master, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
 /// Smallest kink length at which a loaded kink that moves away from an end varies with the contact force.
@@ -40,7 +40,7 @@ pub struct MasterKink {
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force. The kink displaces the axis at the slider.
+/// Kink of the axis of a master due to the contact force. The kink displaces the axis at the slider.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,
@@ -151,12 +151,12 @@ impl KinkedAxis {
         self.speed = speed;
     }
 
-    /// Accepts the state of the kink at the end of a step in which the kink was kept constant.
+    /// Sets the state of the kink at the end of a step in which the kink was kept constant.
     pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }
 
-    /// Sets the kink to the static kink of a contact force [force].
+    /// Sets the kink to the state in which it is in equilibrium with a constant contact force [force].
     pub fn set_static_kink(&mut self, force: Vec2) {
         (self.jump, self.speed) = (force, 0.0);
     }
@@ -197,7 +197,7 @@ impl KinkedAxis {
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master, for a rate of the parameter of the master [1/time].
+    /// Computes the speed of the kink along the master from the rate of the parameter of the master [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }

@@ -1,4 +1,4 @@
-//! Masters of sliders as curves with two ends, and the states of a slider.
+//! Curves that are masters of sliders, their two ends, and the states of a slider.
 
 use serde::{Deserialize, Serialize};
 
@@ -47,9 +47,9 @@ impl MasterEnd {
 pub enum SliderState {
     /// Sliding along its master.
     Sliding,
-    /// Held by a stop at an end of the master.
+    /// The slider is held by a stop at an end of its master.
     Held(MasterEnd),
-    /// In flight: a slider that only pushes has left its master, and can land on it.
+    /// The slider is in flight: it only pushes, has left its master, and can land on the master again.
     Separated,
     /// Released from its master.
     Released,
@@ -131,7 +131,7 @@ impl SliderEvent {
     }
 }
 
-/// Master of a slider: the undeformed axis of a beam, with the parameters of its mesh.
+/// Master of a slider: the undeformed axis of a beam as a function of the parameter of the beam's mesh.
 #[derive(Debug, Clone)]
 pub struct MasterCurve {
     axis: Curve,

@@ -48,7 +48,7 @@ pub struct SliderContact {
     /// Parameter of the master at the slider [-].
     pub parameter: f64,
     pub unknowns: ContactUnknowns,
-    /// Contact force on the master [force].
+    /// Mean contact force on the master in the last step [force].
     mean_force: StepMean<Vec2>,
     /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
@@ -200,7 +200,7 @@ impl SliderContact {
         self.mean_force.value
     }
 
-    /// Sets the mean contact force for a step of zero length [force].
+    /// Sets the mean contact force before the first step [force].
     pub fn start_mean_force(&mut self, force: Vec2) {
         self.mean_force = StepMean::at_start(force);
     }

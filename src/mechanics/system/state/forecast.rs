@@ -1,10 +1,10 @@
-//! Selection of the rates for the prediction of the next step.
+//! Selection of the rates from which the increments of the next step are predicted.
 
 use serde::{Deserialize, Serialize};
 
 use super::resolution::GuessErrors;
 
-/// Rates for the prediction of the next step.
+/// Rates from which the increments of the next step are predicted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
     /// Prediction from the start rates, because no step has been taken.

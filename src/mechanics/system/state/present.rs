@@ -77,7 +77,7 @@ impl MotionState {
         self.time = step.interval.end;
     }
 
-    /// Applies a jump of all rates [length/time, 1/time].
+    /// Adds a jump to all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);

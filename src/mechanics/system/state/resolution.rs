@@ -35,7 +35,7 @@ pub struct Resolution {
     bent: f64,
     /// Length of the last step [time].
     last: f64,
-    /// Squared prediction error of the last step by its start rates, weighted by mass [energy].
+    /// Squared error of the prediction of the last step from its start rates, weighted by mass [energy].
     last_by_start: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,

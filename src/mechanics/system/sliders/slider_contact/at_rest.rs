@@ -1,4 +1,4 @@
-//! Statics of a slider: contact equations for a displacement between two equilibria, contact with stops, and stiffness.
+//! Slider in statics: contact equations for a displacement between two equilibria, contact with stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, is_tensile};

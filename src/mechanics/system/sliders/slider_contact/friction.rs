@@ -6,9 +6,9 @@ use crate::integrators::Interval;
 use crate::joints::{Friction, FrictionForces, FrictionMode};
 use crate::system::bodies::Body;
 
-/// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
-/// An impulse removes the remaining velocity along the master at the end of a slip.
-/// Without a tolerance for the velocity, the step after the end of the slip could be too short for an accurate energy balance.
+/// Largest velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
+/// An impulse removes this remaining velocity at the end of the slip.
+/// With a zero tolerance, the step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
@@ -26,13 +26,13 @@ const FIXED_BELOW: f64 = 1.0 / 16.0;
 /// Each transition increases this number by one, and each step without a transition reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
-/// Transition of a slider with friction at the end of an attempted step.
+/// Transition between slip and stick at the end of an attempted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionTransition {
     SlipEnds {
         reversed: f64,
     },
-    /// The force along the master exceeds the friction limit.
+    /// The friction force that sticking requires exceeds the friction limit.
     SlipStarts,
 }
 

@@ -22,7 +22,7 @@ const SMALLEST_CURVATURE: f64 = 0.5;
 /// Largest cosine of the angle between the axis and the vector to the slave at which the slave is not beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
-/// Change of the contact state of a slider that only pushes.
+/// Event in which the contact state of a slider that only pushes changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactChange {
     /// The slider left its master.
@@ -35,7 +35,7 @@ pub enum ContactChange {
     Passage,
 }
 
-/// Contact of a slider that only pushes.
+/// State of a slider that only pushes: its side of the master, the nearest point of the master, and recent events.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
     /// Side of the master on which the slider can fly: 1 for the left side of the axis, -1 for the right side.
@@ -246,7 +246,7 @@ impl SliderContact {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step [length], zero in contact.
+    /// Distance of the slave from the axis at the end of the last step [length]; zero for a slider in contact.
     /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
