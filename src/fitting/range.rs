@@ -26,8 +26,8 @@ impl SearchRange {
     }
 
     /// Size of the parameter at the value `x`, with which changes of the parameter are compared.
-    /// It is the magnitude of `x`, but at least a hundredth of the distance between the bounds.
-    /// If a bound is infinite, it is at least a thousandth of the start value.
+    /// The size is the magnitude of `x`, but at least a hundredth of the distance between the bounds.
+    /// If a bound is infinite, the size is at least a thousandth of the start value.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

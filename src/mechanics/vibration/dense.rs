@@ -17,8 +17,8 @@ const ORTHOGONAL: f64 = 1e-15;
 /// Largest number of passes over all pairs of columns. About twelve passes are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Largest inertia of a degree of freedom, after the elimination of other degrees of freedom, that counts as zero.
-/// It is a fraction of the diagonal entry of the inertia matrix.
+/// Largest inertia that counts as zero, as a fraction of the diagonal entry of the inertia matrix.
+/// The inertia of a degree of freedom is compared with this limit after the elimination of other degrees of freedom.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.

@@ -36,7 +36,7 @@ const HIDDEN: f64 = 1e-14;
 const LARGEST_SHIFT: f64 = 1e4;
 
 /// Smallest ratio of the shift to the lowest nonzero squared frequency at which the search is not repeated with a larger shift.
-/// The limit applies only if some squared frequencies are zero.
+/// This lower limit of the ratio applies only if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

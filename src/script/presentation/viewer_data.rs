@@ -221,7 +221,7 @@ fn trails(
 }
 
 /// Stations whose paths are drawn by default: point masses, and ends of beams without a support or joint. Of two joined ends, one is included.
-/// The list is empty if it would be longer than `MOST_FREE_ENDS`.
+/// The list of stations is empty if it would be longer than `MOST_FREE_ENDS`.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {

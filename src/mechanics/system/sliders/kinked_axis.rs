@@ -25,8 +25,8 @@ const BESIDE_END: f64 = 0.1;
 /// Largest speed at which a kink starts with a load at an end of the master, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
-/// Smallest kink length at which a loaded kink that moves away from an end varies with the contact force.
-/// It is a fraction of the limit set by [`BESIDE_END`]. At shorter kink lengths, rounding errors of positions would determine the kink.
+/// Smallest kink length at which a loaded kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
+/// At shorter kink lengths, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
 /// Largest contact force with which a kink starts, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
@@ -41,6 +41,7 @@ pub struct MasterKink {
 }
 
 /// Kink of the axis of a master due to the contact force. The kink displaces the axis at the slider.
+/// The kink length is the displacement per unit of the ratio of the contact force to the shear stiffness.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,

@@ -77,7 +77,7 @@ pub struct SliderContact {
     chord: f64,
     push: f64,
     push_beyond: f64,
-    /// True if the tensile force at the stop pulls the slider across the seam onto the next beam.
+    /// True if the contact force pulls a slider that is held at a seam onto the beam beyond the seam.
     pub crosses_seam: bool,
     /// Magnitude of the contact force for the last trial values of the unknowns [force].
     contact_force: f64,

@@ -8,7 +8,7 @@ use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
 /// Largest distance between the ends of two beams at which the ends count as the same point.
-/// The distance is a fraction of the length of the beam plus the distance of the beam ends from the origin.
+/// The distance of the ends is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 
 /// Beam of a track, with the properties that a slider on the beam needs.

@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-14;
 const NEGLIGIBLE: f64 = 1e-7;
 
 /// Longest step in which the friction force may be kept constant, as a fraction of the longest step so far.
-/// The force is kept constant if a step with the friction law has no solution.
+/// The friction force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
 /// Number of recent transitions between slip and stick from which a step is no longer shortened to the end of the slip.

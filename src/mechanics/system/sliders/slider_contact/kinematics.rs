@@ -104,7 +104,7 @@ impl SliderContact {
         self.to_axis(bodies) + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
-    /// Vector from the slave to the point of the slider on the smooth axis of the master [length].
+    /// Vector from the slave to the point of the smooth master axis at the parameter of the slider [length].
     pub(super) fn to_axis(&self, bodies: &[Body]) -> Vec2 {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];

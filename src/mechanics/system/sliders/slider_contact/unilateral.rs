@@ -137,7 +137,7 @@ impl SliderContact {
 
     /// Finds the point of the master that is nearest to the slave, after the given increments of all bodies.
     /// Newton's method starts at the present parameter of the slider. If `increments` is empty, the bodies are in their present configuration.
-    /// The call overwrites the path of the slider.
+    /// A call of this function overwrites the path of the slider.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -223,7 +223,7 @@ impl SliderContact {
     }
 
     /// Distance by which a landing slave is beyond the axis at the end of the attempted step [-].
-    /// It is a fraction of the length scale of the contact.
+    /// The distance of the landing slave is a fraction of the length scale of the contact.
     /// Returns `None` unless the slider lands in the step.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
@@ -232,9 +232,9 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance by which a slave in flight is beyond the axis at the end of the attempted step [-].
-    /// It is a fraction of the length scale of the contact.
-    /// The distance is negative if the slave has not reached the axis. Returns `None` if the slave is on the axis within rounding.
+    /// Distance by which a slave in flight is beyond the axis at the end of the attempted step [-], negative if it has not reached the axis.
+    /// The distance of the slave is a fraction of the length scale of the contact.
+    /// Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
