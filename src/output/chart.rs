@@ -175,7 +175,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // A dashed line leaves an equal curve of the first chart visible in its gaps.
+                // If the curve of the first chart is equal, it is visible in the gaps of a dashed line.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })

@@ -18,7 +18,7 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Largest factor between two successive shifts.
 const FARTHEST: f64 = 1e12;
 
-/// Largest displacement at a damper with which an unrestrained mode does not move the damper.
+/// Largest displacement of an unrestrained mode at a damper that counts as zero.
 /// This displacement is a fraction of the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 

@@ -97,7 +97,7 @@ pub struct Meter {
 }
 
 /// Largest number of skipped calls in a dry run. After more calls, the script counts as waiting for a result.
-/// Loops that wait for a time end earlier.
+/// Loops that only wait for a simulation time end after fewer calls.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
 /// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.
