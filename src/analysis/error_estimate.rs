@@ -25,7 +25,7 @@ const TOO_LARGE: f64 = 0.3;
 /// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest growth of the distance of two runs after their last convergence at which the motion does not count as chaotic.
+/// Largest growth of the distance of two runs, after their last convergence, that does not count as chaos.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

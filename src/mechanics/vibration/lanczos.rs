@@ -17,10 +17,10 @@ use crate::linalg::{
 /// The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Factor by which orthogonalisation reduces the length of a vector if the result consists of rounding errors.
+/// Ratio of the lengths of a vector after and before orthogonalisation. With a smaller ratio, the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Factor by which orthogonalisation may reduce the length of a vector. After a larger reduction, the vector is orthogonalised again.
+/// Smallest ratio of the lengths of a vector after and before orthogonalisation that makes a second orthogonalisation unnecessary.
 const SHRUNK: f64 = 1e-4;
 
 /// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.

@@ -13,10 +13,10 @@ const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Largest ratio of two successive residuals at which corrections continue. A larger ratio shows that corrections no longer help.
+/// Largest ratio of two successive residuals that allows further corrections. With a larger ratio, corrections no longer help.
 const FALLING: f64 = 0.3;
 
-/// Largest ratio of the largest to the smallest eigenvalue at which pairs are refined together.
+/// Largest ratio of the largest to the smallest eigenvalue for a common refinement. With a larger ratio, each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {

@@ -32,10 +32,10 @@ const ROUNDING: f64 = 64.0;
 /// Squared frequency that counts as zero, as a fraction of the shift. Rounding gives rigid motions smaller squared frequencies than this limit.
 const HIDDEN: f64 = 1e-14;
 
-/// Largest ratio of the shift to the lowest nonzero squared frequency at which the search is not repeated with a smaller shift.
+/// Largest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a smaller shift unnecessary.
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// Smallest ratio of the shift to the lowest nonzero squared frequency at which the search is not repeated with a larger shift.
+/// Smallest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a larger shift unnecessary.
 /// This lower limit of the ratio applies only if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 

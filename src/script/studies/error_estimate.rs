@@ -27,8 +27,8 @@ pub const POSITIONS: &str = "positions";
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
-/// Number of spans of the shortest beam from which both additional meshes of the estimate are coarser than the mesh of the simulation.
-/// With fewer spans, at least one of these meshes is finer.
+/// Smallest number of spans of the shortest beam that allows two coarser meshes in the estimate.
+/// With fewer spans, at least one of the two additional meshes is finer than the mesh of the simulation.
 const SPANS_TO_COARSEN: usize = 4;
 
 #[derive(Debug, Clone)]

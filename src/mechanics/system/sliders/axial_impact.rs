@@ -4,7 +4,7 @@ use crate::beams::Section;
 use crate::elementary::square;
 
 /// Effective masses of slave and master for an impulse between them along the master.
-/// A mass is `None` if its body is fixed, or so heavy in comparison with the other body that the impulse hardly changes its velocity.
+/// A mass is `None` if its body is fixed, or is so much heavier than the other body that the impulse hardly changes its velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].

@@ -7,7 +7,7 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Largest distance between the ends of two beams at which the ends count as the same point.
+/// Largest distance between the ends of two beams that count as the same point.
 /// The distance of the ends is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 

@@ -22,7 +22,7 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// The friction force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Smallest number of recent transitions between slip and stick at which a step is no longer shortened to the end of the slip.
+/// Smallest number of recent transitions between slip and stick that prevents the shortening of a step to the end of the slip.
 /// Each transition increases this number by one, and each step without a transition reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 

@@ -19,7 +19,7 @@ const LARGEST_CHANGE: f64 = 0.125;
 /// Smallest second derivative of the squared distance that `nearest_point` uses, as a fraction of the value for a straight master.
 const SMALLEST_CURVATURE: f64 = 0.5;
 
-/// Largest cosine of the angle between the axis and the vector to the slave at which the slave is not beyond an end of the master.
+/// Largest cosine of the angle between the axis and the vector to the slave for a slave that is not beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
 /// Event in which the contact state of a slider that only pushes changes.
