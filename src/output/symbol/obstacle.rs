@@ -16,7 +16,7 @@ const OUTLINE: f64 = 1.5;
 const SMALL: f64 = 20.0;
 /// Number of segments of a circle, or of the part of a large circle near the plot.
 const SEGMENTS: u32 = 96;
-/// Largest distance between an obstacle and the bodies for which the picture is enlarged to show the obstacle, as a fraction of the picture size.
+/// Largest distance between obstacle and bodies for which the picture is enlarged to show the obstacle, as a fraction of the picture size.
 const NEAR: f64 = 0.2;
 
 impl PlacedSymbol {

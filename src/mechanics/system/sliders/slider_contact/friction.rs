@@ -23,7 +23,7 @@ const NEGLIGIBLE: f64 = 1e-7;
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
 /// Smallest number of recent transitions between slip and stick that prevents the shortening of a step to the end of the slip.
-/// Each transition increases this number by one, and each step without a transition reduces it by one.
+/// Each transition increases this number by one, and each accepted step or substep reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition between slip and stick at the end of an attempted step.

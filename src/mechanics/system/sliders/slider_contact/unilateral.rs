@@ -7,8 +7,8 @@ use crate::system::bodies::Body;
 use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
-/// Largest number of take-offs, landings and passages of the axis in consecutive steps with such events.
-/// After so many events, the slider stays in contact until the next step without an event.
+/// Largest number of take-offs, landings and passages of the axis since the last step without such an event.
+/// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
 const MOST_ITERATIONS: usize = 64;
