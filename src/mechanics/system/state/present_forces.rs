@@ -39,7 +39,7 @@ pub struct ContactResponse {
 }
 
 impl ContactResponse {
-    /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to zeros.
+    /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to a zero vector.
     pub fn set(
         &mut self,
         direction: Vec2,
