@@ -1,10 +1,6 @@
 //! withy: planar dynamics of flexible beams, and its scripting language.
 //!
-//! The program consists of the following layers. A layer uses only layers to its right:
-//!
-//! ```text
-//! main → cli, playground → repl, exercises → script → output, analysis → sampling, fitting, mechanics: simulation → … → system → …
-//! ```
+//! The layers of the program are described in docs/architecture.md.
 //!
 //! The mechanics is a separate crate, so that changes of the language do not require compiling it again. This crate re-exports its main layers.
 //! The lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.

@@ -19,7 +19,7 @@ pub struct Case {
     pub scene: Scene,
     /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
-    /// Observation times in increasing order [time]. The run ends at the last observation time.
+    /// Observation times in increasing order [time]. The last observation time is the end of the run.
     pub stops: Vec<f64>,
 }
 
@@ -80,7 +80,8 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if every step of size `dt` ends at an observation time, a schedule break or a release. Larger step sizes then give the same run.
+    /// Returns true if no interval between observation times, schedule breaks and releases is longer than `dt`.
+    /// Every step of size `dt` then ends at such a time, and larger step sizes give the same run.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

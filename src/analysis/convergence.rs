@@ -13,7 +13,7 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// Smallest ratio of an error to the uncertainty of the reference for which the error is significant.
+/// Smallest ratio of a significant error to the uncertainty of the reference.
 const SIGNIFICANCE: f64 = 2.0;
 
 /// Errors of a quantity for one integrator and several sizes, from coarse to fine.

@@ -1,4 +1,4 @@
-//! Cost of a time step: its run time, and the sizes that determine the run time.
+//! Cost of a time step: its run time, and the sizes of the model on which the run time depends.
 
 use std::time::{Duration, Instant};
 

@@ -150,7 +150,7 @@ impl ParsedCsv {
         })
     }
 
-    /// Magnitude of an error in a cell, which must not be negative.
+    /// Error in a cell, which is a number that must not be negative.
     ///
     /// # Errors
     /// Fails if the column does not exist, or if the cell is not a finite number or is negative.

@@ -7,7 +7,7 @@
 use super::trace::Trace;
 use crate::elementary::power;
 
-/// Distance of two runs that is attributed to rounding, relative to the scale of a quantity.
+/// Largest distance of two runs that is attributed to rounding, relative to the scale of a quantity.
 const ROUNDING: f64 = 1e-10;
 
 /// Smallest and largest order in the search for the observed order.
@@ -19,20 +19,20 @@ const SHARE_OF_ORDER: f64 = 0.7;
 /// Smallest observed order of a converging run if the order of the method is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
-/// Error above which an observed order has no significance, relative to the scale of a quantity.
+/// Largest error at which an observed order is significant, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
 /// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Growth of the distance of two runs after their last convergence, above which the motion counts as chaotic.
+/// Largest growth of the distance of two runs, after their last convergence, that does not count as chaos.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
     /// The runs agree to rounding.
     Exact,
-    /// The observed order agrees with the order of the method or, if the order of the method is unknown, is at least one.
+    /// The observed order is at least 0.7 times the order of the method, or at least 0.7 if this order is unknown, and the error is small.
     Converged,
     /// The runs do not converge yet. The estimate is a lower bound.
     PreAsymptotic,

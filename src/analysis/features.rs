@@ -7,7 +7,7 @@ use crate::joints::{EndAction, JointKind, Partner, Slider, StartVelocities};
 use crate::loads::{LoadFrame, LoadKind, Schedule};
 use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 
-/// Magnitude of a feature, as a fraction of the properties of the first beam.
+/// Magnitude of an added mass, stiffness or force, as a fraction of the corresponding property of the first beam.
 const SMALL: f64 = 1e-3;
 
 /// Feature whose cost is measured.

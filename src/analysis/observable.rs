@@ -14,7 +14,6 @@ pub struct Observable {
     pub kind: ObservableKind,
 }
 
-/// Type of quantity that can be observed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum ObservableKind {
     /// Position of a station [length].

@@ -189,7 +189,7 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// For each parameter in order, the fraction of the variance of a result that the parameter explains.
+    /// Fractions of the variance of a result that the parameters explain, in the order of the parameters.
     /// Returns `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;

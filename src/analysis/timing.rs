@@ -17,7 +17,7 @@ pub struct Timing {
     pub repeats: usize,
 }
 
-/// Total run time of a case above which the run is not repeated.
+/// Largest total run time of a case that still allows another run of the case.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux. The system updates this time when the thread pauses, and otherwise only at ticks of the scheduler.
@@ -34,7 +34,7 @@ impl Timing {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread, and computes medians of the times. Runs longer than [`LONGEST_REPETITION`] are not repeated.
+    /// Runs a case several times on this thread, and computes medians of the times. After [`LONGEST_REPETITION`], the case is not run again.
     /// Returns `None` if `is_wanted` returns false or a run fails.
     pub fn of(
         case: &Case,

@@ -30,7 +30,7 @@ pub enum TraceSource {
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals from the start. Means over different steps can then be compared.
+    /// True if the values are integrals from the start, from which means over different steps can be computed.
     is_integral: bool,
 }
 
@@ -69,7 +69,7 @@ impl Trace {
         Self { times, values, is_integral: false }
     }
 
-    /// Largest magnitude of the values. For means over steps, it is the largest magnitude of the means.
+    /// Largest magnitude of the values. For integrals, it is the largest magnitude of the means over steps.
     pub fn largest(&self) -> f64 {
         let steps = self.times.windows(2).zip(self.values.windows(2));
         match self.is_integral {
@@ -88,7 +88,7 @@ impl Trace {
     }
 
     /// Distances of a coarser trace from this trace at the times of the coarser trace [time, dimension of the values].
-    /// Means over steps are compared over the steps of the coarser trace.
+    /// For integrals, means over the steps of the coarser trace are compared.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let pairs = coarser.times.iter().zip(&coarser.values);
         let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));

@@ -20,9 +20,9 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 /// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// The results of a run. The program ends at a second Ctrl-C, or if the run does not react in time to the first Ctrl-C.
+    /// The results of a run are lost. The program ends at a second Ctrl-C, or if the run does not react in time to the first Ctrl-C.
     Run,
-    /// A session with all its data.
+    /// The session and all its data are lost.
     /// If the session has not reacted to the first Ctrl-C, a second Ctrl-C at least a second later ends the program.
     Session,
 }

@@ -39,7 +39,6 @@ const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 
 impl LimitOptions {
-    /// Returns the limits of a run.
     pub fn limits(&self) -> Limits {
         Limits {
             time: self.max_time,

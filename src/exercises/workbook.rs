@@ -27,7 +27,7 @@ pub enum Advice {
         number: usize,
         count: usize,
     },
-    /// The solution, because all hints were given.
+    /// The model solution. It is given when all hints have been given.
     Solution(&'static str),
 }
 

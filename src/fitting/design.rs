@@ -6,11 +6,11 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::SearchRange;
 
-/// First step, as a fraction of the size of the parameters.
+/// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
 /// Largest violation of a satisfied constraint. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Multiple of the size of an unbounded parameter; a parameter near this multiple counts as diverged.
+/// Largest magnitude of an unbounded parameter in the search, as a multiple of its size. A parameter near this limit counts as diverged.
 const FARTHEST: f64 = 1e15;
 /// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;

@@ -8,7 +8,7 @@ use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 const MOST_ITERATIONS: usize = 30;
 /// Maximum number of steps between two computations of the derivatives, in addition to the number of parameters.
 const MORE_STEPS: usize = 6;
-/// Change of a parameter below which the search has converged, as a fraction of the size of the parameter.
+/// Largest change of a parameter at which the search has converged, as a fraction of the size of the parameter.
 const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;

@@ -19,14 +19,15 @@ impl SearchRange {
         x.max(self.low).min(self.high)
     }
 
-    /// Scale of the parameter: the distance between its bounds, or the size of the start value if a bound is infinite.
+    /// Scale of the parameter: the distance between its bounds, or the size at the start value if a bound is infinite.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Size of the parameter at the value `x`: the magnitude of `x`, but at least a hundredth of the scale of the parameter.
-    /// Changes of a parameter are compared with the size of the parameter.
+    /// Size of the parameter at the value `x`, with which changes of the parameter are compared.
+    /// The size is the magnitude of `x`, but at least a hundredth of the distance between the bounds.
+    /// If a bound is infinite, the size is at least a thousandth of the start value.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

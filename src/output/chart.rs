@@ -14,7 +14,7 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Line width and marker radius of faint series, and the remaining fraction of their colour.
+/// Style of faint series: line width and marker radius [pixels], and the fraction of the colour in its mixture with white.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
@@ -26,7 +26,7 @@ pub enum SeriesColour {
     Next,
     /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
-    /// Colour of titles, for series that summarise all others.
+    /// Black, for series that summarise all other series.
     Black,
 }
 
@@ -46,7 +46,8 @@ pub enum SeriesEmphasis {
 pub struct Series {
     pub name: String,
     pub points: Vec<Point>,
-    /// Line style of the series. If `None`, the chart draws continuous lines until all colours are used.
+    /// Line style of the series. If `None`, the line is continuous.
+    /// After each complete use of the palette, the chart then selects the next line style.
     pub stroke: Option<Stroke>,
     /// Shape of the markers, if the line style has markers.
     pub marker: Marker,
@@ -174,7 +175,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // A dashed line leaves an equal curve of the first chart visible in its gaps.
+                // If the curve of the first chart is equal, it is visible in the gaps of a dashed line.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })

@@ -6,7 +6,7 @@ use crate::elementary::hypot;
 /// Width of the vertical strips in which a long curve is thinned [pixels].
 const STRIP: f64 = 0.5;
 
-/// Number of points above which curves are thinned.
+/// Largest number of points of a curve that is not thinned.
 const LONG: usize = 2000;
 
 /// Splits a curve, given in pixels, at its gaps and at the sides of `window`. A long curve is thinned.

@@ -136,7 +136,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions from a mark to its number, starting with the preferred direction.
+/// Directions in which the number of the largest value may be written, seen from the mark of the value. The preferred direction comes first.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

@@ -28,7 +28,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// Size at which `text` fits into the width `room` [pixels]. The size is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // This factor shrinks a text slightly, because rounding could make a text that fits exactly too long.
+    // Slight reduction of the size, without which rounding could make a text of exactly the available width too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }

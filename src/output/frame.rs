@@ -35,7 +35,7 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// On each side, the larger of the margins of two panels.
+    /// Returns the margins that are sufficient for two panels: on each side, the larger of both margins.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),

@@ -119,7 +119,7 @@ impl HeatMap {
     }
 
     fn colour(&self, part: f64) -> Colour {
-        // Cells are large areas, so their colours may be paler than those of lines. Texts in the cells must be readable.
+        // The palest colours are mixed with white, because cells are large areas in which texts must be readable.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
     }
 

@@ -79,7 +79,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // Twice a number near the largest float would be infinite.
+            // The extrapolated boundary is infinite if the centre is near the largest float. The centre is then used as the boundary.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };

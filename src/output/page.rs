@@ -55,9 +55,9 @@ pub trait Panel {
     }
 }
 
-/// Factor of the height of panels if there are several rows on a page.
+/// Height of a panel on a page with several rows, as a fraction of the height of a separate picture.
 const HEIGHT_IN_ROWS: f64 = 0.6;
-/// Factors of width and height of panels in a single row of several columns.
+/// Width and height of a panel in a single row of several columns, as fractions of the width and the height of a separate picture.
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 

@@ -27,7 +27,7 @@ pub struct View {
 }
 
 impl View {
-    /// Box of the limits. An axis without limits is fitted, with some margin, to the points inside the limits of the other axis.
+    /// Box between the limits of both axes. An axis without limits is fitted, with a margin, to the points inside the limits of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))

@@ -18,7 +18,7 @@ const ORDINATE: f64 = 1.0;
 /// Distance between ordinates [pixels].
 const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
-/// Largest ordinate, as a fraction of the total size of the beams.
+/// Largest ordinate of a diagram, as a fraction of the size of the beams.
 const LARGEST: f64 = 0.2;
 /// Smallest extreme value with a label, as a fraction of the largest value.
 const SMALLEST_LABELLED: f64 = 0.03;
@@ -109,8 +109,8 @@ impl StripPicture {
         runs.map(run).collect()
     }
 
-    /// Size of all beams together.
-    /// If there are many small beams, the size is that of the longest beam, so that diagrams of neighbouring beams do not overlap.
+    /// Size of the bounding box of all beams, or the length of the longest beam if it is smaller.
+    /// The diagrams of many small neighbouring beams therefore do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {

@@ -27,9 +27,9 @@ pub enum Symbol {
     Clamp,
     /// Support that fixes the component of the position along its direction. The direction points away from the ground.
     Roller,
-    /// Support that fixes one component of the position and the angle.
+    /// Support that fixes the angle and one component of the position.
     Guided,
-    /// Support that fixes only the angle.
+    /// Support that fixes the angle and no component of the position.
     HeldAngle,
     /// Prescribed rotation of a section as a function of time.
     Motor,

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-/// Clock that measures the time since a fixed moment, such as the start of the program.
+/// Clock that measures the time since an arbitrary fixed moment, such as the start of the program.
 pub trait Clock {
-    /// Time since the fixed moment of the clock.
+    /// Time since the moment at which the clock starts to count.
     fn now(&self) -> Duration;
 }
 

@@ -9,7 +9,7 @@ use crate::script::handles::simulation::SimulationHandle;
 /// Largest nesting depth of arrays and maps that is searched for shared values, simulations and scenes.
 const DEEPEST: usize = 8;
 
-/// State that an input can change, and that is not restored when the variables are restored.
+/// Recorded state of simulations, scenes, shared values and files. It is not restored when the variables are restored.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -17,7 +17,7 @@ pub struct SideEffects {
     files: usize,
 }
 
-/// Counters of a simulation, the number of its scheduled functions, and the memory of its snapshots.
+/// Position of a simulation: its counters, the number of its scheduled functions, and the memory of its snapshots.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {
@@ -55,7 +55,7 @@ impl SideEffects {
         }
     }
 
-    /// Description of the changes since this state was recorded, as the predicate of a sentence with the subject "it".
+    /// First change since this state was recorded, as the predicate of a sentence with the subject "it"; `None` without a change.
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

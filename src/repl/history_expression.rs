@@ -98,7 +98,7 @@ fn evaluate_rerun(
 
 enum PlaybackStep {
     Back(std::vec::IntoIter<usize>),
-    /// Evaluation of an expression at every `every`-th row of the history.
+    /// Evaluation at every `every`-th row of the history, in a repeated run.
     NextRow {
         next: usize,
         rows: usize,

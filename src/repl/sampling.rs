@@ -10,13 +10,13 @@ use super::session::Rounds;
 
 /// Largest duration of an input for which the evaluation is repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
-/// Largest total time of all repetitions.
+/// Total run time after which an evaluation is not repeated again.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Smallest total time of all repetitions. It may be longer until the relative error of the median is below [`KNOWN`].
+/// Total run time during which the evaluation is always repeated.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Relative error of the median run time that is accurate enough.
+/// Relative error of the median run time below which the evaluation is not repeated again.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {

@@ -263,7 +263,7 @@ impl Shell {
         }
     }
 
-    /// Number of characters in a line.
+    /// Largest width of a line of output [columns].
     pub fn width(&self) -> usize {
         match self.screen {
             ReplyTarget::Terminal(style) => style.width,

@@ -53,7 +53,7 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed. The declarations of a failed input do not exist.
+    /// Marks the last input as failed. The declarations of failed inputs are ignored.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;

@@ -11,7 +11,6 @@ pub struct Random(ChaCha12Rng);
 const BITS: u32 = 53;
 
 impl Random {
-    /// Returns a generator that is initialised by `seed`.
     pub fn seeded(seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());

@@ -7,7 +7,8 @@ const FEWEST: usize = 30;
 /// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect): variance of the result averaged over all other parameters, as a fraction of its total variance.
+    /// First-order index (main effect), as a fraction of the total variance of the result.
+    /// The numerator is the variance of the mean of the result over all other parameters.
     pub first: f64,
     /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
     /// `None` if the sample does not allow an estimate of the total index.

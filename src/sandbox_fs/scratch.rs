@@ -12,7 +12,7 @@ use super::Folder;
 const PREFIX: &str = "withy-scratch-";
 /// Name of a file in each temporary folder. The file is locked until the process ends, which shows other processes that the folder is in use.
 const HELD: &str = ".held";
-/// Age above which a temporary folder without a lock file counts as abandoned. A younger folder may belong to a process that is starting.
+/// Largest age of a temporary folder without a lock file that may belong to a process that is starting. An older folder counts as abandoned.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
 /// New folder in the temporary folder of the system. It is removed when this value is dropped.

@@ -13,7 +13,7 @@ use super::reading;
 /// Maximum number of names tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Age above which an unlocked temporary file counts as abandoned. The process of a younger file may have created it but not yet locked it.
+/// Largest age of an unlocked temporary file that may belong to a running process, which has created the file but not yet locked it.
 const ABANDONED: Duration = Duration::from_secs(60);
 
 /// Complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).

@@ -1,4 +1,4 @@
-//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints, and the user presses keys.
+//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints.
 //! Each attempt runs in a separate process.
 //!
 //! The module `event_loop` reads keys, changes the state, starts the process of a run and draws the screen.

@@ -20,7 +20,7 @@ use crate::output::{Colours, TerminalStyle};
 /// Default size if the terminal does not report a size [columns, rows].
 const USUAL: (u16, u16) = (80, 24);
 
-/// True while the terminal is in raw mode.
+/// True while the terminal is in raw mode. Code that ends the process reads this flag to restore the terminal.
 static HELD: AtomicBool = AtomicBool::new(false);
 
 pub fn is_there() -> bool {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul};
 
-/// Mean force over a step, computed from mean forces over successive substeps. Substeps may run backwards in time.
+/// Mean force over a step, accumulated from the mean forces over its substeps. A substep may run backwards in time.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StepMean<T> {
     /// Mean force over the last step. Before the first step, it is the present force.

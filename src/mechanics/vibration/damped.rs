@@ -12,8 +12,8 @@ use crate::geometry::larger;
 use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
-/// Decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
-/// Slow overdamped vibrations decay at rates far above the limit `NOTHING`.
+/// Largest decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
+/// Slow overdamped vibrations decay at much larger rates.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. An overdamped vibration has no frequency.
@@ -35,7 +35,7 @@ impl DampedMode {
     }
 
     /// Damped vibrations about the present configuration, which is treated as an equilibrium.
-    /// The vibrations are in increasing order of magnitude. Each conjugate pair of eigenvalues gives one vibration.
+    /// The vibrations are in increasing order of `|λ|`. Each conjugate pair of eigenvalues `λ` gives one vibration.
     ///
     /// # Errors
     /// Fails if the model is too large, a degree of freedom has no inertia, or there are too few vibrations.

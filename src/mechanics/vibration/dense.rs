@@ -11,16 +11,17 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Scalar product of two columns below which they count as orthogonal, as a fraction of the product of their lengths.
+/// Largest scalar product of two orthogonal columns, as a fraction of the product of their lengths.
 const ORTHOGONAL: f64 = 1e-15;
 
 /// Largest number of passes over all pairs of columns. About twelve passes are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Largest remainder that counts as zero after the elimination of other degrees of freedom, as a fraction of the diagonal entry of the inertia.
+/// Largest inertia that counts as zero, as a fraction of the diagonal entry of the inertia matrix.
+/// The inertia of a degree of freedom is compared with this limit after the elimination of other degrees of freedom.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
-/// Computes all pairs of an eigenvalue and a shape of a small scene with inertia, in decreasing order of the eigenvalues.
+/// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.
 /// Degrees of freedom without inertia have the eigenvalue zero.
 ///
 /// # Errors
@@ -70,7 +71,7 @@ pub(super) fn all_pairs(
 }
 
 /// Orthogonalises the shapes of higher modes with respect to lower modes, and normalises all shapes with respect to the inertia.
-/// Rounding errors of a mode shape may have little strain energy but much kinetic energy.
+/// The shapes must be orthogonalised, because their rounding errors may have little strain energy but much kinetic energy.
 fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
     let size = pencil.size();
     let mut momenta = vec![0.0; size];

@@ -16,7 +16,7 @@ pub(super) type FourVectors = [f64; STRIP_WIDTH];
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
     unknowns: Vec<u32>,
-    /// Rows of each span: first its strains, then its pairs `p` and `q` of the geometric stiffness.
+    /// Rows of strains of each span, followed by its pairs of rows `p` and `q` of the geometric stiffness.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
     rounding_fractions: Vec<f64>,
@@ -94,7 +94,7 @@ impl Elastic {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the strain energy for given displacements.
+    /// Rounding error of twice the strain energy for each of four vectors of displacements.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
@@ -177,7 +177,7 @@ impl WithSimd for ShapeCorrection<'_> {
         }
         shapes.internal_forces.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
+        // Array lengths for spans of degree 1 to 3 are compile-time constants, for speed.
         elastic.each_span(|span| match span.unknowns.len() {
             6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
             9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),

@@ -1,4 +1,4 @@
-//! Lowest modes, computed by the block Lanczos method with shift and inversion.
+//! Computation of the lowest modes by the block Lanczos method with a shifted and inverted stiffness.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
 //! All vectors of the search are orthogonal with respect to the inertia.
@@ -13,16 +13,18 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Residual of a converged pair, as a fraction of the inverted stiffness. The error of the eigenvalue is of the order of the squared residual.
+/// Largest residual of a converged pair, as a fraction of the norm of the inverted stiffness.
+/// The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation below which the result consists of rounding errors.
+/// Ratio of the lengths of a vector after and before orthogonalisation. With a smaller ratio, the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation below which the vector is orthogonalised again.
+/// Smallest ratio of the lengths of a vector after and before orthogonalisation that makes a second orthogonalisation unnecessary.
 const SHRUNK: f64 = 1e-4;
 
-/// Remaining component in the basis above which a vector is orthogonalised again, as a fraction of the length of the vector.
+/// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.
+/// A vector with a larger component is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 const ORTHONORMAL: f64 = 1e-14;
@@ -49,7 +51,7 @@ pub(super) struct Lanczos<'a> {
 }
 
 impl<'a> Lanczos<'a> {
-    /// Starts a search with random vectors, which are the same in every run.
+    /// Creates a search whose first block consists of random vectors, which are the same in every run.
     pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
         let mut search = Self {
             pencil,

@@ -10,7 +10,7 @@ use crate::geometry::Vec2;
 use crate::integrators::Mechanism;
 use crate::system::System;
 
-/// Squared frequency below which a mode counts as unrestrained, as a fraction of the squared frequency of the lowest bending mode.
+/// Largest squared frequency of a mode that counts as unrestrained, as a fraction of the squared frequency of the lowest bending mode.
 const UNRESTRAINED: f64 = 1e-10;
 
 /// Natural mode of small vibration.
@@ -106,7 +106,7 @@ impl Modes {
     /// Approximate peak memory of the search for `count` modes [bytes].
     pub fn memory(model: &System, count: usize) -> u64 {
         let unknowns = model.unknown_kinds().len();
-        // The search rejects larger numbers of modes, so their memory need not be estimated.
+        // A search for more modes than unknowns is rejected, so its memory need not be estimated.
         let numbers = numbers(unknowns, count.min(unknowns));
         (numbers * size_of::<f64>() + Pencil::memory(model)) as u64
     }
@@ -141,7 +141,7 @@ impl Modes {
         &self.meshes
     }
 
-    /// Control points of all bodies, without displacements by modes [length].
+    /// Control points of all bodies in the configuration about which the modes vibrate [length].
     pub fn points(&self) -> &[Vec<Vec2>] {
         &self.points
     }

@@ -12,13 +12,14 @@ use super::resolvent::Resolvent;
 use crate::elementary::hypot;
 use crate::geometry::larger;
 
-/// Largest magnitude of an accurate eigenvalue, as a multiple of the shift.
+/// Largest magnitude of an eigenvalue that is computed accurately, as a multiple of the shift.
 const LARGEST_RATIO: f64 = 1e6;
 
-/// Largest magnitude of the next eigenvalue that is still accepted, as a multiple of the shift.
+/// Largest factor between two successive shifts.
 const FARTHEST: f64 = 1e12;
 
-/// Displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes at the damper.
+/// Largest displacement of an unrestrained mode at a damper that counts as zero.
+/// This displacement is a fraction of the largest displacement of all modes at the damper.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -104,7 +105,7 @@ impl Quadratic {
             .collect())
     }
 
-    /// First shift of the search [1/time], which is at most slightly above the magnitude of the smallest eigenvalue.
+    /// First shift of the search [1/time]. It is at most slightly larger than the smallest magnitude of an eigenvalue.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

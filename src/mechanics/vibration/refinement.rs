@@ -1,5 +1,5 @@
 //! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
-//! The residual of a pair is the size of its last correction.
+//! The residual of a pair is computed from the last correction.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -7,15 +7,16 @@ use super::lanczos::Pairs;
 use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
-/// Residual for which a squared frequency is accurate to all digits. The error of the squared frequency is of the order of the squared residual.
+/// Residual at which no further correction is made, because the squared frequency is then accurate to all digits.
+/// The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
 
-/// Ratio of two successive residuals above which further corrections have no effect.
+/// Largest ratio of two successive residuals that allows further corrections. With a larger ratio, corrections no longer help.
 const FALLING: f64 = 0.3;
 
-/// Ratio of the largest to the smallest eigenvalue above which each pair is refined separately.
+/// Largest ratio of the largest to the smallest eigenvalue for a common refinement. With a larger ratio, each pair is refined separately.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {

@@ -15,25 +15,27 @@ use crate::elementary::square;
 /// Largest number of QR iterations per eigenvalue in the Schur decomposition. A few iterations are usual.
 const MOST_SWEEPS: usize = 40;
 
-/// Relative sizes of subdiagonal entries that the Schur decomposition treats as zero.
-/// If the Schur decomposition does not converge, the next larger size is used.
+/// Largest subdiagonal entries that the Schur decomposition treats as zero, relative to the diagonal entries.
+/// If the decomposition does not converge with the first limit, the next limit is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
 
-/// Relative change of an eigenvalue above which a correction is rejected, because it leads to another eigenvalue.
+/// Largest relative change of an eigenvalue by an accepted correction, including the effect of rounding.
+/// A correction with a larger change leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
-/// Relative change of an eigenvalue near the shift above which a correction is rejected if the change is much larger than rounding.
-/// A larger change indicates several close eigenvalues whose shapes are mixed.
+/// Largest relative change of an eigenvalue by an accepted correction, without the effect of rounding.
+/// A correction with a larger change shows that the shapes of several close eigenvalues are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// A shift at the distance `BESIDE` from the eigenvalue gives a matrix of the inverse iteration that is not singular.
+/// With this distance, the matrix of the inverse iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
-/// Damping above which the force of a dashpot is an unknown. A larger matrix entry would reduce the accuracy of weakly damped modes.
+/// Largest damping that is an entry of the matrix. The forces of stronger dashpots are unknowns.
+/// Larger matrix entries would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
@@ -137,7 +139,7 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Eigenvalue near `start` after corrections, as a multiple of the shift.
+    /// Eigenvalue that is obtained from the approximation `start` by corrections, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();

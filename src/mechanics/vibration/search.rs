@@ -20,23 +20,23 @@ const DENSE_COPIES: usize = 5;
 /// Largest number of times that the shift is multiplied by a hundred, for unstable configurations.
 const MOST_SHIFTS: usize = 14;
 
-/// Residual above which a pair of eigenvalue and shape is rejected.
+/// Largest residual of an accepted pair of eigenvalue and shape.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Relative difference of the shifted squared frequencies of two modes that count as equal in the check for missing modes.
+/// Largest relative difference of two shifted squared frequencies that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Multiple of the rounding error of a squared frequency below which the squared frequency counts as zero.
+/// Squared frequency that counts as zero, as a multiple of its rounding error.
 const ROUNDING: f64 = 64.0;
 
-/// Squared frequency that counts as zero, as a fraction of the shift.
-/// Rigid motions have squared frequencies below the limit `HIDDEN` because of rounding.
+/// Squared frequency that counts as zero, as a fraction of the shift. Rounding gives rigid motions smaller squared frequencies than this limit.
 const HIDDEN: f64 = 1e-14;
 
-/// Largest ratio of the shift to the lowest nonzero squared frequency.
+/// Largest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a smaller shift unnecessary.
 const LARGEST_SHIFT: f64 = 1e4;
 
-/// Smallest ratio of the shift to the lowest nonzero squared frequency if some squared frequencies are zero.
+/// Smallest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a larger shift unnecessary.
+/// This lower limit of the ratio applies only if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub(super) fn lowest(
         None => found,
         Some((shift, factors)) => match with_shift(pencil, shift, &factors, count, goes_on) {
             Err(VibrationError::Interrupted) => return Err(VibrationError::Interrupted),
-            // If the search with a better shift fails, the modes found with the first shift are used, with residuals that show their accuracy.
+            // If the search with the better shift fails, the modes from the first shift are returned. Their residuals show their accuracy.
             Err(_) => found,
             Ok(finer) => finer,
         },
@@ -130,8 +130,8 @@ fn counted_pairs(
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;
-        // Pairs with the same eigenvalue as the last requested pair may be missing.
-        // All pairs with smaller frequencies than the last requested pair must have been found.
+        // The search may have missed pairs with the same eigenvalue as the last requested pair.
+        // The search must have found all pairs with smaller frequencies than the last requested pair.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
         match pencil.modes_below(below) {

@@ -16,7 +16,7 @@ const OUTLINE: f64 = 1.5;
 const SMALL: f64 = 20.0;
 /// Number of segments of a circle, or of the part of a large circle near the plot.
 const SEGMENTS: u32 = 96;
-/// Largest distance of an obstacle from the bodies at which a picture is enlarged to show it, as a fraction of the size of the picture.
+/// Largest distance between obstacle and bodies for which the picture is enlarged to show the obstacle, as a fraction of the picture size.
 const NEAR: f64 = 0.2;
 
 impl PlacedSymbol {
@@ -40,7 +40,7 @@ impl PlacedSymbol {
         }
     }
 
-    /// Boundary of an obstacle on a canvas, as far as `window` can show it, with the ground on its side `(y, -x)` for a tangent `(x, y)`.
+    /// Polyline along the part of the boundary of an obstacle that `window` can show. The ground is on the side `(y, -x)` of a tangent `(x, y)`.
     pub(in crate::output) fn outline(
         &self,
         place: impl Fn(Point) -> Point,

@@ -35,7 +35,7 @@ impl PictureMark {
     }
 }
 
-/// Size of a drawing that counts as zero: as a fraction of the coordinates, and as a length.
+/// Largest size of a drawing that counts as zero: as a fraction of the coordinates, and as an absolute length.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
 /// Smallest size of a picture with a frame, in columns and lines.
 const LEAST: (usize, usize) = (12, 5);

@@ -24,7 +24,7 @@ pub struct Quantisation {
 }
 
 impl Quantisation {
-    /// Scale from the smallest to the largest finite number with the given number of steps.
+    /// Creates the rounding with the given number of steps between the smallest and the largest finite number.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
         let (least, greatest) = finite

@@ -107,7 +107,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Interprets a part of the operand of `:plot`. Column names may be quoted. An unquoted word is a column unless it has another meaning.
+/// Interprets a part of the operand of `:plot`: as column names if each word can be a column, otherwise as an expression.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();

@@ -1,11 +1,11 @@
-//! Evaluation without lasting effects, once or repeatedly.
+//! Evaluation of an expression whose changes of variables are undone, once or repeatedly.
 
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
 
-/// Control of the repeated evaluation of an input. Each evaluation starts from the same variables.
+/// Callbacks of a repeated evaluation. Each evaluation starts from the same variables.
 pub trait Rounds {
     /// Prepares the next evaluation. Returns `false` if the input must not be evaluated again.
     fn begin(&mut self) -> bool;
@@ -30,7 +30,7 @@ impl Rounds for Once {
 }
 
 impl Session {
-    /// Evaluates an expression without lasting effects. Only changes of scenes and simulations remain.
+    /// Evaluates an expression and restores the variables. Changes of scenes and simulations are not undone.
     pub fn evaluate_preview(&mut self, text: &str) -> Reply {
         let mut once = Once::default();
         match self.evaluate_repeatedly(text, &mut once) {

@@ -79,10 +79,10 @@ fn is_indentation(line: &str, at: usize) -> bool {
         && here.is_some_and(|here| is_blank(here) && here.len() % INDENTATION.len() == 0)
 }
 
-/// Returns true if an arrow key searches the history for entries that begin with the text before the cursor.
+/// Returns true if an arrow key selects an entry of the history that begins with the text before the cursor.
 ///
-/// Without text before the cursor, an arrow key does not search. In an input of several lines, it moves the cursor.
-/// If the line is a history entry with the cursor at its end, an arrow key selects the next entry.
+/// Without text before the cursor, or in an input of several lines, the arrow key has its usual function.
+/// If the line is a history entry with the cursor at its end, the arrow key selects the next entry, whatever its text.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -107,7 +107,7 @@ impl<'c, 'r> Call<'c, 'r> {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and number of parameters, including captured variables. The values of captured variables are missing.
+    /// Script function with this name and this number of parameters; captured variables count as parameters. Their values are missing.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -165,7 +165,7 @@ impl<'c, 'r> Call<'c, 'r> {
         ScriptError::new(format!("{}: {what}", self.row.name))
     }
 
-    /// Describes a value in a message.
+    /// Short text that stands for a value in a message, such as `the text "abc"` or `an array of 3`.
     pub fn describe(&self, value: &Dynamic) -> String {
         describe(self.native.engine(), value)
     }
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function with this name and number of parameters, including captured variables. `None` allows any number of parameters.
+/// Script function with this name and this number of parameters; captured variables count as parameters. `None` allows any number.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -233,7 +233,7 @@ pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usi
     body
 }
 
-/// Closure that a call expression creates, without captured values, and the expressions of the variables that it captures.
+/// Closure that a call expression creates, without captured values. The expressions give the variables that the closure captures.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

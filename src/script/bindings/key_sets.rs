@@ -5,7 +5,7 @@ use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map. The value of type `T` tells the reading code which set was given.
+/// Alternative sets of keys of an option map. Each set has a value of type `T`, which identifies the set that was given.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     pub always_allowed: &'static [&'static str],

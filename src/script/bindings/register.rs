@@ -119,7 +119,7 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// Binding as a registered function. A property with a setter is registered as two functions.
+/// Binding with the data that a call of its function needs. A property with a setter is registered as two functions.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,

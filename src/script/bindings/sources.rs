@@ -17,7 +17,7 @@ pub const FOLDER: &str = "std/";
 
 /// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// The engine contains the source files as its default tag.
+/// Stored in the engine as the default tag of calls.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -118,7 +118,7 @@ impl Sources {
         self.inputs.borrow().in_imports.contains(name)
     }
 
-    /// File of the function `name`: `claimed` if this file contains the function, and `None` for native functions.
+    /// File that contains the function `name`; `None` for a native function. If several files contain it, `claimed` is preferred.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {

@@ -12,7 +12,7 @@ use crate::script::source::text::Source;
 /// Maximum number of lines of a source, and maximum number of characters in a line. It is slightly below the limit of Rhai.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` at line numbers after `lines_before`. The constants of `scope` are known.
+/// Parses `source` as the text after the first `lines_before` lines of a program. The text may use the constants of `scope`.
 ///
 /// # Errors
 /// Fails if the text is too large or has a syntax error, or if the run was stopped.

@@ -35,7 +35,7 @@ impl<F: Clone> Events<F> {
         &self.functions
     }
 
-    /// Schedules the functions with times after `now` again, after a rewind.
+    /// Marks the functions with times after `now` as not yet called, because the simulation was rewound to `now`.
     pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);

@@ -36,7 +36,7 @@ pub struct SceneHandle {
 struct Variants {
     scene: Rc<RefCell<Scene>>,
     declared: RefCell<Option<Rc<ParameterSet>>>,
-    /// Perturbed variants. The first call with an argument that depends on a parameter creates them.
+    /// Perturbed variants of the scene. They are created by the first call with an argument that depends on a parameter.
     beside: OnceCell<PerturbedBuilds>,
     /// True if the scene has been changed since the last start of a simulation.
     is_changed: Cell<bool>,

@@ -27,7 +27,7 @@ const ORDER: Parameter = integer("order")
 const TIMES: Parameter =
     integer("times").non_negative().doc("number of insertions").or(Presence::Integer(1));
 
-/// Component of a vector that is attributed to rounding and printed as 0, as a fraction of the length of the vector.
+/// Largest component of a vector that is attributed to rounding and printed as 0, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-14;
 
 /// Derivatives of all functions of `basis`. The arguments of `call` are the parameter `xi` and the `order`.

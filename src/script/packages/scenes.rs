@@ -178,7 +178,7 @@ pub const BEAM: Type = Type::of::<BeamHandle>();
 pub const STATION: Type = Type::of::<StationHandle>();
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-/// Relative difference between the length of a beam on its mesh and the length of its axis, above which a warning is given.
+/// Largest relative difference between the length of a beam on its mesh and the length of its axis that causes no warning.
 const MISSED_LENGTH: f64 = 0.01;
 
 const AT: Parameter = object("station", STATION);

@@ -75,7 +75,7 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes symbols that are not drawn.
+    /// Removes the symbols that `shown` excludes.
     pub fn with_symbols(mut self, shown: Visibility) -> Self {
         self.outline.symbols = shown.visible(self.outline.symbols);
         self

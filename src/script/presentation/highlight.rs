@@ -23,11 +23,11 @@ pub const COMMENT: HighlightStyle = HighlightStyle("2");
 pub const FUNCTION: HighlightStyle = HighlightStyle("34");
 /// Constants.
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
-/// Members that the type of a value does not have.
+/// Style of members that the type of a value does not have.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
-/// Bracket at the cursor, and its matching bracket.
+/// Style of the bracket at the cursor, and of its matching bracket.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// Brackets and other tokens without a matching token.
+/// Style of brackets and other tokens without a matching token.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
 /// Names with their colours. The object is created once and used for many texts.

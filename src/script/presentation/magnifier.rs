@@ -23,7 +23,7 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Cosine and sine of the rotation. For a body with several joints, both are multiplied by the elongation between the joints.
+    /// Cosine and sine of the rotation, multiplied by the ratio of the present to the initial joint distances if the body has several joints.
     turn: Option<Vec2>,
     /// Displacement that keeps the joints and sliders of the body attached to magnified bodies.
     shift: Vec2,

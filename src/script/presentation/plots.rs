@@ -27,7 +27,7 @@ pub fn history_chart(
     history_charts(history, columns, style, |_, _| Ok(()))
 }
 
-/// Charts of history columns, one for each dimension, as text for a terminal. `add_bands` adds bands to the chart of the given columns.
+/// Charts of history columns, one for each dimension, as text for a terminal. `add_bands` adds error bands to the chart of the given columns.
 ///
 /// # Errors
 /// Fails if `add_bands` fails.

@@ -4,14 +4,15 @@ use crate::beams::Station;
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::Scene;
 
-/// Bodies that joints hold in place, and groups of joined bodies that can move without deformation. Bodies have their indices in the model.
+/// Classification of the bodies of a scene: bodies that joints hold in place, and groups of joined bodies that can move without deformation.
 pub struct Travel {
     is_held: Vec<bool>,
     group: Vec<usize>,
 }
 
 impl Travel {
-    /// Counts the degrees of freedom of the bodies that joints do not restrain. Bodies count as rigid. Sliders, drives and springs are ignored.
+    /// Classifies the bodies by counting degrees of freedom and joint constraints.
+    /// Bodies count as rigid. Sliders, drives and springs are ignored.
     pub fn of(scene: &Scene) -> Self {
         let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut travel = Self { is_held: vec![false; count], group: (0..count).collect() };
@@ -89,7 +90,7 @@ impl Travel {
     }
 }
 
-/// Stations of joints with their partners. A joint between two bodies occurs from both sides.
+/// Stations of joints with their partners. A joint between two bodies occurs twice, once for each body.
 pub fn joint_ends(scene: &Scene) -> impl Iterator<Item = (Station, Partner, &Joint)> {
     scene.joints.iter().flat_map(|joint| {
         let other = match joint.partner {

@@ -20,7 +20,7 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Largest number of free ends whose paths are drawn.
+/// Largest number of stations whose paths are drawn by default. If there are more free ends and point masses, no path is drawn.
 const MOST_FREE_ENDS: usize = 8;
 const ARROWS_A_BEAM: usize = 6;
 
@@ -32,7 +32,7 @@ pub struct ViewerOptions<'a> {
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations whose paths are drawn; `None` for the free ends of beams.
+    /// Stations whose paths are drawn. If `None`, the free ends of beams and the point masses are selected.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
@@ -220,7 +220,8 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Unsupported ends of beams (one for each joint), and point masses. The list is empty if there would be many.
+/// Stations whose paths are drawn by default: point masses, and ends of beams without a support or joint. Of two joined ends, one is included.
+/// The list of stations is empty if it would be longer than `MOST_FREE_ENDS`.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {

@@ -56,7 +56,7 @@ const OPERAND: &str = "\u{E002}";
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
-/// Internal operator for the power operator with the index `chain` in a chain of powers.
+/// Name of the power operator with the index `chain` in a chain of powers, such as `num^0`.
 pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
@@ -191,7 +191,7 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// State of an expression at one bracket depth: number of power operators so far, and a flag for a preceding minus sign.
+/// Powers of an expression at one bracket depth: the number of power operators so far, and a flag for a minus sign before them.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,

@@ -21,7 +21,7 @@ pub const DEFAULT_DEPTH: usize = 400;
 pub const DEEPEST: usize = 1000;
 /// Size of the stack for [`DEEPEST`] nested calls [bytes of address space]. Memory is used only when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Largest address space of the stack for dropping nested values [bytes].
+/// Largest memory limit that increases the stack for dropping nested values [bytes].
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.
@@ -48,7 +48,7 @@ impl Limits {
     /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
     /// Nested closures are dropped recursively.
-    /// The stack for each closure is smaller than twice its memory, so the memory limit determines a sufficient stack.
+    /// The stack that a closure needs to be dropped is smaller than twice its memory, so twice the memory limit is sufficient.
     pub fn stack(&self) -> usize {
         let for_values = 2 * self.memory_or_default().min(LARGEST_FOR_VALUES);
         LEAST_STACK.saturating_add(usize::try_from(for_values).unwrap_or(usize::MAX))
@@ -96,7 +96,8 @@ pub struct Meter {
     pretended: Cell<u64>,
 }
 
-/// Number of skipped calls in a dry run above which the script counts as waiting for a result. Loops that wait for a time end earlier.
+/// Largest number of skipped calls in a dry run. After more calls, the script counts as waiting for a result.
+/// Loops that only wait for a simulation time end after fewer calls.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
 /// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.

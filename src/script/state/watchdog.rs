@@ -17,7 +17,7 @@ const INTERVAL: Duration = Duration::from_millis(10);
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Multiple of the allowed processor time at which a run is ended by wall-clock time, even if it has used less processor time.
+/// Factor of the allowed processor time that gives the allowed wall-clock time.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.
@@ -74,8 +74,8 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if the wall-clock time and the processor time since `self` both exceed `patience`.
-    /// Also returns true if the wall-clock time alone exceeds [`SHARE_OF_PROCESSOR`] times `patience`.
+    /// Returns true if both the wall-clock time and the processor time since `self` exceed `patience`.
+    /// Also returns true if the wall-clock time exceeds [`SHARE_OF_PROCESSOR`] times `patience`.
     fn are_over(self, patience: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

@@ -16,7 +16,7 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 pub trait CaseResult: Serialize + DeserializeOwned {
-    /// Returns true if the result may be reused from the journal. A run that exceeded its limits may complete at another time.
+    /// Returns true if the result may be reused from the journal. A run that exceeded its limits is repeated, because it may complete then.
     fn is_final(&self) -> bool;
 }
 

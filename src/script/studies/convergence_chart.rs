@@ -77,7 +77,8 @@ fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slo
     })
 }
 
-/// Line of the order observed for the finest sizes. It covers the range of nearly equal neighbouring orders. `None` outside the asymptotic range.
+/// Line with the mean of the observed orders at the finest sizes, as far as these orders are nearly equal.
+/// Returns `None` if fewer than two orders are nearly equal.
 fn observed_order_line(ladder: &Refinement) -> Option<SlopeLine> {
     let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];

@@ -12,7 +12,7 @@ pub fn table(study: &Convergence) -> String {
     format!("{}{tables}{}", head(study), failures(study))
 }
 
-/// Report of a convergence study without tables of single positions.
+/// Report of a convergence study without tables of the positions of single stations.
 pub fn summary(study: &Convergence) -> String {
     let positions = table_of(study, ALL_POSITIONS);
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))

@@ -20,7 +20,7 @@ const SNAPSHOTS: usize = 256_000_000;
 /// Names of the first two rows: the plain scene and its repetition. The difference of their times shows how reliable all times are.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Ratio of the times of the plain scene and its repetition, above which all ratios of the table are unreliable.
+/// Largest ratio of the times of the plain scene and its repetition at which the ratios in the table are reliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.

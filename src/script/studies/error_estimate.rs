@@ -27,7 +27,8 @@ pub const POSITIONS: &str = "positions";
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
-/// Smallest number of spans of a beam for coarsening by a factor of four. Shorter beams are also refined.
+/// Smallest number of spans of the shortest beam that allows two coarser meshes in the estimate.
+/// With fewer spans, at least one of the two additional meshes is finer than the mesh of the simulation.
 const SPANS_TO_COARSEN: usize = 4;
 
 #[derive(Debug, Clone)]

@@ -24,7 +24,7 @@ pub struct ErrorStudyPlan {
     pub subjects: Vec<ObservedScene>,
     pub methods: Vec<Method>,
     pub dts: Vec<StepSize>,
-    /// Times of the comparison, sorted [time].
+    /// Times at which the runs are compared, in increasing order [time].
     pub times: Vec<f64>,
     /// Length scale of position errors [length].
     pub length: f64,

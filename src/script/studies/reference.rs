@@ -43,7 +43,7 @@ impl Scripted for FinestRun {
     }
 }
 
-/// Fraction of the smallest fixed step size or, without fixed step sizes, of the smallest tolerance.
+/// Step size of the reference run: a fraction of the smallest fixed step size. Without fixed steps, the smallest tolerance is reduced.
 fn finer(dts: &[StepSize]) -> StepSize {
     let fixed = dts.iter().filter_map(|dt| match dt {
         StepSize::Fixed(dt) => Some(*dt),
@@ -62,7 +62,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Twice the step size, or the tolerance with about the same effect for a second-order method.
+/// Twice a fixed step size. For adaptive steps, the tolerance is four times as large, which doubles the steps of a second-order method.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
@@ -72,7 +72,7 @@ fn doubled_step(dt: StepSize) -> StepSize {
     }
 }
 
-/// Reference of a study before the runs.
+/// Source of the reference values of a study.
 pub enum Reference {
     /// Independent solution from a table file.
     Table(String, ParsedCsv),

@@ -1,10 +1,10 @@
-//! Durations of impacts at the end of a master, computed from the waves in beams. Time steps must resolve these durations.
+//! Durations of impacts at the end of a master, from the speeds of waves in beams. Time steps must resolve these durations.
 
 use crate::beams::Section;
 use crate::elementary::square;
 
-/// Masses that an impact along a master accelerates immediately.
-/// A mass is `None` if the body is fixed, or too heavy to be accelerated.
+/// Effective masses of slave and master for an impulse between them along the master.
+/// A mass is `None` if its body is fixed, or is so much heavier than the other body that the impulse hardly changes its velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxialImpact {
     /// Mass of the slave [mass].
@@ -15,14 +15,14 @@ pub struct AxialImpact {
 
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactBar {
-    /// Length of the undeformed beam [length].
     pub length: f64,
     pub section: Section,
 }
 
 impl ImpactBar {
-    /// Time in which the wave of an impact passes the beam [time], or the stopping time of a striking mass if it is shorter.
-    /// The argument `cosine` is the cosine of the angle between impact and axis.
+    /// Time that the wave of an impact takes from one end of the beam to the other [time].
+    /// If the beam is struck by a rigid `mass` that is lighter than the beam, the time in which the mass stops is returned.
+    /// `cosine` is the cosine of the angle between the direction of the impact and the axis of the beam.
     /// An impact along the axis causes an axial wave, an impact across the axis a shear wave.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {
         let Self { length, section } = self;

@@ -1,11 +1,11 @@
-//! Unknowns of slave, master and contact of a slider, and the assembly of the contact.
+//! Indices of the unknowns of a slider, and the addition of its contact forces to residual and tangent.
 
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::linalg::{Border, BorderUnit};
 use crate::system::bodies::Body;
 
-/// Positions of the unknowns of a slider in the vectors of the model.
+/// Indices of the bodies of a slider, and of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
     pub master: usize,

@@ -1,4 +1,4 @@
-//! Axis of the master of a slider with a kink at the slider. The mesh of the master does not represent the kink.
+//! Kink of the axis of a master at its slider. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -6,30 +6,30 @@ use crate::beams::Section;
 use crate::geometry::{ContactPath, PiecewisePolynomial, Vec2};
 use crate::joints::{Kink, KinkMotion, KinkState};
 
-/// Kink length below which the axis is rigid at the slider, as a fraction of the length of the master.
+/// Largest kink length at which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
-/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. At larger speeds, the kink is kept constant.
+/// First limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// Near this speed, the stiffness of a moving kink is nearly zero. Above the limit, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
-/// Largest speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// Second limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
 /// At the critical speed, the stiffness of the kink is zero.
 /// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
 
-/// Kink length below which the kink is kept constant, as a fraction of the largest kink length in the middle of the master.
-/// Due to the limit `BESIDE_END`, kinks are kept constant near the ends of a master.
+/// Smallest kink length at which a kink varies with the contact force, as a fraction of the largest kink length in the middle of the master.
+/// Near the ends of a master, kinks are shorter than this limit and are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed at which a kink starts from an end of the master, as a fraction of the largest speed at which a kink varies.
+/// Largest speed at which a kink starts with a load at an end of the master, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
-/// Kink length below which a loaded kink that leaves an end is kept constant, as a fraction of the kink length of [`BESIDE_END`].
-/// For shorter kink lengths, rounding errors of positions would determine the kink.
+/// Smallest kink length at which a loaded kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
+/// At shorter kink lengths, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
-/// Largest contact force with which a kink begins, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
+/// Largest contact force with which a kink starts, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
 const LARGEST_START: f64 = 0.02;
 
 #[derive(Debug, Clone)]
@@ -40,18 +40,19 @@ pub struct MasterKink {
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master under a contact force. The kink displaces the axis at the slider.
+/// Kink of the axis of a master due to the contact force. The kink displaces the axis at the slider.
+/// The kink length is the displacement per unit of the ratio of the contact force to the shear stiffness.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,
     arc: Arc<PiecewisePolynomial>,
     compliance: f64,
     inverse_square_speed: f64,
-    /// Speed above which the kink is kept constant [length/time].
+    /// Largest speed at which the kink varies with the contact force [length/time].
     fastest: f64,
-    /// Kink length below which the axis is rigid [length].
+    /// Largest kink length at which the axis counts as rigid [length].
     none: f64,
-    /// Kink length below which the kink is kept constant [length].
+    /// Smallest kink length at which the kink varies with the contact force [length].
     least: f64,
     is_frozen: bool,
     compliance_derivatives: [f64; 3],
@@ -89,12 +90,12 @@ impl KinkedAxis {
         }
     }
 
-    /// Speed along the master above which the kink is kept constant [length/time].
+    /// Largest speed along the master at which the kink varies with the contact force [length/time].
     pub fn fastest(&self) -> f64 {
         self.fastest
     }
 
-    /// Returns true if the kink is kept constant: close to an end, at speeds close to the speed of shear waves, or on request.
+    /// Returns true if the kink is kept constant: close to an end, at speeds close to the speed of shear waves, or after a call of `freeze`.
     /// A loaded kink that moves slowly away from an end is kept constant only very close to the end.
     pub fn is_frozen(&self) -> bool {
         let [length, slope, _] = self.compliance_derivatives;
@@ -104,8 +105,8 @@ impl KinkedAxis {
         self.is_frozen || length < least || self.speed.abs() > self.fastest
     }
 
-    /// Returns true if a kink begins with the contact force at the given speed along the master [length/time].
-    /// At larger speeds, unresolved waves near the end would determine the load of the kink.
+    /// Returns true if a new kink may start with a load at the given speed along the master [length/time].
+    /// At larger speeds, waves near the end that the steps do not resolve would determine the load.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
@@ -129,7 +130,7 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink of the master in a step, for the equations of the sliding rule.
+    /// Kink during a step in which the slider moves along `passage`.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -151,12 +152,12 @@ impl KinkedAxis {
         self.speed = speed;
     }
 
-    /// Accepts the state of the kink at the end of a step in which the kink was kept constant.
+    /// Sets the state of the kink at the end of a step in which the kink was kept constant.
     pub fn accept_frozen_jump(&mut self, KinkState { jump, speed }: KinkState) {
         (self.jump, self.speed) = (jump, speed);
     }
 
-    /// Sets the kink to the static kink of a contact force [force].
+    /// Sets the kink to the state in which it is in equilibrium with a constant contact force [force].
     pub fn set_static_kink(&mut self, force: Vec2) {
         (self.jump, self.speed) = (force, 0.0);
     }
@@ -165,7 +166,7 @@ impl KinkedAxis {
         self.set_static_kink(Vec2::zeros());
     }
 
-    /// Numeric state of the kink: the components of its jump, and its speed.
+    /// Numbers that `restore` reads: the components of the jump of the kink, and the speed of the kink.
     pub fn numbers(&self) -> [f64; 3] {
         [self.jump.x, self.jump.y, self.speed]
     }
@@ -179,24 +180,25 @@ impl KinkedAxis {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }
 
-    /// Removes the force of a stop, which acts along the tangent of the axis, from the contact force.
+    /// Removes the component along the tangent of the axis, which is the force of a stop, from the contact force.
     ///
-    /// The axis at a slider within rounding of an end may be compliant. Its contact force is kept, because positions determine this force.
+    /// If the axis is compliant, the force is not changed, because the displacement of the axis determines it.
+    /// An axis can be compliant although the slider is at an end, because rounding errors separate the slider from the end.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);
         }
     }
 
-    /// Starts the kink with the component of a contact force [force] across the tangent of the axis [length].
-    /// Starts the kink without load if the contact force is too large for a new kink.
+    /// Starts the kink with the component of a contact force [force] across the tangent [length] of the axis.
+    /// A contact force that is too large for a new kink is ignored: the kink then starts without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
         self.jump = if is_small { force } else { Vec2::zeros() };
         self.keep_force_across(tangent);
     }
 
-    /// Sets the speed of the kink along the master, for a rate of the parameter of the master [1/time].
+    /// Computes the speed of the kink along the master from the rate of the parameter of the master [1/time].
     pub fn start_speed(&mut self, rate: f64) {
         self.speed = self.stretch * rate;
     }
@@ -218,8 +220,8 @@ impl KinkedAxis {
         self.jump * (self.compliance_derivatives[0] * self.compliance)
     }
 
-    /// Derivative of the displacement [`offset`](Self::offset) with respect to the parameter of the master.
-    /// Returns half the product of the displacement and its second derivative as the second value.
+    /// Derivative of the displacement [`offset`](Self::offset) with respect to the parameter of the master [length].
+    /// The second returned value is half the product of the displacement and its second derivative [length²].
     pub fn slopes(&self) -> (Vec2, f64) {
         let [length, slope, bend] = self.compliance_derivatives;
         let force = self.jump * self.compliance;

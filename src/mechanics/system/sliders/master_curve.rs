@@ -1,10 +1,11 @@
-//! Masters of sliders as curves with two ends, and the states of a slider.
+//! Curves that are masters of sliders, their two ends, and the states of a slider.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Curve, corresponding};
 
-/// Relative rounding tolerance of positions of sliders, as a fraction of the parameter range or of the size of a contact [-].
+/// Rounding tolerance of a distance between a slider and its master, or between a slider and an end of the master [-].
+/// A distance along the master is a fraction of the parameter range. A distance from the axis is a fraction of the length scale of the contact.
 pub const END_TOLERANCE: f64 = 4e-15;
 
 /// End of the master of a slider.
@@ -46,9 +47,9 @@ impl MasterEnd {
 pub enum SliderState {
     /// Sliding along its master.
     Sliding,
-    /// Held by a stop at an end of the master.
+    /// The slider is held by a stop at an end of its master.
     Held(MasterEnd),
-    /// In flight: a slider that only pushes has left its master, and can land on it.
+    /// The slider is in flight: it only pushes, has left its master, and can land on the master again.
     Separated,
     /// Released from its master.
     Released,
@@ -73,7 +74,7 @@ impl SliderState {
     }
 }
 
-/// Limit of the motion of a slider at an end of its master.
+/// End of a master, at which the motion of a slider along the master is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
     /// Index of the slider.
@@ -130,7 +131,7 @@ impl SliderEvent {
     }
 }
 
-/// Master of a slider: the undeformed axis of a beam, with the parameters of its mesh.
+/// Master of a slider: the undeformed axis of a beam as a function of the parameter of the beam's mesh.
 #[derive(Debug, Clone)]
 pub struct MasterCurve {
     axis: Curve,

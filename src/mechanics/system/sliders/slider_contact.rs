@@ -49,7 +49,7 @@ pub struct SliderContact {
     /// Parameter of the master at the slider [-].
     pub parameter: f64,
     pub unknowns: ContactUnknowns,
-    /// Contact force on the master [force].
+    /// Mean contact force on the master in the last step [force].
     mean_force: StepMean<Vec2>,
     /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
@@ -62,7 +62,7 @@ pub struct SliderContact {
     master: MasterCurve,
     /// Path of the slider along its track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
-    /// Master and slave as bars with impact waves; the second bar is `None` if the slave is not a beam.
+    /// Properties of master and slave that determine the duration of impacts; the second entry is `None` if the slave is not a beam.
     bars: (ImpactBar, Option<ImpactBar>),
     kinked_axis: Option<KinkedAxis>,
     kink_at_end: KinkState,
@@ -78,9 +78,9 @@ pub struct SliderContact {
     chord: f64,
     push: f64,
     push_beyond: f64,
-    /// True if the contact force pulls the slider onto the beam on the other side of the seam.
+    /// True if the contact force pulls a slider that is held at a seam onto the beam beyond the seam.
     pub crosses_seam: bool,
-    /// Contact force in the iterate [force].
+    /// Magnitude of the contact force for the last trial values of the unknowns [force].
     contact_force: f64,
 }
 
@@ -200,7 +200,7 @@ impl SliderContact {
         self.mean_force.value
     }
 
-    /// Sets the mean contact force for a step of zero length [force].
+    /// Sets the mean contact force before the first step [force].
     pub fn start_mean_force(&mut self, force: Vec2) {
         self.mean_force = StepMean::at_start(force);
     }
@@ -210,7 +210,7 @@ impl SliderContact {
     }
 
     /// Contact force on the master at the present time [force], determined from the kink of the master.
-    /// Returns the mean force of the last step if there is no kink, or if the kink is kept constant.
+    /// Returns the contact force of the last step if there is no kink, or if the kink is kept constant.
     pub fn force_of_state(&self) -> Vec2 {
         let axis = self.kinked_axis.as_ref().filter(|_| !self.is_frozen());
         axis.map_or(self.unknowns.force, KinkedAxis::force)

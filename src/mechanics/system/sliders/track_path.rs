@@ -7,11 +7,11 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Distance between the ends of two beams below which the two ends coincide.
-/// The distance is a fraction of the length of the beam plus the distance of the beam ends from the origin.
+/// Largest distance between the ends of two beams that count as the same point.
+/// The distance of the ends is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 
-/// Beam of a track with the data that its sliders need.
+/// Beam of a track, with the properties that a slider on the beam needs.
 #[derive(Debug, Clone)]
 pub struct TrackPathSegment {
     pub beam: usize,
@@ -22,7 +22,7 @@ pub struct TrackPathSegment {
     slopes: [(usize, Vec<f64>); 2],
 }
 
-/// Path of a slider along the beams of its track.
+/// Path of a slider: the beams of its track, and the beam on which the slider is.
 #[derive(Debug, Clone)]
 pub struct TrackPath {
     segments: Arc<[TrackPathSegment]>,
@@ -36,7 +36,7 @@ pub struct TrackPath {
     pub crossed_at: f64,
 }
 
-/// Continuation of a track beyond an end of one of its beams.
+/// Beam end at which a track continues beyond an end of another beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
     pub segment: usize,

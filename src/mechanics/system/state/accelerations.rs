@@ -8,7 +8,7 @@ pub struct Accelerations {
 }
 
 impl Accelerations {
-    /// Allocates accelerations for `unknowns` entries, without valid values.
+    /// Allocates entries for the accelerations of `unknowns` unknowns. The values are not valid until they are set.
     pub fn allocate(&mut self, unknowns: usize) {
         *self = Self { values: vec![0.0; unknowns], are_known: false };
     }

@@ -1,10 +1,10 @@
-//! Selection of the rates for the prediction of the next step.
+//! Selection of the rates from which the increments of the next step are predicted.
 
 use serde::{Deserialize, Serialize};
 
 use super::resolution::GuessErrors;
 
-/// Rates for the prediction of the next step.
+/// Rates from which the increments of the next step are predicted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Prediction {
     /// Prediction from the start rates, because no step has been taken.
@@ -16,7 +16,7 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of the squared errors of two predictions below which mean rates are selected instead of start rates.
+/// Ratio of the squared errors of the predictions from mean rates and from start rates, below which mean rates are used.
 const SELECTION_RATIO: f64 = 0.8;
 
 /// Mean rates of the last step, with the selected type of prediction.
@@ -39,7 +39,7 @@ impl IncrementPrediction {
         }
     }
 
-    /// Selects the better of two predictions by comparison with the increments of a step, in the norm of the diagonal inertia.
+    /// Compares the increments of a step with both predictions, in the norm of the diagonal inertia, and selects the better prediction.
     /// Returns the errors of the prediction from start rates and of the prediction from mean rates.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
@@ -51,7 +51,7 @@ impl IncrementPrediction {
             *mean = found;
         }
         self.prediction = match self.prediction {
-            // The start velocities may belong to a few nodes only. The mean rates of the first step are therefore the better prediction.
+            // The start velocities may be nonzero at a few nodes only. The mean rates of the first step are therefore the better prediction.
             Prediction::Unknown => Prediction::FromMeanRates,
             _ if missed.by_mean < SELECTION_RATIO * missed.by_start => Prediction::FromMeanRates,
             _ => Prediction::Smooth,
@@ -64,7 +64,7 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Prediction errors at the given degrees of freedom, computed before the type of prediction is selected.
+    /// Errors of both predictions at the given degrees of freedom. Must be called before `update`, which overwrites the mean rates.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

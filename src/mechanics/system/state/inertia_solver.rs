@@ -2,7 +2,7 @@
 
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
-/// Factorised inertia matrix with the memory for responses to unit impulses.
+/// Factorised inertia matrix, with allocated vectors for responses to unit impulses.
 pub struct InertiaSolver {
     inertia: BandedMatrix,
     is_factorised: bool,
@@ -13,7 +13,7 @@ pub struct InertiaSolver {
 }
 
 impl InertiaSolver {
-    /// Creates a solver for a number of unknowns and of all degrees of freedom.
+    /// Creates a solver for the given numbers of unknowns and of degrees of freedom.
     pub fn new(unknowns: usize, half_bandwidth: usize, degrees_of_freedom: usize) -> Self {
         Self {
             inertia: BandedMatrix::zeros(unknowns, half_bandwidth),
@@ -46,7 +46,7 @@ impl InertiaSolver {
         self.inertia.factors()
     }
 
-    /// Velocity component in the direction of a unit impulse due to this impulse [1/mass].
+    /// Velocity of a body in the direction of a unit impulse that acts on it, due to this impulse [1/mass].
     /// The callback `add_forces` adds the generalised forces of the impulse.
     pub fn response(&mut self, add_forces: impl FnOnce(&mut [f64])) -> f64 {
         let Self { inertia, forces, rates, .. } = self;

@@ -13,7 +13,7 @@ pub struct MotionState {
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
     resolution: Resolution,
-    /// Bodies whose resolution is measured separately; empty if there is only one body.
+    /// Bodies for which the resolution measures are also computed separately; empty if there is only one body.
     monitored: Vec<MonitoredBody>,
 }
 
@@ -77,7 +77,7 @@ impl MotionState {
         self.time = step.interval.end;
     }
 
-    /// Applies a jump of all rates [length/time, 1/time].
+    /// Adds a jump to all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);

@@ -1,33 +1,33 @@
-//! Storage for accelerations and contact forces at the present time.
+//! Vectors for the accelerations and contact forces at the present time, which are kept between steps.
 
 use crate::beams::Movement;
 use crate::geometry::Vec2;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
-/// Accelerations and contact forces at the present time, with the memory for their computation.
-/// Memory for the forces is allocated only if the number of contacts grows.
+/// Accelerations and contact forces at the present time, and the vectors for their computation.
+/// The vectors are reused in the next step. They are enlarged only if the number of contacts increases.
 pub struct PresentForces {
     /// Rates of all bodies by control point.
     pub rates: Vec<Vec<Movement>>,
-    /// Forces of the balance without inertia and contacts, at all degrees of freedom.
+    /// Sum of all forces except inertia and contact forces, for each degree of freedom.
     pub residual: Vec<f64>,
     /// Prescribed accelerations, indexed by the degree of freedom; empty without drives.
     pub prescribed: Vec<f64>,
-    /// Accelerations of the unknowns, with the forces of rigid links and rollers at their unknowns.
+    /// Accelerations, and forces of rigid links and rollers, in the order of the unknowns.
     pub accelerations: Vec<f64>,
     /// Force of each slave on its master [force].
     pub contacts: Vec<Vec2>,
-    /// Directions of the contact forces, with the index of the slider.
+    /// Direction of each contact force, with the index of its slider.
     pub directions: Vec<(usize, Vec2)>,
-    /// Responses to the contact forces, at least one for each contact direction.
+    /// Responses to unit contact forces. There may be more entries than contact forces, because entries are reused.
     pub responses: Vec<ContactResponse>,
-    /// Accelerations in all contact directions per unit of the contact forces [1/mass].
+    /// Acceleration in each contact direction due to each unit contact force [1/mass].
     matrix: BandedMatrix,
     /// Magnitude of each contact force [force].
     pub magnitudes: Vec<f64>,
 }
 
-/// Response to a contact force on a slave.
+/// Response of the model to a unit contact force on a slave.
 #[derive(Default)]
 pub struct ContactResponse {
     /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
@@ -39,7 +39,7 @@ pub struct ContactResponse {
 }
 
 impl ContactResponse {
-    /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to zeros.
+    /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to a zero vector.
     pub fn set(
         &mut self,
         direction: Vec2,
@@ -88,7 +88,7 @@ impl Default for PresentForces {
 
 impl PresentForces {
     /// Computes the magnitudes of the contact forces.
-    /// The callback `carried` returns the required acceleration in each contact direction [length/time²].
+    /// The callback `carried` returns the acceleration that the contact requires in each contact direction [length/time²].
     ///
     /// # Errors
     /// Fails if the contact forces are not determined.

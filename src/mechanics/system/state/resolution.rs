@@ -22,7 +22,7 @@ impl GuessErrors {
     }
 }
 
-/// Relative difference of two step lengths below which they count as equal.
+/// Largest relative difference of two step lengths that count as equal.
 const EQUALLY_LONG: f64 = 1e-3;
 
 /// Measures of the temporal resolution of the motion in the steps so far (docs/theory.md, section 13.3).
@@ -35,12 +35,12 @@ pub struct Resolution {
     bent: f64,
     /// Length of the last step [time].
     last: f64,
-    /// Squared prediction error of the last step by its start rates, weighted by mass [energy].
+    /// Squared error of the prediction of the last step from its start rates, weighted by mass [energy].
     last_by_start: f64,
     /// Largest rotation of a section in a step [rad].
     rotation: f64,
     duration: f64,
-    /// Energy below which motions are attributed to rounding [energy].
+    /// Largest energy of motions that are attributed to rounding [energy].
     noise: f64,
 }
 
@@ -58,7 +58,7 @@ impl Resolution {
         }
     }
 
-    /// Energy below which motions are attributed to rounding [energy].
+    /// Largest energy of motions that are attributed to rounding [energy].
     pub(super) fn noise(&self) -> f64 {
         self.noise
     }

@@ -1,10 +1,10 @@
-//! Scales of force and moment in the present step, for comparison with the residual of the step.
+//! Largest forces and moments in the present step. The residual of the step is compared with them.
 
 use super::{InertiaSolver, PresentForces};
 use crate::beams::{ForceSummary, RotationIncrement};
 use crate::integrators::Interval;
 
-/// Interval of the present step, and the largest forces and moments of sections, inertia, loads and contacts.
+/// Interval of the present step, with the largest forces and moments of sections, inertia, loads and contacts.
 pub struct StepMeasures {
     pub interval: Interval,
     pub inertia: (f64, f64),
@@ -16,7 +16,7 @@ pub struct StepMeasures {
     pub arm: f64,
     /// True if loads may jump at the start of the step and the state of the integrator contains accelerations.
     pub jumps: bool,
-    /// Energy that dampers returned in the last backward substep [energy].
+    /// Energy that the damper forces returned in the last substep that ran backwards in time [energy].
     pub returned: f64,
     scratch: Vec<f64>,
     pub inertia_solver: Option<Box<InertiaSolver>>,

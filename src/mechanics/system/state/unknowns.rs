@@ -2,14 +2,14 @@
 
 use crate::joints::Releasable;
 
-/// Type of an unknown and of its equation.
+/// Type of an unknown, which determines the unit of the unknown and of its equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum UnknownKind {
-    /// Displacement along an axis [length], with a force balance.
+    /// Displacement along an axis [length]. Its equation is a force balance.
     Position,
-    /// Rotation [rad], with a moment balance.
+    /// Rotation [rad]. Its equation is a moment balance.
     Rotation,
-    /// Constraint force, or impulse of this force in a time step [force, force·time]. Its equation is a length.
+    /// Constraint force [force], or impulse of this force in a time step [force·time]. Its equation is a condition on a length.
     Force,
 }
 
@@ -33,7 +33,7 @@ impl Unknowns {
         self.half_bandwidth
     }
 
-    /// Returns true if the unknowns were numbered after the release of the given joint or drive.
+    /// Returns true if the given joint or drive had been released when the unknowns were numbered.
     pub fn are_free_of(&self, hold: Releasable) -> bool {
         self.released.contains(&hold)
     }

@@ -2,7 +2,7 @@
 
 use super::{languages, mechanics};
 
-/// Names from other languages and programs with the same meaning, and their replacement in withy.
+/// Names with the same meaning in other languages and programs, with their replacement in withy.
 #[derive(Debug, PartialEq)]
 pub struct ForeignName {
     pub words: &'static [&'static str],
@@ -10,7 +10,7 @@ pub struct ForeignName {
     pub see: &'static [&'static str],
 }
 
-/// Entry for a name from another language; `None` if there is none. Upper and lower case are distinguished only between names that otherwise agree.
+/// Entry for a name from another language; `None` if there is none. If no name agrees exactly, upper and lower case are not distinguished.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();
@@ -32,7 +32,7 @@ impl ForeignName {
     }
 }
 
-/// Hint for a call of `name` with the number of arguments that the function has in other languages.
+/// Hint for a call of `name` with a number of arguments that is valid in other languages but not in withy.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

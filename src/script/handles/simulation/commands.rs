@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-/// Output of each controller as a function of time, stored as (time, output) at each change [time].
+/// Output of each controller as a function of time. A pair of time [time] and output is stored at each change of the output.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 

@@ -52,7 +52,7 @@ impl Revisit {
         self.original.borrow()
     }
 
-    /// Number of steps and time of the copy.
+    /// Number of steps that the copy has taken, and its present time [time].
     pub fn place(&self) -> (usize, f64) {
         (self.handle.simulation().counts().steps, self.handle.time())
     }

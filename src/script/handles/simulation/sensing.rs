@@ -83,7 +83,7 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Calls a function with brief write access to the simulation, in the variant of the present call.
+    /// Calls `look` with write access to the simulation, in the variant of the present call. The access ends when `look` returns.
     pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -233,7 +233,8 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs the simulation to a time. It pauses at recorded steps if functions fill columns, and before every step if functions control it.
+    /// Runs the simulation to a time. The run is interrupted at recorded steps to evaluate user-defined columns.
+    /// If there are controllers or release conditions, it is interrupted before every step to evaluate them.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,

@@ -79,7 +79,7 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     Ok(AxisLimits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
-/// Rejects a label or limits of the vertical axis if panels of different units have such axes.
+/// Rejects a label or limits of the vertical axis if columns of different units are drawn in several panels.
 pub fn expect_options_for_panels(options: &Options, panels: usize) -> Result<(), OptionError> {
     match [Y_LABEL, Y_LIMITS].into_iter().find(|option| options.has(option.name)) {
         Some(Parameter { name, .. }) if panels > 1 => Err(OptionError {

@@ -5,7 +5,7 @@ use crate::output::significant;
 
 const DIGITS: usize = 6;
 
-/// Component that is attributed to rounding, as a fraction of the length of the vector.
+/// Largest component of a vector that is attributed to rounding, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-12;
 
 const LISTED: usize = 4;

@@ -11,13 +11,13 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// Reason of a failure: the function threw an error, exceeded its time, or a check failed.
+    /// The function threw an error, exceeded its time, or a check failed. The field contains the reason.
     Failed(String),
-    /// Reason why the script itself seems to be wrong.
+    /// The script itself seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 
-/// Processed result of a call, with the steps of its simulations.
+/// Processed result of a call, and number of steps of the simulations in the call.
 pub struct CallWork<R> {
     pub result: R,
     pub steps: u64,

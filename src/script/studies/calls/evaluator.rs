@@ -18,7 +18,7 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
     Failed(String),
-    /// Reason why the script itself seems to be wrong.
+    /// The script itself seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 

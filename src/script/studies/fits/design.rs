@@ -54,7 +54,7 @@ pub struct BestDesign {
     pub is_settled: bool,
     /// Index of an unbounded parameter that diverged because the objective decreases without limit.
     pub runaway: Option<usize>,
-    /// Number of calls of the function.
+    /// Number of calls of the script function.
     pub runs: usize,
     pub derivatives: String,
 }

@@ -49,9 +49,9 @@ pub struct FitRequest<'o> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// Derivatives from the runs. Finite differences are used if a run provides no derivatives.
+    /// The runs may provide derivatives. For a run without derivatives, finite differences are used.
     Known,
-    /// Finite differences of runs, or a derivative-free search.
+    /// The runs provide no derivatives. Finite differences of runs, or a derivative-free search, are used.
     Unknown,
 }
 

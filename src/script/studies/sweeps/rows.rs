@@ -11,9 +11,9 @@ use crate::script::studies::calls::calling::CallOutcome;
 pub enum RowOutcome {
     /// Names and numbers of the returned map.
     Computed(Arc<[String]>, Vec<f64>),
-    /// Reason of a failure: the function threw an error, or returned a value that is not a number.
+    /// The function threw an error, or returned a value that is not a number. The field contains the reason.
     Failed(String),
-    /// Reason why the script seems to be wrong.
+    /// The script seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 

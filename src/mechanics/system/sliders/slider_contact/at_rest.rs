@@ -1,4 +1,4 @@
-//! Statics of a slider: contact equations for a displacement between two equilibria, contact with stops, and stiffness.
+//! Slider in statics: contact equations for a displacement between two equilibria, contact with stops, and stiffness.
 
 use super::passing::{AtRest, Passing};
 use super::{SliderContact, is_tensile};
@@ -81,7 +81,7 @@ impl SliderContact {
         if self.is_sliding() { beyond.next() } else { None }
     }
 
-    /// Returns true if the stop force in an iterate is tensile beyond rounding.
+    /// Returns true if the force of the stop is tensile beyond rounding for the given trial values.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
         let contact = self.evaluate_static(bodies, movements, unknowns);

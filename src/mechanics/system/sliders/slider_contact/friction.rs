@@ -7,32 +7,33 @@ use crate::integrators::Interval;
 use crate::joints::{Friction, FrictionForces, FrictionMode, Slider};
 use crate::system::bodies::Body;
 
-/// Velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
-/// An impulse removes the remaining velocity along the master at the end of a slip.
-/// Without a tolerance for the velocity, the step after the end of the slip could be too short for an accurate energy balance.
+/// Largest velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
+/// An impulse removes this remaining velocity at the end of the slip.
+/// With a zero tolerance, the step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
 const ROUNDING: f64 = 1e-14;
 
-/// Duration of a step below which friction does not act, as a fraction of the longest step.
+/// Shortest step in which friction acts, as a fraction of the longest step so far.
 /// The forces of a very short step consist of rounding errors.
 const NEGLIGIBLE: f64 = 1e-7;
 
-/// Duration of a step above which friction always follows its law, as a fraction of the longest step.
-/// In shorter steps without a solution, the friction force is kept constant.
+/// Longest step in which the friction force may be kept constant, as a fraction of the longest step so far.
+/// The friction force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Number of transitions between slip and stick in successive steps, from which steps are not shortened to the end of the slip.
+/// Smallest number of recent transitions between slip and stick that prevents the shortening of a step to the end of the slip.
+/// Each transition increases this number by one, and each accepted step or substep reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
-/// Transition of a slider with friction at the end of an attempted step.
+/// Transition between slip and stick at the end of an attempted step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FrictionTransition {
     SlipEnds {
         reversed: f64,
     },
-    /// The force along the master exceeds the friction limit.
+    /// The friction force that sticking requires exceeds the friction limit.
     SlipStarts {
         /// Excess at the end of the step [force]; zero if the step has to be repeated with slip.
         excess: f64,
@@ -62,7 +63,7 @@ pub struct SliderFriction {
     /// Mean force on the master along the tangent of the master in the last step [force].
     force: f64,
     transitions: usize,
-    /// Constant friction force in the present step, instead of the law of slip [force].
+    /// Friction force that replaces the friction law in the present step [force]; `None` if the law applies.
     fixed_force: Option<f64>,
     /// Number of accepted steps with a constant friction force.
     pub fixed_steps: usize,
@@ -126,7 +127,7 @@ impl SliderFriction {
         self.transitions < MOST_TRANSITIONS
     }
 
-    /// State of the friction as a number: the sign of the slip, or zero for a sticking slider.
+    /// Sign of the slip, or zero for a sticking slider.
     fn mode_number(&self) -> f64 {
         match self.mode {
             FrictionMode::Slip(sign) => sign,
@@ -140,7 +141,7 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that represent the state of the friction: the sign of the slip, the mean force, and the state of the static friction.
+    /// Numbers that `restore` reads: the sign of the slip, the mean force, and the state of the static friction.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let sticking = self.static_friction.as_ref().map(StaticFriction::numbers);
         [self.mode_number(), self.force].into_iter().chain(sticking.into_iter().flatten())
@@ -275,7 +276,7 @@ impl SliderContact {
         friction.and_then(SliderFriction::sticking).map_or(0.0, |(of, _)| of.start_reserve())
     }
 
-    /// Largest velocity along the master that counts as zero [length/time].
+    /// Largest velocity along the master that counts as zero at the end of a slip [length/time].
     fn negligible_slip(&self, friction: &SliderFriction) -> f64 {
         STOPPED * friction.start_velocity_along.abs() + ROUNDING * self.size / friction.duration
     }
@@ -292,7 +293,6 @@ impl SliderContact {
         sign * self.along(bodies).dot(&self.relative_velocity(bodies, rates)) < 0.0
     }
 
-    /// Returns true if the slider sticks to its master.
     pub fn sticks(&self) -> bool {
         self.active_friction().is_some_and(|friction| friction.mode == FrictionMode::Stick)
     }

@@ -28,7 +28,7 @@ impl SliderContact {
         self.tangent(bodies).normalize()
     }
 
-    /// Direction [-] in which the slider moves along its master at an end, including the kink.
+    /// Unit tangent of the kinked axis at the slider, for a slider at an end of its master [-].
     pub fn along_contact(&self, bodies: &[Body]) -> Vec2 {
         let kink = self.kinked_axis.as_ref().filter(|_| self.is_sliding());
         let slope = kink.map_or(Vec2::zeros(), |axis| axis.slopes().0);
@@ -49,7 +49,7 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.is_some()
     }
 
-    /// Returns true if the slider is slow enough for its kink to begin with a load.
+    /// Returns true if the slider is so slow that its kink may start with a load.
     pub fn is_slow(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let rate = self.rate(bodies, rates);
         self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
@@ -63,7 +63,7 @@ impl SliderContact {
         })
     }
 
-    /// Loads the kink of the master with a contact force [force].
+    /// Starts the kink of the master with a contact force as its load [force].
     pub fn load_kink(&mut self, bodies: &[Body], force: Vec2) {
         let tangent = self.tangent(bodies);
         self.unknowns.force = force;
@@ -75,7 +75,7 @@ impl SliderContact {
         self.kinked_axis.iter_mut().for_each(|axis| axis.start_speed(rate));
     }
 
-    /// Removes the kink of the master at an end, where the kink has no energy.
+    /// Removes the kink of the master.
     pub fn straighten(&mut self) {
         self.kinked_axis.iter_mut().for_each(KinkedAxis::straighten);
     }
@@ -89,7 +89,7 @@ impl SliderContact {
         self.unilateral.as_ref().map_or(normal, |contact| normal * contact.sign)
     }
 
-    /// Adds the generalised forces of a contact impulse or a contact force to `out`.
+    /// Adds the generalised forces of a contact impulse or a contact force on slave and master to `out`.
     /// The slave receives the impulse, and the master the opposite impulse.
     pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
@@ -104,7 +104,7 @@ impl SliderContact {
         self.to_axis(bodies) + self.kinked_axis.as_ref().map_or(Vec2::zeros(), KinkedAxis::offset)
     }
 
-    /// Vector from the slave to the point of the slider on the smooth axis of the master [length].
+    /// Vector from the slave to the point of the smooth master axis at the parameter of the slider [length].
     pub(super) fn to_axis(&self, bodies: &[Body]) -> Vec2 {
         let (body, point) = self.connection.slave;
         let slave = bodies[body].dynamics.control_points()[point];
@@ -159,8 +159,8 @@ impl SliderContact {
         }
     }
 
-    /// Rate of the parameter for an offset of the slave from the smooth axis of the master [length].
-    /// The rate of the parameter follows from the time derivative of the contact condition.
+    /// Rate of the parameter of the slider [1/time], from the time derivative of the contact condition.
+    /// `offset` is the vector from the smooth axis of the master to the slave [length]. The next argument contains its derivatives.
     fn rate_at_offset(
         &self,
         offset: Vec2,
@@ -180,6 +180,6 @@ impl SliderContact {
 }
 
 fn slope_of(slopes: &[f64], points: &[Vec2]) -> Vec2 {
-    // The derivatives `B_i'` sum to zero, so the choice of the origin affects rounding only. A near origin has the smallest rounding error.
+    // The derivatives `B_i'` sum to zero, so the choice of the origin affects rounding errors only. These errors are smallest for a near origin.
     slopes.iter().zip(points).map(|(slope, point)| (point - points[0]) * *slope).sum()
 }

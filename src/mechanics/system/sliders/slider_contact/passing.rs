@@ -1,11 +1,11 @@
-//! Types of contact iterates: in a time step, or between two equilibria.
+//! Evaluation of the equations of a contact for trial values of the unknowns: in a time step, or between two equilibria.
 
 use super::SliderContact;
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::system::bodies::Body;
 
-/// Type of a contact iterate: [`InStep`] or [`AtRest`].
+/// Evaluation of a contact for trial values of the unknowns, in a time step ([`InStep`]) or between two equilibria ([`AtRest`]).
 pub trait Passing {
     fn iterate<'s>(
         slider: &'s mut SliderContact,
@@ -14,7 +14,7 @@ pub trait Passing {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]);
 
-    /// Contact with the values and units of its equations, but without derivatives.
+    /// Contact, with the values and units of its equations. The derivatives of the equations are not computed.
     fn iterate_values<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],
@@ -29,7 +29,7 @@ pub trait Passing {
 
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
 
-    /// Chord of the path of the slider, as a fraction of the length of the path on the undeformed axis [-].
+    /// Length of the chord of the slider's path, as a fraction of the length of the path along the undeformed axis [-].
     fn chord(contact: &Contact<'_>) -> f64;
 }
 

@@ -28,8 +28,8 @@ impl SliderContact {
         self.track.as_ref()?.seam(bodies, end)
     }
 
-    /// Returns true if the slider passed or left a seam at the given time.
-    /// A slider that returns to the seam at the same time cannot leave the seam again.
+    /// Returns true if the slider left a stop or a seam, or passed a seam, exactly at `time`.
+    /// A slider that returns to a seam exactly at the time at which it passed or left the seam is held there.
     pub fn crossed_seam_at(&self, time: f64) -> bool {
         self.stop_left_at == time
             || self.track.as_ref().is_some_and(|route| route.crossed_at == time)

@@ -10,8 +10,8 @@ impl SliderContact {
         self.state = SliderState::Held(end);
     }
 
-    /// Subtracts the work of an impact on the bodies from the energy stored in the stop.
-    /// If the coefficient of restitution is below one, or the slider only pushes, the work is subtracted from the lost energy of the slider instead.
+    /// Subtracts the work that an impact does on the bodies from the energy stored in the stop.
+    /// If the impact loses energy or the slider only pushes, the work is subtracted from the lost energy of the slider instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 || self.unilateral.is_some() {
             true => self.lost_energy -= work,
@@ -45,9 +45,9 @@ impl SliderContact {
 
     /// Duration of an impact at the end of the master [time].
     ///
-    /// An impact on a beam of length `L` lasts at least until the impact wave returns, after `2 L/c` with the wave speed `c` (Saint-Venant 1883).
-    /// With a light slave, the impact lasts until the slave stops.
-    /// Between rigid bodies there are no waves, and the impact duration is infinite.
+    /// In a beam of length `L`, an impact lasts until the impact wave returns, after `2 L/c` with the wave speed `c` (Saint-Venant 1883).
+    /// If the slave is rigid and light, the impact on the master lasts only until the slave stops.
+    /// Rigid bodies have no waves. If both bodies are rigid, the impact duration is infinite.
     pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
         let on_master = blow

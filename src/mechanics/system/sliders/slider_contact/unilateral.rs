@@ -7,46 +7,46 @@ use crate::system::bodies::Body;
 use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
-/// Largest number of take-offs, landings and passages of the axis without a regular step between them.
+/// Largest number of take-offs, landings and passages of the axis since the last step without such an event.
 /// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
 const MOST_ITERATIONS: usize = 64;
 
-/// Largest change of the parameter in an iteration of the search, as a fraction of the parameter range.
+/// Largest change of the parameter in an iteration of `nearest_point`, as a fraction of the parameter range.
 const LARGEST_CHANGE: f64 = 0.125;
 
-/// Smallest second derivative of the squared distance in the search, as a fraction of its value for a straight master.
+/// Smallest second derivative of the squared distance that `nearest_point` uses, as a fraction of the value for a straight master.
 const SMALLEST_CURVATURE: f64 = 0.5;
 
-/// Cosine of the angle between the axis and the vector to the slave, above which the slave is beyond an end of the master.
+/// Largest cosine of the angle between the axis and the vector to the slave for a slave that is not beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
-/// Change of the contact state of a slider that only pushes.
+/// Event in which the contact state of a slider that only pushes changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactChange {
     /// The slider left its master.
     TakeOff,
     /// The slider landed on its master, and is in contact with it.
     Landing,
-    /// The slider landed on its master with rebound.
+    /// The slider struck its master and rebounded.
     Bounce,
     /// The slider passed the axis of its master beyond an end of the master.
     Passage,
 }
 
-/// Contact of a slider that only pushes.
+/// State of a slider that only pushes: its side of the master, the nearest point of the master, and recent events.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
     /// Side of the master on which the slider can fly: 1 for the left side of the axis, -1 for the right side.
     pub sign: f64,
     nearest: NearestPoint,
     may_land: bool,
-    /// Number of take-offs, landings and passages of the axis since the last regular step.
+    /// Number of take-offs, landings and passages of the axis since the last step without such an event.
     events: usize,
     /// Number of attempted steps in which the slider stayed in contact because of too many events.
     pub kept_steps: usize,
-    /// Last take-off or landing that is not recorded yet.
+    /// Last take-off, landing or passage, until `take_contact_change` returns it.
     change: Option<ContactChange>,
 }
 
@@ -65,7 +65,7 @@ impl UnilateralContact {
         Self { sign, nearest, may_land: true, events: 0, kept_steps: 0, change: None }
     }
 
-    /// Numbers that represent the contact state: permission to land, and number of events.
+    /// Numbers that `restore` reads: 1 if the slider may land and 0 otherwise, and the number of events.
     pub(super) fn numbers(&self) -> [f64; 2] {
         [f64::from(u8::from(self.may_land)), self.events as f64]
     }
@@ -85,7 +85,7 @@ impl SliderContact {
         self.is_sliding() && self.unilateral.is_some()
     }
 
-    /// Returns true if the slider had too many take-offs, landings and passages since the last regular step.
+    /// Returns true if there were at least `MOST_EVENTS` take-offs, landings and passages since the last step without such an event.
     pub fn has_many_events(&self) -> bool {
         self.unilateral.as_ref().is_some_and(|contact| contact.events >= MOST_EVENTS)
     }
@@ -108,7 +108,7 @@ impl SliderContact {
         }
     }
 
-    /// Take-off or landing since the last call. A slider that is still in flight after a landing has bounced.
+    /// Returns the take-off, landing or passage since the last call. A slider that is still in flight after a landing has bounced.
     pub fn take_contact_change(&mut self) -> Option<ContactChange> {
         let change = self.unilateral.as_mut()?.change.take()?;
         let has_bounced = change == ContactChange::Landing && self.is_separated();
@@ -127,7 +127,7 @@ impl SliderContact {
         }
     }
 
-    /// Records that the slave passed the axis of its master beyond an end, which excludes a landing from the other side.
+    /// Records that the slave passed the axis of its master beyond an end. The slider then may not land from the other side.
     pub fn record_passage(&mut self) {
         if let Some(contact) = &mut self.unilateral {
             (contact.may_land, contact.events) = (false, contact.events + 1);
@@ -135,9 +135,9 @@ impl SliderContact {
         }
     }
 
-    /// Nearest point of the master to the slave after the given increments of all bodies.
-    /// The search starts at the present parameter. If `increments` is empty, the search uses the present configuration.
-    /// The search overwrites the path of the slider.
+    /// Finds the point of the master that is nearest to the slave, after the given increments of all bodies.
+    /// Newton's method starts at the present parameter of the slider. If `increments` is empty, the bodies are in their present configuration.
+    /// A call of this function overwrites the path of the slider.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -222,7 +222,8 @@ impl SliderContact {
         END_TOLERANCE * self.size
     }
 
-    /// Depth of a landing slave beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
+    /// Distance by which a landing slave is beyond the axis at the end of the attempted step [-].
+    /// The distance of the landing slave is a fraction of the length scale of the contact.
     /// Returns `None` unless the slider lands in the step.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
@@ -231,20 +232,21 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Depth of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the size of the contact [-].
-    /// The depth is negative if the slave has not reached the axis. Returns `None` if the slave is on the axis within rounding.
+    /// Distance by which a slave in flight is beyond the axis at the end of the attempted step [-], negative if it has not reached the axis.
+    /// The distance of the slave is a fraction of the length scale of the contact.
+    /// Returns `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
         (gap.abs() > self.touching_distance()).then_some(-gap / self.size)
     }
 
-    /// Present distance of the slave from the axis, as a fraction of the size of the contact [-].
+    /// Present distance of the slave from the axis, as a fraction of the length scale of the contact [-].
     pub fn relative_gap(&mut self, bodies: &[Body]) -> f64 {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step [length], zero in contact.
+    /// Distance of the slave from the axis at the end of the last step [length]; zero for a slider in contact.
     /// Returns `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
