@@ -22,7 +22,7 @@ import numpy
 from scipy.linalg import lapack
 
 HALF_BANDWIDTH = 11  # of a beam of cubic splines: four control points with three unknowns each
-PATIENCE = 1.0  # seconds for each size
+TIME_LIMIT = 1.0  # seconds for each size
 FEWEST_REPEATS = 3
 
 
@@ -36,7 +36,7 @@ def least_time(unknowns):
     right = random.uniform(-1.0, 1.0, (unknowns, 1))
     times = []
     begun = time.perf_counter()
-    while len(times) < FEWEST_REPEATS or time.perf_counter() - begun < PATIENCE:
+    while len(times) < FEWEST_REPEATS or time.perf_counter() - begun < TIME_LIMIT:
         matrix, vector = band.copy(order="F"), right.copy(order="F")
         start = time.perf_counter()
         *_, info = lapack.dgbsv(b, b, matrix, vector, overwrite_ab=True, overwrite_b=True)

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-const PATIENCE: Duration = Duration::from_millis(300);
+const TIME_LIMIT: Duration = Duration::from_millis(300);
 /// Number of independent operations. It is large enough to hide the latency of an operation.
 const CHAINS: usize = 12;
 const ROUNDS: usize = 100_000;
@@ -55,7 +55,7 @@ impl WithSimd for Sum<'_> {
 /// Smallest duration of an action [s].
 fn least(mut action: impl FnMut()) -> f64 {
     let (begun, mut least) = (Instant::now(), f64::INFINITY);
-    while begun.elapsed() < PATIENCE {
+    while begun.elapsed() < TIME_LIMIT {
         let started = Instant::now();
         action();
         least = least.min(started.elapsed().as_secs_f64());

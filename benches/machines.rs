@@ -17,7 +17,7 @@ use withy::system::{
 };
 
 /// Approximate duration of each measurement.
-const PATIENCE: Duration = Duration::from_millis(600);
+const TIME_LIMIT: Duration = Duration::from_millis(600);
 const DT: f64 = 0.01;
 /// Number of steps of a run. Runs are repeated from the start.
 const RUN: u32 = 50;
@@ -73,7 +73,7 @@ fn step(scene: &Scene) -> Duration {
         tolerance: Tolerance::default(),
     };
     let (start, mut least) = (Instant::now(), Duration::MAX);
-    while start.elapsed() < PATIENCE {
+    while start.elapsed() < TIME_LIMIT {
         let mut simulation = Simulation::start(scene.clone(), settings()).unwrap();
         let begun = Instant::now();
         simulation.run_to(f64::from(RUN) * DT, &mut NoMonitor).unwrap();

@@ -15,7 +15,7 @@ use withy::newton::Tolerance;
 use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
 /// Approximate duration of each measurement.
-const PATIENCE: Duration = Duration::from_millis(600);
+const TIME_LIMIT: Duration = Duration::from_millis(600);
 const FEWEST_REPEATS: usize = 5;
 /// Number of steps of a run. Runs are repeated from the start, so that no slider reaches an end of its beam.
 const RUN: usize = 12;
@@ -140,7 +140,7 @@ fn cost(scene: &Scene, dt: f64) -> (usize, Duration, f64) {
     let start = model.state();
     let (mut steps, mut iterations, mut least) = (0, 0, Duration::MAX);
     let begun = Instant::now();
-    while steps < FEWEST_REPEATS || begun.elapsed() < PATIENCE {
+    while steps < FEWEST_REPEATS || begun.elapsed() < TIME_LIMIT {
         let step = steps % RUN;
         if step == 0 {
             model.restore(&start);

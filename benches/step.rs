@@ -21,7 +21,7 @@ use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
 use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
 
 /// Approximate duration of each measurement.
-const PATIENCE: Duration = Duration::from_millis(300);
+const TIME_LIMIT: Duration = Duration::from_millis(300);
 const FEWEST_REPEATS: usize = 5;
 const DT: f64 = 0.1;
 /// End time of the flying spaghetti.
@@ -123,7 +123,7 @@ fn recorded_cost(spans: usize, limit: usize) -> ((f64, f64), usize) {
 fn measure(mut action: impl FnMut() -> Duration) -> (f64, f64) {
     let begun = Instant::now();
     let mut times = Vec::new();
-    while times.len() < FEWEST_REPEATS || begun.elapsed() < PATIENCE {
+    while times.len() < FEWEST_REPEATS || begun.elapsed() < TIME_LIMIT {
         times.push(action().as_secs_f64() * 1e9);
     }
     times.sort_by(f64::total_cmp);

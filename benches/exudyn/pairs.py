@@ -37,7 +37,7 @@ WITHY = ROOT / "target" / "release" / "withy"
 VERSION = "1.13.6"
 LEVELS = (1e-2, 1e-3, 1e-4, 1e-5)
 CANDIDATES = 3
-PATIENCE = 0.25  # seconds for each run and round
+TIME_LIMIT = 0.25  # seconds for each run and round
 LONGEST = 8.0  # seconds that a run of a sweep may take; smaller steps of the same mesh and method are then left out
 
 
@@ -152,7 +152,7 @@ def race(sides, candidates, rounds):
     for _ in range(rounds):
         for side in sides:
             for run, seconds in candidates[side.name].items():
-                repeats = max(1, min(20, round(PATIENCE / seconds)))
+                repeats = max(1, min(20, round(TIME_LIMIT / seconds)))
                 times = [made.seconds for made in side.make([run] * repeats)]
                 key = side.name, run
                 least[key] = min(times + [least.get(key, math.inf)])

@@ -236,6 +236,6 @@ mod tests {
         let message = outcome.describe();
         assert!(message.starts_with("stopped at t = 0.5 by a limit"), "{message}");
         assert!(message.ends_with(": more than 1 s"), "{message}");
-        assert!(!is_past_deadline(), "patience with one case is not that with another");
+        assert!(!is_past_deadline(), "each case has its own time limit");
     }
 }

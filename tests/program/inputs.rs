@@ -159,7 +159,7 @@ fn a_session_sets_the_inputs_of_a_file() {
 
 /// Time limit of a wait, generous for loaded machines.
 #[cfg(unix)]
-const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
+const TIME_LIMIT: std::time::Duration = std::time::Duration::from_secs(60);
 
 #[cfg(unix)]
 #[test]
@@ -194,7 +194,7 @@ fn watching_runs_again_after_each_change_and_survives_errors() {
         let mut missing = expected.to_vec();
         let mut seen = Vec::new();
         while !missing.is_empty() {
-            match lines.recv_timeout(PATIENCE) {
+            match lines.recv_timeout(TIME_LIMIT) {
                 Ok(line) => {
                     missing.retain(|phrase| !line.contains(phrase));
                     seen.push(line);

@@ -11,7 +11,7 @@ use withy::exercises::catalogue::EXERCISES;
 use withy::exercises::exercise::Exercise;
 
 /// Time limit of a wait [ms], generous for loaded machines.
-const PATIENCE: u64 = 60_000;
+const TIME_LIMIT: u64 = 60_000;
 
 /// Student at a terminal of a given size in an empty folder. The shell reports the state of the terminal afterwards.
 struct Student {
@@ -31,7 +31,7 @@ impl Student {
         command.current_dir(folder.path()).args(["-c", &script]);
         command.env("WITHY", env!("CARGO_BIN_EXE_withy"));
         command.env("TERM", "xterm").env("LANG", "C.UTF-8").env("NO_COLOR", "1");
-        Self { session: spawn_command(command, Some(PATIENCE)).unwrap(), folder }
+        Self { session: spawn_command(command, Some(TIME_LIMIT)).unwrap(), folder }
     }
 
     fn sees(&mut self, words: &str) {

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// Time limit of a run: much shorter than the endless inputs, and sufficient with ten times as many processes as cores.
-const PATIENCE: Duration = Duration::from_secs(120);
+const TIME_LIMIT: Duration = Duration::from_secs(120);
 
 /// Scene that can be started.
 const SCENE: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
@@ -64,7 +64,7 @@ fn time_limit_ends_a_loop_that_catches_all_errors() {
     let output = run("\nloop { try { loop { } } catch { print(1); } }", &["--max-time", "0.3"]);
     expect(&output, &["takes longer than 0.3 s", "main.rhai:2:", "--max-time SECONDS"]);
     assert!(output.stdout.is_empty());
-    assert!(begun.elapsed() < PATIENCE);
+    assert!(begun.elapsed() < TIME_LIMIT);
 }
 
 #[test]
@@ -334,7 +334,7 @@ fn circular_imports_are_an_error() {
 fn ends_in_time(home: &Home, arguments: &[&str], words: &[&str]) {
     let begun = Instant::now();
     expect(&home.withy(arguments), words);
-    assert!(begun.elapsed() < PATIENCE, "{arguments:?} took {:?}", begun.elapsed());
+    assert!(begun.elapsed() < TIME_LIMIT, "{arguments:?} took {:?}", begun.elapsed());
 }
 
 #[test]
@@ -438,7 +438,7 @@ fn check_of_an_endless_run_ends() {
     let begun = Instant::now();
     let output = Home::with(&[("main.rhai", &script)]).withy(&["check", "main.rhai"]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-    assert!(begun.elapsed() < PATIENCE, "{:?}", begun.elapsed());
+    assert!(begun.elapsed() < TIME_LIMIT, "{:?}", begun.elapsed());
 }
 
 #[test]
@@ -546,7 +546,7 @@ fn endless_input_is_rejected() {
     let zero = fs::File::open("/dev/zero").unwrap();
     let output = command.arg("repl").current_dir(home.0.path()).stdin(zero).output().unwrap();
     expect(&output, &["cannot read the input: a line is too long"]);
-    assert!(begun.elapsed() < PATIENCE);
+    assert!(begun.elapsed() < TIME_LIMIT);
 }
 
 #[test]
@@ -589,6 +589,6 @@ fn one_signal_ends_code_that_checks_no_limits() {
         let begun = Instant::now();
         Command::new("kill").args([signal, &running.id().to_string()]).status().unwrap();
         assert_eq!(running.wait().unwrap().code(), Some(130));
-        assert!(begun.elapsed() < PATIENCE, "{:?}", begun.elapsed());
+        assert!(begun.elapsed() < TIME_LIMIT, "{:?}", begun.elapsed());
     }
 }

@@ -11,7 +11,7 @@ use rexpect::ReadUntil;
 use rexpect::session::{PtySession, spawn_command};
 
 /// Time limit of a wait [ms], generous for loaded machines.
-const PATIENCE: u64 = 60_000;
+const TIME_LIMIT: u64 = 60_000;
 
 /// First two bytes of braille characters in UTF-8. The terminal is read byte by byte.
 const BRAILLE: &str = "\u{e2}[\u{a0}-\u{a3}]";
@@ -28,7 +28,7 @@ fn start(folder: &Path, arguments: &[&str]) -> PtySession {
         .env("NO_COLOR", "1")
         .env("WITHY_HISTORY", folder.join("history"))
         .env_remove("WITHY_KEYS");
-    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    let mut session = spawn_command(command, Some(TIME_LIMIT)).unwrap();
     session.exp_string(":help").unwrap();
     session.exp_string("withy:1> ").unwrap();
     session
@@ -168,7 +168,7 @@ fn a_script_may_come_first_and_pictures_are_drawn() {
         .env("LANG", "C.UTF-8")
         .env("NO_COLOR", "1")
         .env("WITHY_HISTORY", "");
-    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    let mut session = spawn_command(command, Some(TIME_LIMIT)).unwrap();
     session.exp_string("withy:5> ").unwrap();
     ask(&mut session, ":step 5", "after 5 steps");
     let commands =
@@ -193,7 +193,7 @@ fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
     for (name, value) in variables {
         command.env(name, value);
     }
-    let mut session = spawn_command(command, Some(PATIENCE)).unwrap();
+    let mut session = spawn_command(command, Some(TIME_LIMIT)).unwrap();
     session.exp_string("withy:1> ").unwrap();
     session
 }

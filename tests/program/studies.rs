@@ -1,4 +1,4 @@
-//! `withy study`: tables, files, references, rivals, interrupted and continued studies, and checks of the studies of the project.
+//! `withy study`: tables, files, references, other programs, interrupted and continued studies, and checks of the studies of the project.
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
@@ -48,17 +48,17 @@ const TURNED: &str = "# turned by t radians\nt,xtip,ytip,thtip,d_pos\n1,1.0806,1
 
 #[test]
 fn study_is_compared_with_a_table_and_with_other_programs() {
-    let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 5, reference: \"turned.csv\", rivals: \"rivals.csv\"";
+    let options = "meshes: [bspline(2)], dts: [0.2, 0.1], times: [1], repeats: 5, reference: \"turned.csv\", other_programs: \"other_programs.csv\"";
     let (folder, file) = script(options, "print(study.cheapest([1e9, 1e-9]));");
-    let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA implicit,A,euler,4,1,1.0806,9.6829,,an abacus\n";
-    fs::write(folder.path().join("rivals.csv"), rivals).unwrap();
+    let other_programs = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA implicit,A,euler,4,1,1.0806,9.6829,,an abacus\n";
+    fs::write(folder.path().join("other_programs.csv"), other_programs).unwrap();
     let output = withy(&["study", "--repeats", "2"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let text = printed(&output);
     assert!(text.contains("reference: turned.csv, an independent solution"), "{text}");
     assert!(text.contains("≤ "), "errors below the trusted digits are marked: {text}");
     assert!(text.contains("A implicit, euler") && text.contains("no run"), "{text}");
-    assert!(text.contains("rivals measured on an abacus"), "{text}");
+    assert!(text.contains("other programs measured on an abacus"), "{text}");
     let out = folder.path().join("out");
     let csv = fs::read_to_string(out.join("rod.csv")).unwrap();
     assert_eq!(csv.lines().filter(|line| line.contains("finished")).count(), 2, "{csv}");
@@ -114,13 +114,13 @@ fn reference_with_missing_duplicate_or_negative_values_is_reported() {
 
 #[test]
 fn wrong_results_of_other_programs_are_reported_before_any_run() {
-    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], rivals: \"rivals.csv\"";
+    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], other_programs: \"other_programs.csv\"";
     let (folder, file) = script(options, "");
-    let rivals = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA,A,euler,4,2,1,9,,an abacus\n";
-    fs::write(folder.path().join("rivals.csv"), rivals).unwrap();
+    let other_programs = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA,A,euler,4,2,1,9,,an abacus\n";
+    fs::write(folder.path().join("other_programs.csv"), other_programs).unwrap();
     let output = withy(&["study", "--max-time", "20"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(said(&output).contains("\"rivals.csv\""), "{}", said(&output));
+    assert!(said(&output).contains("\"other_programs.csv\""), "{}", said(&output));
 }
 
 #[test]
@@ -227,7 +227,7 @@ fn steps_and_time_of_each_run_are_limited() {
     let (_folder, file) = script(ENDLESS, "");
     let output = withy(&["study", "--max-steps", "25"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    let options = "meshes: [bspline(2)], dts: [0.1, 1e-8], times: [1], repeats: 1, patience: 0.2, reference: \"turned.csv\"";
+    let options = "meshes: [bspline(2)], dts: [0.1, 1e-8], times: [1], repeats: 1, time_limit: 0.2, reference: \"turned.csv\"";
     let (_folder, file) = script(options, "");
     let output = withy(&["study"], &file).output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));

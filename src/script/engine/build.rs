@@ -97,6 +97,6 @@ fn connect(engine: &mut Engine, context: &Context) {
     engine.on_progress(move |operations| {
         let late = || operations.is_multiple_of(PULSE) && is_past_deadline();
         let stop = watched.stopped_by().map(Dynamic::from);
-        stop.or_else(|| late().then(|| Dynamic::from("the study ran out of patience")))
+        stop.or_else(|| late().then(|| Dynamic::from("the study exceeded its time limit")))
     });
 }

@@ -190,7 +190,7 @@ const RANGES: Parameter = of_any_type("parameters").doc(
     "names with initial, lowest and highest value: #{ EI: [10, 1, 100] }, or the initial \
         value alone",
 );
-const PATIENCE: Parameter = number("patience")
+const TIME_LIMIT: Parameter = number("time_limit")
     .positive()
     .unit("s")
     .or(Presence::Number(600.0))
@@ -210,7 +210,7 @@ option_set! {
         step: f64 = number("step").between(1e-8, 0.1).or(Presence::Number(RELATIVE_STEP)).doc("step of differences, as a fraction of the size of a parameter"),
         derivatives: String = choice("derivatives", &["known", "differences"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"differences\": always \
             differences of runs"),
-        patience: f64 = PATIENCE,
+        time_limit: f64 = TIME_LIMIT,
     }
 }
 
@@ -224,7 +224,7 @@ option_set! {
         tolerance: f64 = number("tolerance").positive().or(Presence::Number(1e-4)).doc("accuracy of parameters, as a fraction of their ranges"),
         most_runs: usize = integer("most_runs").positive().or(Presence::Integer(500)),
         derivatives: String = choice("derivatives", &["known", "none"]).or(Presence::Text("known")).doc("\"known\": derivatives of the runs if available; \"none\": no derivatives"),
-        patience: f64 = PATIENCE,
+        time_limit: f64 = TIME_LIMIT,
     }
 }
 
@@ -354,7 +354,7 @@ fn make_fit(call: &mut Call) -> Result<Dynamic, ScriptError> {
         confidence: options.confidence,
         step: options.step,
         derivatives: Derivatives::of(&options.derivatives),
-        wall: wall(options.patience),
+        wall: wall(options.time_limit),
     };
     let fit = match call.context().mode() {
         RunMode::Run => order.run(call)?,
@@ -392,7 +392,7 @@ fn minimise(call: &mut Call) -> Result<Dynamic, ScriptError> {
             "none" => Derivatives::Unknown,
             _ => Derivatives::Known,
         },
-        wall: wall(options.patience),
+        wall: wall(options.time_limit),
     };
     let design = match call.context().mode() {
         RunMode::Run => order.run(call)?,

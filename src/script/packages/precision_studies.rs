@@ -100,7 +100,7 @@ pub const TABLE: BindingTable = BindingTable {
         method(PRECISION, "cheapest", &[ERRORS], cheapest)
             .returns(Returns::one_of(&[ValueKind::Map, ValueKind::Nothing, ValueKind::Text]).with_description("a map, () or a text"))
             .summary("Returns the fastest combination with at most this error; for several errors a \
-                table, with the other programs of the option rivals for comparison.")
+                table, with the other programs of the option other_programs for comparison.")
             .doc("For one error the result is a map like those of rows, or () if no combination \
                 reaches the error.")
             .example("let best = study.cheapest(0.5);\nprint(best.run_time);\nprint(study.cheapest([0.5, 0.01]));")

@@ -84,7 +84,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let plan = StabilityPlan::read(call, &options)?;
     let made = plan.cases(call, &options)?;
     let context = call.context();
-    let limits = case_limits(call, options.patience);
+    let limits = case_limits(call, options.time_limit);
     let shown = MapColouring::ALL.iter().find(|(name, _)| *name == options.show);
     let shown = shown.map_or(MapColouring::EnergyGrowth, |(_, shown)| *shown);
     let runner = CaseRunner::open(context, &plan.name)?;

@@ -136,7 +136,7 @@ option_set! {
         run: FnPtr = callback("run").doc("|p| …, a function of the values of a row that returns a map of numbers"),
         samples: Option<Samples> = object("samples", SAMPLES).doc("sampling plan in place of a grid: latin_hypercube(2000), sobol(4096), \
             saltelli(1024)").optional(),
-        patience: f64 = number("patience").positive().unit("s").or(Presence::Number(600.0)).doc("longest time of a run by the clock"),
+        time_limit: f64 = number("time_limit").positive().unit("s").or(Presence::Number(600.0)).doc("longest time of a run by the clock"),
     }
 }
 
@@ -233,7 +233,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let context = call.context();
     let name = study_name(call, &options.name)?;
     context.output().path_of(&format!("{name}.csv"))?;
-    let wall = Duration::from_secs_f64(options.patience.min(1e9));
+    let wall = Duration::from_secs_f64(options.time_limit.min(1e9));
     let order = SweepRequest { name, plan, function: &options.run, wall };
     let swept = match context.mode() {
         RunMode::DryRun => dry_run(call, order)?,

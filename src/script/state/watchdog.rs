@@ -74,15 +74,15 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both the wall-clock time and the processor time since `self` exceed `patience`.
-    /// Also returns true if the wall-clock time exceeds [`SHARE_OF_PROCESSOR`] times `patience`.
-    fn are_over(self, patience: Duration) -> bool {
+    /// Returns true if both the wall-clock time and the processor time since `self` exceed `time_limit`.
+    /// Also returns true if the wall-clock time exceeds [`SHARE_OF_PROCESSOR`] times `time_limit`.
+    fn are_over(self, time_limit: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {
-            (Some(before), Some(now)) => now.saturating_sub(before) > patience,
+            (Some(before), Some(now)) => now.saturating_sub(before) > time_limit,
             _ => true,
         };
-        wall > patience * SHARE_OF_PROCESSOR || wall > patience && had()
+        wall > time_limit * SHARE_OF_PROCESSOR || wall > time_limit && had()
     }
 }
 

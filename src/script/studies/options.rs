@@ -37,7 +37,7 @@ option_set! {
             .or(Presence::Text("energy growth"))
             .doc("quantity shown by the colours of the cells"),
         /// Wall-clock limit of a cell [s].
-        patience: f64 = number("patience")
+        time_limit: f64 = number("time_limit")
             .positive()
             .unit("s")
             .or(Presence::Number(60.0))
@@ -91,7 +91,7 @@ option_set! {
                 longest beam")
             .optional(),
         /// Wall-clock limit of a run [s].
-        patience: f64 = number("patience")
+        time_limit: f64 = number("time_limit")
             .positive()
             .or(Presence::Number(600.0))
             .doc("longest time of a run in seconds; longer runs fail"),
@@ -102,8 +102,8 @@ option_set! {
     /// Additional options of `study_work_precision`.
     pub struct TimedOptions {
         /// Name of a table with results of other programs.
-        rivals: Option<String> =
-            text("rivals").doc("name of a table with the run times of other programs").optional(),
+        other_programs: Option<String> =
+            text("other_programs").doc("name of a table with the run times of other programs").optional(),
         repeats: usize = integer("repeats").positive().or(Presence::Integer(5)).doc(
             "number of timed runs, with every step recorded; fewer if they take more than 10 s",
         ),

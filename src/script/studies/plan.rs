@@ -61,7 +61,7 @@ impl ErrorStudyPlan {
             .collect::<Result<_, _>>()?;
         expect_same_observables(call, &subjects[0], &subjects[1..])?;
         let length = options.length.unwrap_or_else(|| size_of(&subjects[0].scene));
-        let limits = case_limits(call, options.patience);
+        let limits = case_limits(call, options.time_limit);
         Ok(Self { name, subjects, methods, dts, times, length, limits })
     }
 

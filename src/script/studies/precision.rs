@@ -22,8 +22,8 @@ pub fn study(
 ) -> Result<Precision, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let reference = Reference::read(call, options, &mut plan)?;
-    let external_results = match &timed.rivals {
-        Some(file) => Some((read_sheet(call, "rivals", file)?, file)),
+    let external_results = match &timed.other_programs {
+        Some(file) => Some((read_sheet(call, "other_programs", file)?, file)),
         None => None,
     };
     let compared = |reference_solution: &ReferenceSolution| {
@@ -31,8 +31,8 @@ pub fn study(
         let by = (plan.times.as_slice(), plan.length);
         ExternalResult::of_sheet(sheet, plan.observables(), reference_solution, by).map_err(
             |error| {
-                let hint = "rivals are compared at one time, at stations named as in the reference";
-                at_key(call, "rivals", format!("\"{file}\": {error}"), hint)
+                let hint = "other programs are compared at one time, at stations named as in the reference";
+                at_key(call, "other_programs", format!("\"{file}\": {error}"), hint)
             },
         )
     };

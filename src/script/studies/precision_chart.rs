@@ -28,7 +28,7 @@ pub fn chart(study: &Precision) -> LineChart {
     .y_scale(AxisScale::Logarithmic)
     .sized(900.0, 640.0);
     for machine in machines(&study.external_results) {
-        chart = chart.caption(format!("rivals measured on {machine}"));
+        chart = chart.caption(format!("other programs measured on {machine}"));
     }
     let finite = |(price, error): &(f64, f64)| price.is_finite() && error.is_finite();
     let mut methods: Vec<String> = Vec::new();

@@ -90,7 +90,7 @@ impl FunctionQuery<'_> {
         let Some(config) = EngineConfig::of(calling.engine(), calling.context(), NO_FILES) else {
             return drive(&mut Evaluator::of(calling, self, Executor::ThisThread));
         };
-        let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
+        let wall = format!("{} s, the time limit", self.wall.as_secs_f64());
         let work = |worker: &_, point: QueryPoint| {
             call(
                 worker,

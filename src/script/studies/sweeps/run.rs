@@ -96,7 +96,7 @@ impl SweepRequest<'_> {
         (progress, keeper): (&mut SweepProgress, &mut Option<RowKeeper>),
     ) -> Result<(), SweepError> {
         let plan = &self.plan;
-        let wall = format!("{} s, the limit given by patience", self.wall.as_secs_f64());
+        let wall = format!("{} s, the time limit", self.wall.as_secs_f64());
         let work = |worker: &_, row| {
             let values =
                 |function_of: &dyn Fn(&str, usize) -> Option<FnPtr>| plan.values(row, function_of);
