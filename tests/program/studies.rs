@@ -114,7 +114,8 @@ fn reference_with_missing_duplicate_or_negative_values_is_reported() {
 
 #[test]
 fn wrong_results_of_other_programs_are_reported_before_any_run() {
-    let options = "meshes: [bspline(2)], dts: [1e-7], times: [1], other_programs: \"other_programs.csv\"";
+    let options =
+        "meshes: [bspline(2)], dts: [1e-7], times: [1], other_programs: \"other_programs.csv\"";
     let (folder, file) = script(options, "");
     let other_programs = "series,peer,integrator,run_time_s,t,xtip,ytip,energy_drift,machine\nA,A,euler,4,2,1,9,,an abacus\n";
     fs::write(folder.path().join("other_programs.csv"), other_programs).unwrap();

@@ -49,7 +49,8 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile, and the order if the blocks or the distant blocks couple other unknowns than before.
+    /// Updates the profile of the matrix.
+    /// The elimination order is computed again if the blocks or the [`DistantBlocks`] couple other unknowns than in the last call.
     pub(super) fn fit(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {

@@ -199,9 +199,9 @@ impl BorderedMatrix {
         }
     }
 
-    /// Returns the matrix with joint elimination of the band and the border.
+    /// Returns the matrix with joint elimination, which eliminates the band and the border together.
     /// Joint elimination is needed if the band without the border may be singular.
-    /// The last `full` rows and columns, which have entries everywhere, are not included in the joint elimination and remain a border.
+    /// The last `full` rows and columns may have entries everywhere. These rows and columns are eliminated after all others.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),

@@ -67,7 +67,7 @@ pub(super) fn first_step(scene: &Scene, model: &mut System) -> f64 {
 }
 
 /// Largest rate of a position, or of an angle multiplied by `length`.
-/// Prescribed degrees of freedom are stored after the unknowns and count as positions.
+/// Rates of prescribed degrees of freedom are at the end of `rates`. These rates are not multiplied by `length`, even for angles.
 fn fastest(model: &System, rates: &[f64], length: f64) -> f64 {
     let kinds = model.unknown_kinds().iter().map(Some).chain(std::iter::repeat(None));
     let rates = rates.iter().zip(kinds).map(|(rate, kind)| match kind {

@@ -146,7 +146,8 @@ fn shift(places: INT) -> EngineResult<INT> {
     }
 }
 
-/// Passes all operands except two numbers to the operator `symbol` of the engine.
+/// Registers the operator `name` for operands of any types. The registered function calls the operator `symbol` of the engine.
+/// Implementations for two numbers take precedence. An order comparison of values of different types is an error.
 fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(

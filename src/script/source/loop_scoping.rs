@@ -89,7 +89,8 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts the statement `letter` after the brace at `column` of a line, counted from 0. It replaces blanks if there are any.
+/// Inserts a declaration statement after the brace at `column` of a line, counted from 0.
+/// The statement consists of the character `letter` and a semicolon, which replace up to two blanks around the brace.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

@@ -62,7 +62,8 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Twice a fixed step size. For adaptive steps, the tolerance is four times as large, which doubles the steps of a second-order method.
+/// Doubles a fixed step size, or multiplies the tolerance of adaptive steps by four.
+/// With a second-order method, the adaptive steps then become twice as long.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),

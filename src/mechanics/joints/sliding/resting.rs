@@ -1,16 +1,17 @@
-//! Static laws of sliders.
+//! Sliding laws for equilibria.
 //!
 //! A static contact is treated as a contact with a path of zero length, on the master in its final configuration.
 
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
-/// Static law of a slider without friction. The potential energy of the contact is stationary (docs/theory.md, section 14.1).
+/// Sliding law for an equilibrium without friction. The potential energy of the contact is stationary (docs/theory.md, section 14.1).
 /// Without a [`Kink`](super::Kink), the axis is smooth.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
-/// Static law of a slider that a stop holds at an end of its master, including the kink of the master.
+/// Sliding law for an equilibrium in which a stop holds the slider at an end of its master.
+/// The equations of the gap include the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment of the slider to the end of the master [-].

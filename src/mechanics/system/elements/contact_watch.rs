@@ -44,7 +44,7 @@ impl ContactWatch {
 
     /// Records a step.
     /// The flags are true if the spring is slack at the start and at the end of the step.
-    /// The rates of elongation are those of the previous step and of the recorded step.
+    /// `before` is the rate of elongation in the previous step. `rate` is the rate of elongation in the recorded step.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

@@ -16,7 +16,7 @@ use crate::system::sliders::{KinkedAxis, SliderContact};
 impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
     /// Slaves and masters are moved apart by the displacement of their kinks.
-    /// At ends of masters, velocities are rotated onto the kinked axis.
+    /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
     /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
     ///
     /// # Errors

@@ -234,7 +234,7 @@ impl SimulationHandle {
     }
 
     /// Runs the simulation to a time. The run is interrupted at recorded steps to evaluate user-defined columns.
-    /// If there are controllers or release conditions, it is interrupted before every step to evaluate them.
+    /// If there are controllers or release conditions, the run is interrupted before every step to evaluate them.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,

@@ -112,7 +112,8 @@ impl SweepRequest<'_> {
         driven.map_err(SweepError::Other)?
     }
 
-    /// Runs the rows one by one in the engine of the script. Used without a complete script, because workers need one.
+    /// Runs the rows one by one in the engine of the script, for the case that no worker can be created.
+    /// A worker needs a complete script and sufficient address space.
     fn on_this_thread(
         &self,
         call: &Call,

@@ -4,7 +4,7 @@ use crate::elementary::square;
 use crate::geometry::Vec2;
 
 /// Largest ratio of the path length in a step to the length of its chord in a disc [-].
-/// For an open contact point, a shorter chord is ignored.
+/// If the ratio is larger, a path of an open contact point from outside to outside does not count as a passage through the disc.
 const LONGEST_PATH: f64 = 1e3;
 
 /// Straight path of a point relative to a disc in a step.

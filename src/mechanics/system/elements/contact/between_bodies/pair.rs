@@ -679,8 +679,9 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Vector from one foot to another in a configuration, and the increment to which its rounding error is proportional [length].
-/// For two feet on the same span, the vector is computed from the Taylor polynomial at the first foot.
+/// Vector from the nearest point `from` to the nearest point `to` on an axis with the control points `points` [length].
+/// The second returned value is the length to which the rounding error of the vector is proportional [length].
+/// For two nearest points on the same span, the vector is computed from the Taylor polynomial at `from`.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;
     if by == 0.0 {
