@@ -8,7 +8,7 @@ use withy::beams::{Mesh, Section};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner, Slider};
-use withy::loads::{PrescribedMotion, Schedule};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::{Invariant, Simulation};
 use withy::system::{
     Anchor, Drive, DriveKind, Origin, Scene, Spring, SpringKind, SpringLaw, StartMotion,
@@ -189,4 +189,40 @@ fn static_friction_below_friction_is_rejected() {
         error,
         "slider 'slider1': static_friction is 0.1, but must be at least friction, which is 0.2"
     );
+}
+
+/// Force along a block at rest on a rail: slip starts where a ramp passes the static friction, and at a jump of the force.
+/// The steps are so long that the limit is passed in the first steps.
+#[test]
+fn loads_start_a_slip_in_the_first_steps() {
+    let limit = STATIC_FRICTION * WEIGHT;
+    let slip = FRICTION * WEIGHT;
+    let ramp = [(0.0, 0.0), (1.0, 2.0 * limit)];
+    let jump = [(0.0, 0.0), (0.3, 0.0), (0.3, 1.25 * limit), (1.0, 1.25 * limit)];
+    // Impulses from the start of the slip to t = 1: on the ramp, the mean force of the second half is 1.5 limits.
+    let exact = [0.5 * (1.5 * limit - slip), 0.7 * (1.25 * limit - slip)];
+    for (points, exact) in [(ramp.to_vec(), exact[0]), (jump.to_vec(), exact[1])] {
+        for dt in [0.5, 0.4, 0.2, 0.1, 0.05] {
+            let mut scene = Scene::new("rail");
+            let mesh = Mesh::bspline(4, 3, 2).unwrap();
+            let rod = add_beam(&mut scene, line(at(-5.0, 0.0), at(5.0, 0.0)), &mesh, RIGID);
+            for along in [0.0, 10.0] {
+                let end = scene.station(rod, along).unwrap();
+                scene.join(JointKind::Rigid, end, Partner::Ground).unwrap();
+            }
+            scene.gravity = at(0.0, -WEIGHT);
+            let block = moving_particle(&mut scene, Vec2::zeros(), Vec2::zeros(), 1.0);
+            let slider = Slider::new("slider1", block, rod, 5.0);
+            let (friction, static_friction) = (FRICTION, Some(STATIC_FRICTION));
+            scene.add_slider(Slider { friction, static_friction, ..slider }).unwrap();
+            let push =
+                LoadKind::Force { station: block, force: at(1.0, 0.0), frame: LoadFrame::Dead };
+            scene.add_load(push, Schedule::Table(points.clone()));
+            let mut simulation =
+                Simulation::start(scene, settings(Method::EnergyMomentum, dt)).unwrap();
+            run(&mut simulation, 1.0).unwrap();
+            let velocity = simulation.history().samples().last().unwrap().measures.momentum.x;
+            assert!((velocity - exact).abs() < 0.02 * exact, "{dt}: {velocity} {exact}");
+        }
+    }
 }

@@ -44,7 +44,12 @@ pub fn start(uri: &Uri, document: &mut Document) {
         // The next message is not written between the test and the answer.
         let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
-            let errors = found.iter().map(|error| error_of(error, &program));
+            let errors = std::iter::once(match &found {
+                Found::Nothing => None,
+                Found::Error(error) => Some(error_of(error, &program)),
+                Found::Timeout => Some(timeout(&program)),
+            });
+            let errors = errors.flatten();
             let notes = pitfalls(&program.text).into_iter().map(|of| note_of(of, &program.text));
             publish(uri, Some(version), errors.chain(notes).collect());
         }
@@ -62,8 +67,14 @@ pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>
     send(lsp_server::Notification::new(method.into(), shown));
 }
 
-/// Error of a script; `None` if no error was found in time.
-fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<Diagnostic> {
+enum Found {
+    Nothing,
+    Error(Diagnostic),
+    /// No error in the part of the script that was checked in time.
+    Timeout,
+}
+
+fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Found {
     let settings = RunSettings {
         interrupt: Arc::clone(stopped),
         limits: Limits { time: Some(LONGEST_CHECK), ..Limits::default() },
@@ -71,10 +82,18 @@ fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<Diagnostic> {
     };
     let outcome = runner::run(program, &language(), settings);
     match (outcome.ending, outcome.stopped_by) {
-        (_, Some(Stop::Time(_))) => None,
-        (Ending::Failed(diagnostic), _) => Some(diagnostic),
-        _ => None,
+        (_, Some(Stop::Time(_))) => Found::Timeout,
+        (Ending::Failed(diagnostic), _) => Found::Error(diagnostic),
+        _ => Found::Nothing,
     }
+}
+
+fn timeout(program: &Program) -> lsp::Diagnostic {
+    let message = format!(
+        "the check was stopped after {} s; the rest of the script is not checked",
+        LONGEST_CHECK.as_secs()
+    );
+    shown(line_range(&program.text, 1), lsp::DiagnosticSeverity::Warning, message)
 }
 
 fn error_of(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {

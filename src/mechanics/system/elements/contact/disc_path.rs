@@ -4,8 +4,12 @@ use crate::elementary::square;
 use crate::geometry::Vec2;
 
 /// Largest ratio of the path length in a step to the length of its chord in a disc [-].
-/// If the ratio is larger, a path of an open contact point from outside to outside does not count as a passage through the disc.
+/// If the ratio is larger and the chord is shorter than `GRAZING`, a path of an open contact point from outside to outside does not count as
+/// a passage through the disc.
 const LONGEST_PATH: f64 = 1e3;
+
+/// Largest length of a chord that a long path may ignore, as a fraction of the radius of the disc [-].
+const GRAZING: f64 = 0.1;
 
 /// Straight path of a point relative to a disc in a step.
 pub struct DiscPath {
@@ -31,7 +35,8 @@ impl DiscPath {
         let nearest_end = start.norm().min((start + movement).norm());
         let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
         let is_open = nearest_end >= radius && !is_closed;
-        let allowed = if is_open { length / LONGEST_PATH } else { nearest_end };
+        let ignored = (length / LONGEST_PATH).min(GRAZING * radius);
+        let allowed = if is_open { ignored } else { nearest_end };
         is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
     }
 }

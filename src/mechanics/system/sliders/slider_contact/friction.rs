@@ -141,15 +141,17 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that `restore` reads: the sign of the slip, the mean force, and the state of the static friction.
+    /// Numbers that `restore` reads: the sign of the slip, the mean force, the longest step, the number of transitions, and the state of the static friction.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let sticking = self.static_friction.as_ref().map(StaticFriction::numbers);
-        [self.mode_number(), self.force].into_iter().chain(sticking.into_iter().flatten())
+        let own = [self.mode_number(), self.force, self.longest, self.transitions as f64];
+        own.into_iter().chain(sticking.into_iter().flatten())
     }
 
     pub(super) fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.set_mode_number(next());
-        self.force = next();
+        (self.force, self.longest) = (next(), next());
+        self.transitions = next() as usize;
         if let Some(of) = &mut self.static_friction {
             of.restore(std::array::from_fn(|_| next()));
         }

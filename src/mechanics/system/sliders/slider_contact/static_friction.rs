@@ -8,6 +8,9 @@
 //! A = (h₀ F₀ + h₁ F₁)/(h₀ + h₁)      B = (h₁ F₁ + h₂ F₂)/(h₁ + h₂)      F_end = A + (A - B)(h₀ + h₁)/(h₀ + h₂)
 //! ```
 //!
+//! In the second step after a slip, `F_end` is extrapolated from `F₀` and `F₁`, and in the first step it is `F₀`.
+//! The force `F₀` itself must not exceed the limit, so that a slip starts at a jump of a load.
+//!
 //! The averages remove forces whose impulses change sign from step to step. Such forces belong to vibrations that the steps do not resolve.
 
 /// Largest difference between the force along the master and its limit at the start of a slip, as a fraction of the force.
@@ -59,15 +62,24 @@ impl StaticFriction {
 
     fn end_reserve(&self, step: StickingForces) -> f64 {
         let [last, before] = self.last;
-        let late = step.joined(last);
-        let early = last.joined(before);
-        let [along, across] = if before.duration > 0.0 {
-            let factor = late.duration / (step.duration + before.duration);
-            [(late.along, early.along), (late.across, early.across)]
-                .map(|(late, early)| late + (late - early) * factor)
-        } else {
-            [late.along, late.across]
+        let of_step = self.limit_reserve([step.along, step.across]);
+        if last.duration == 0.0 {
+            return of_step;
+        }
+        let (late, early, factor) = match before.duration > 0.0 {
+            true => {
+                let late = step.joined(last);
+                let factor = late.duration / (step.duration + before.duration);
+                (late, last.joined(before), factor)
+            }
+            false => (step, last, step.duration / (step.duration + last.duration)),
         };
+        let at_end = [(late.along, early.along), (late.across, early.across)]
+            .map(|(late, early)| late + (late - early) * factor);
+        self.limit_reserve(at_end).min(of_step)
+    }
+
+    fn limit_reserve(&self, [along, across]: [f64; 2]) -> f64 {
         self.coefficient * across.abs() - along.abs()
     }
 
