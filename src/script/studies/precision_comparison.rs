@@ -13,7 +13,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
         "error",
         "drift E",
         "with",
-        "rival",
+        "other program",
         "[ms]",
         "error",
         "drift E",
@@ -61,7 +61,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let machines = machines(&study.external_results);
     let measured = match machines.as_slice() {
         [] => String::new(),
-        machines => format!("\nrivals measured on {}", machines.join("; ")),
+        machines => format!("\nother programs measured on {}", machines.join("; ")),
     };
     let confirmed: String = errors.iter().filter_map(|error| confirmation(study, *error)).collect();
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
