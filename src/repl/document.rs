@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::time::Instant;
 
-use super::commands::explained;
+use super::commands::help_on;
 use super::editor::surroundings::{CompletionContext, ScriptFunction, Variable};
 use super::editor::type_before;
 use super::session::Session;
@@ -55,18 +55,18 @@ pub fn names_at(
 /// `None` if there is no name, or no help on it.
 pub fn help_at(program: &Program, offset: usize, limits: Limits) -> Option<(Range<usize>, String)> {
     let text = &*program.text;
-    let asked = Asked::at(text, offset)?;
+    let target = HelpTarget::at(text, offset)?;
     let explain = |shell: &mut Shell| {
         let pages =
-            asked.names(text, shell).into_iter().find_map(|name| explained(shell, &name).ok())?;
+            target.names(text, shell).into_iter().find_map(|name| help_on(shell, &name).ok())?;
         let pages: Vec<String> = pages.iter().map(|known| known.page.plain(WIDTH)).collect();
         Some(pages.join("\n"))
     };
-    let help = match asked.is_key {
-        true => Some(lookup::page(&language(), asked.word(text)).ok()?.plain(WIDTH)),
+    let help = match target.is_key {
+        true => Some(lookup::page(&language(), target.word(text)).ok()?.plain(WIDTH)),
         false => after_statements(program, text, limits, explain).ok()?,
     };
-    Some((asked.place.clone(), help?))
+    Some((target.place.clone(), help?))
 }
 
 /// Calls `work` with a session that has evaluated `text`, which is a part of `program`.
@@ -117,7 +117,7 @@ fn statements(text: &str) -> Vec<&str> {
 }
 
 /// Name on which help is requested.
-struct Asked {
+struct HelpTarget {
     place: Range<usize>,
     /// Start of the path that ends with the name, as in `sim.history` or `sections::pipe` [bytes].
     path: usize,
@@ -127,7 +127,7 @@ struct Asked {
     is_key: bool,
 }
 
-impl Asked {
+impl HelpTarget {
     fn at(text: &str, offset: usize) -> Option<Self> {
         let tokens: Vec<Token> = scan(text).into_iter().filter(Token::is_significant).collect();
         let is_here = |token: &Token| {

@@ -44,14 +44,9 @@ pub fn start(uri: &Uri, document: &mut Document) {
         // The next message is not written between the test and the answer.
         let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
-            let errors = std::iter::once(match &found {
-                Found::Nothing => None,
-                Found::Error(error) => Some(error_of(error, &program)),
-                Found::Timeout => Some(timeout(&program)),
-            });
-            let errors = errors.flatten();
-            let notes = pitfalls(&program.text).into_iter().map(|of| note_of(of, &program.text));
-            publish(uri, Some(version), errors.chain(notes).collect());
+            let notes = pitfalls(&program.text).into_iter();
+            let warnings = notes.map(|pitfall| pitfall_warning(pitfall, &program.text));
+            publish(uri, Some(version), found.into_iter().chain(warnings).collect());
         }
     });
 }
@@ -67,14 +62,8 @@ pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>
     send(lsp_server::Notification::new(method.into(), shown));
 }
 
-enum Found {
-    Nothing,
-    Error(Diagnostic),
-    /// No error in the part of the script that was checked in time.
-    Timeout,
-}
-
-fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Found {
+/// Error of a script, or a warning if the check was stopped; `None` if no error was found.
+fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<lsp::Diagnostic> {
     let settings = RunSettings {
         interrupt: Arc::clone(stopped),
         limits: Limits { time: Some(LONGEST_CHECK), ..Limits::default() },
@@ -82,21 +71,21 @@ fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Found {
     };
     let outcome = runner::run(program, &language(), settings);
     match (outcome.ending, outcome.stopped_by) {
-        (_, Some(Stop::Time(_))) => Found::Timeout,
-        (Ending::Failed(diagnostic), _) => Found::Error(diagnostic),
-        _ => Found::Nothing,
+        (_, Some(Stop::Time(_))) => Some(timeout_warning(program)),
+        (Ending::Failed(error), _) => Some(error_diagnostic(&error, program)),
+        _ => None,
     }
 }
 
-fn timeout(program: &Program) -> lsp::Diagnostic {
+fn timeout_warning(program: &Program) -> lsp::Diagnostic {
     let message = format!(
         "the check was stopped after {} s; the rest of the script is not checked",
         LONGEST_CHECK.as_secs()
     );
-    shown(line_range(&program.text, 1), lsp::DiagnosticSeverity::Warning, message)
+    diagnostic(line_range(&program.text, 1), lsp::DiagnosticSeverity::Warning, message)
 }
 
-fn error_of(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {
+fn error_diagnostic(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {
     let is_here = |at: &&Location| at.program.name == program.name;
     let here = error.location.as_ref().filter(is_here);
     let elsewhere = error.location.as_ref().filter(|at| !is_here(at));
@@ -110,16 +99,20 @@ fn error_of(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {
     let lines: Vec<&str> = [&error.message].into_iter().chain(&notes).map(String::as_str).collect();
     lsp::Diagnostic {
         related_information: elsewhere.and_then(related).map(|place| vec![place]),
-        ..shown(range, lsp::DiagnosticSeverity::Error, lines.join("\n"))
+        ..diagnostic(range, lsp::DiagnosticSeverity::Error, lines.join("\n"))
     }
 }
 
-fn note_of(Pitfall { at, note }: Pitfall, text: &str) -> lsp::Diagnostic {
+fn pitfall_warning(Pitfall { at, note }: Pitfall, text: &str) -> lsp::Diagnostic {
     let length = scan(&text[at..]).first().map_or(0, |token| token.end);
-    shown(positions::range(text, at..at + length), lsp::DiagnosticSeverity::Warning, note)
+    diagnostic(positions::range(text, at..at + length), lsp::DiagnosticSeverity::Warning, note)
 }
 
-fn shown(range: lsp::Range, severity: lsp::DiagnosticSeverity, message: String) -> lsp::Diagnostic {
+fn diagnostic(
+    range: lsp::Range,
+    severity: lsp::DiagnosticSeverity,
+    message: String,
+) -> lsp::Diagnostic {
     lsp::Diagnostic {
         range,
         severity: Some(severity),

@@ -28,12 +28,12 @@ pub fn lsp() -> Exit {
     for message in messages() {
         match message {
             Message::Request(Request { id, method, params }) => {
-                send(server.respond(id, &method, params));
+                send(server.handle_request(id, &method, params));
             }
             Message::Notification(Notification { method, .. }) if method == "exit" => break,
             Message::Notification(Notification { method, params }) => {
                 // A notification has no answer, so that an error in it cannot be reported.
-                let _ = panics::caught(|| server.note(&method, params));
+                let _ = panics::caught(|| server.handle_notification(&method, params));
             }
             Message::Response(_) => (),
         }
@@ -64,77 +64,79 @@ struct Server {
 
 type Answer = Result<Value, ResponseError>;
 
-fn refused(code: ErrorCode, message: impl Into<String>) -> ResponseError {
+fn response_error(code: ErrorCode, message: impl Into<String>) -> ResponseError {
     ResponseError { code: code as i32, message: message.into(), data: None }
 }
 
-fn read<P: DeserializeOwned>(params: Value) -> Result<P, ResponseError> {
+fn from_json<P: DeserializeOwned>(params: Value) -> Result<P, ResponseError> {
     serde_json::from_value(params)
-        .map_err(|error| refused(ErrorCode::InvalidParams, error.to_string()))
+        .map_err(|error| response_error(ErrorCode::InvalidParams, error.to_string()))
 }
 
-fn written(result: impl Serialize) -> Answer {
-    to_value(result).map_err(|error| refused(ErrorCode::InternalError, error.to_string()))
+fn to_json(result: impl Serialize) -> Answer {
+    to_value(result).map_err(|error| response_error(ErrorCode::InternalError, error.to_string()))
 }
 
 impl Server {
-    fn respond(&mut self, id: RequestId, method: &str, params: Value) -> Response {
+    fn handle_request(&mut self, id: RequestId, method: &str, params: Value) -> Response {
         let answer = panics::caught(|| self.answer(method, params));
-        let answer = answer.unwrap_or_else(|panic| Err(refused(ErrorCode::InternalError, panic)));
+        let answer =
+            answer.unwrap_or_else(|panic| Err(response_error(ErrorCode::InternalError, panic)));
         Response { id, response_result: answer }
     }
 
     fn answer(&mut self, method: &str, params: Value) -> Answer {
         match (self.phase, method) {
-            (Phase::Start, "initialize") => self.initialize(read(params)?),
-            (Phase::Start, _) => {
-                Err(refused(ErrorCode::ServerNotInitialized, "expected the request initialize"))
-            }
+            (Phase::Start, "initialize") => self.initialize(from_json(params)?),
+            (Phase::Start, _) => Err(response_error(
+                ErrorCode::ServerNotInitialized,
+                "expected the request initialize",
+            )),
             (Phase::ShutDown, _) => {
-                Err(refused(ErrorCode::InvalidRequest, "expected the notification exit"))
+                Err(response_error(ErrorCode::InvalidRequest, "expected the notification exit"))
             }
             (Phase::Running, "initialize") => {
-                Err(refused(ErrorCode::InvalidRequest, "the server is already initialized"))
+                Err(response_error(ErrorCode::InvalidRequest, "the server is already initialized"))
             }
             (Phase::Running, "shutdown") => {
                 self.phase = Phase::ShutDown;
                 self.documents.0.values().for_each(checks::stop);
                 Ok(Value::Null)
             }
-            (Phase::Running, method) => self.answer_about_place(method, params),
+            (Phase::Running, method) => self.answer_at_position(method, params),
         }
     }
 
-    fn answer_about_place(&self, method: &str, params: Value) -> Answer {
+    fn answer_at_position(&self, method: &str, params: Value) -> Answer {
         match LspRequestMethod::from(method) {
             LspRequestMethod::TextDocumentCompletion => {
-                let asked: lsp::CompletionParams = read(params)?;
-                let at = self.place(&asked.text_document_position_params)?;
-                let trigger = asked.context.and_then(|context| context.trigger_character);
-                written(answers::completion(&at, trigger.as_deref()))
+                let params: lsp::CompletionParams = from_json(params)?;
+                let at = self.place(&params.text_document_position_params)?;
+                let trigger = params.context.and_then(|context| context.trigger_character);
+                to_json(answers::completion(&at, trigger.as_deref()))
             }
             LspRequestMethod::TextDocumentHover => {
-                let asked: lsp::HoverParams = read(params)?;
-                let at = self.place(&asked.text_document_position_params)?;
+                let params: lsp::HoverParams = from_json(params)?;
+                let at = self.place(&params.text_document_position_params)?;
                 let format = match self.shows_markdown {
                     true => lsp::MarkupKind::Markdown,
                     false => lsp::MarkupKind::PlainText,
                 };
-                written(answers::hover(&at, format))
+                to_json(answers::hover(&at, format))
             }
             LspRequestMethod::TextDocumentSignatureHelp => {
-                let asked: lsp::SignatureHelpParams = read(params)?;
-                let at = self.place(&asked.text_document_position_params)?;
-                written(answers::signature_help(&at))
+                let params: lsp::SignatureHelpParams = from_json(params)?;
+                let at = self.place(&params.text_document_position_params)?;
+                to_json(answers::signature_help(&at))
             }
             LspRequestMethod::TextDocumentDefinition => {
-                let asked: lsp::DefinitionParams = read(params)?;
-                let at = self.place(&asked.text_document_position_params)?;
-                written(answers::definitions(&at, &self.documents))
+                let params: lsp::DefinitionParams = from_json(params)?;
+                let at = self.place(&params.text_document_position_params)?;
+                to_json(answers::definitions(&at, &self.documents))
             }
             _ => {
                 let message = format!("the method '{method}' is not supported");
-                Err(refused(ErrorCode::MethodNotFound, message))
+                Err(response_error(ErrorCode::MethodNotFound, message))
             }
         }
     }
@@ -166,32 +168,32 @@ impl Server {
             ..lsp::ServerCapabilities::default()
         };
         let server = json!({ "name": "withy", "version": env!("CARGO_PKG_VERSION") });
-        written(json!({ "capabilities": capabilities, "serverInfo": server }))
+        to_json(json!({ "capabilities": capabilities, "serverInfo": server }))
     }
 
     fn place<'s>(
         &'s self,
-        asked: &'s lsp::TextDocumentPositionParams,
+        params: &'s lsp::TextDocumentPositionParams,
     ) -> Result<Place<'s>, ResponseError> {
-        let uri = &asked.text_document.uri;
+        let uri = &params.text_document.uri;
         let document = self.documents.0.get(uri).ok_or_else(|| {
-            refused(ErrorCode::InvalidParams, format!("the document {} is not open", uri.0))
+            response_error(ErrorCode::InvalidParams, format!("the document {} is not open", uri.0))
         })?;
-        Ok(Place { uri, document, offset: positions::offset(&document.text, asked.position) })
+        Ok(Place { uri, document, offset: positions::offset(&document.text, params.position) })
     }
 
-    fn note(&mut self, method: &str, params: Value) -> Result<(), ResponseError> {
+    fn handle_notification(&mut self, method: &str, params: Value) -> Result<(), ResponseError> {
         if !matches!(self.phase, Phase::Running) {
             return Ok(());
         }
         match LspNotificationMethod::from(method) {
             LspNotificationMethod::TextDocumentDidOpen => {
-                let opened: lsp::DidOpenTextDocumentParams = read(params)?;
+                let opened: lsp::DidOpenTextDocumentParams = from_json(params)?;
                 let lsp::TextDocumentItem { uri, version, text, .. } = opened.text_document;
                 self.set(uri, Document::new(version, text));
             }
             LspNotificationMethod::TextDocumentDidChange => {
-                let changed: lsp::DidChangeTextDocumentParams = read(params)?;
+                let changed: lsp::DidChangeTextDocumentParams = from_json(params)?;
                 let of = changed.text_document;
                 if let Some(document) = self.documents.0.get_mut(&of.text_document_identifier.uri) {
                     document.version = of.version;
@@ -207,7 +209,7 @@ impl Server {
                 }
             }
             LspNotificationMethod::TextDocumentDidClose => {
-                let closed: lsp::DidCloseTextDocumentParams = read(params)?;
+                let closed: lsp::DidCloseTextDocumentParams = from_json(params)?;
                 let uri = closed.text_document.uri;
                 self.documents.0.remove(&uri).iter().for_each(checks::stop);
                 checks::publish(uri, None, Vec::new());

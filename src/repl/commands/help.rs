@@ -17,13 +17,13 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     if name.starts_with(':') {
         return match find(name) {
             Ok(command) => {
-                let page = on_command(command);
+                let page = command_page(command);
                 show(shell, &[drawn(shell, &page)])
             }
             Err(refusal) => shell.report_error(&refusal),
         };
     }
-    match explained(shell, name) {
+    match help_on(shell, name) {
         Ok(found) => {
             let text = |found: NameInfo| {
                 format!("{}{}", drawn(shell, &found.page), found.shown.unwrap_or_default())
@@ -39,7 +39,7 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
 ///
 /// # Errors
 /// Fails if no help exists for this name. The error contains suggestions.
-pub fn explained(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnostic> {
+pub fn help_on(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnostic> {
     let mut found = Vec::new();
     let mut name_of_page = in_language(shell, name);
     if let Some(of_session) = known(shell, name) {
@@ -51,7 +51,7 @@ pub fn explained(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnos
         }
     }
     let command = COMMANDS.iter().find(|command| command.name[1..] == *name);
-    let of_command = command.map(|command| NameInfo::of_language(on_command(command)));
+    let of_command = command.map(|command| NameInfo::of_language(command_page(command)));
     match lookup::page(shell.session().catalog(), &name_of_page) {
         Ok(page) => {
             found.push(NameInfo::of_language(page));
@@ -76,7 +76,7 @@ pub fn explained(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnos
     Ok(found)
 }
 
-fn on_command(command: &Command) -> HelpPage {
+fn command_page(command: &Command) -> HelpPage {
     let mut page = HelpPage::default();
     page.heading(command.usage());
     page.paragraph(&format!("At the prompt, it {}.", command.summary));

@@ -10,6 +10,6 @@ mod stepping;
 mod table;
 mod timing;
 
-pub use help::explained;
+pub use help::help_on;
 pub use plain_commands::meant;
 pub use table::{COMMANDS, Command, HELP, QUIT, find};

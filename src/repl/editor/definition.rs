@@ -20,7 +20,7 @@ pub enum Definition<'t> {
 
 /// Definition of the name, or of the path of an import, at byte `offset`.
 pub fn definition(text: &str, offset: usize) -> Option<Definition<'_>> {
-    let code = Code::of(text);
+    let code = TokenizedText::of(text);
     let is_here = |token: &Token| (token.start..=token.end).contains(&offset);
     let is_word = |token: &Token| token.kind == TokenKind::Word && is_here(token);
     let mut tokens = code.tokens.iter();
@@ -51,7 +51,7 @@ pub fn definition(text: &str, offset: usize) -> Option<Definition<'_>> {
 
 /// Definitions of a name that other scripts can use: functions, and variables outside functions and blocks.
 pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
-    Code::of(text).exported(name)
+    TokenizedText::of(text).exported(name)
 }
 
 /// Largest number of parameters of a function. It limits the run time for texts with errors.
@@ -60,26 +60,26 @@ const MOST_PARAMETERS: usize = 100;
 /// Tokens between the word `fn` and the parameters, as in `fn number.twice()`.
 const LONGEST_NAME: usize = 3;
 
-struct Code<'t> {
+struct TokenizedText<'t> {
     text: &'t str,
     tokens: Vec<Token>,
 }
 
 /// Names that are visible up to the end of a bracket or closure.
 #[derive(Default)]
-struct Names {
+struct Scope {
     is_closure: bool,
     /// True for the body of a function, where outer variables are not visible.
     is_function: bool,
     declared: Vec<usize>,
     /// Name in a declaration whose value is not complete.
-    coming: Option<usize>,
+    pending: Option<usize>,
     /// Names that are visible in the next block: parameters, loop variables, and errors.
-    of_block: Vec<usize>,
-    is_of_function: bool,
+    next_block: Vec<usize>,
+    next_is_function: bool,
 }
 
-impl<'t> Code<'t> {
+impl<'t> TokenizedText<'t> {
     fn of(text: &'t str) -> Self {
         Self { text, tokens: scan(text).into_iter().filter(Token::is_significant).collect() }
     }
@@ -140,14 +140,14 @@ impl<'t> Code<'t> {
 
     /// Declaration of the variable at the token `of`; empty if there is none.
     fn variable(&self, of: usize) -> Vec<Range<usize>> {
-        let mut scopes = vec![Names::default()];
+        let mut scopes = vec![Scope::default()];
         for at in 0..=of {
             self.read(at, &mut scopes);
         }
         let mut visible = Vec::new();
         for scope in scopes.iter().rev() {
-            let of_block = scope.of_block.iter().rev();
-            let own = scope.coming.iter().filter(|at| **at == of).chain(of_block);
+            let next_block = scope.next_block.iter().rev();
+            let own = scope.pending.iter().filter(|at| **at == of).chain(next_block);
             visible.extend(own.chain(scope.declared.iter().rev()).copied());
             if scope.is_function {
                 break;
@@ -158,7 +158,7 @@ impl<'t> Code<'t> {
         found.map(|at| self.range(at)).into_iter().collect()
     }
 
-    fn read(&self, at: usize, scopes: &mut Vec<Names>) {
+    fn read(&self, at: usize, scopes: &mut Vec<Scope>) {
         let token = self.tokens[at];
         if matches!(token.kind, TokenKind::Close(_)) || matches!(self.written(at), "," | ";") {
             while scopes.len() > 1 && scopes.last().is_some_and(|scope| scope.is_closure) {
@@ -172,30 +172,30 @@ impl<'t> Code<'t> {
         }
         let starts_closure = self.written(at) == "|" && !self.ends_value(at.wrapping_sub(1));
         if starts_closure {
-            scopes.push(Names { is_closure: true, ..Names::default() });
+            scopes.push(Scope { is_closure: true, ..Scope::default() });
         }
         let Some(scope) = scopes.last_mut() else { return };
         match self.written(at) {
-            "let" | "const" => scope.coming = Some(at + 1),
+            "let" | "const" => scope.pending = Some(at + 1),
             "as" => scope.declared.push(at + 1),
-            ";" => scope.declared.extend(scope.coming.take()),
+            ";" => scope.declared.extend(scope.pending.take()),
             "|" if starts_closure => scope.declared.extend(self.words_until(at, "|")),
-            "for" => scope.of_block = self.words_until(at, "in"),
-            "catch" => scope.of_block = self.words_until(at, ")"),
+            "for" => scope.next_block = self.words_until(at, "in"),
+            "catch" => scope.next_block = self.words_until(at, ")"),
             "fn" => {
                 let name = self.name_of_function(at).unwrap_or(at);
-                scope.of_block = self.words_until(name, ")");
-                scope.is_of_function = true;
+                scope.next_block = self.words_until(name, ")");
+                scope.next_is_function = true;
             }
             _ => (),
         }
     }
 
-    fn open(&self, bracket: Bracket, scopes: &mut Vec<Names>) {
-        let mut inner = Names::default();
+    fn open(&self, bracket: Bracket, scopes: &mut Vec<Scope>) {
+        let mut inner = Scope::default();
         if let Some(outer) = scopes.last_mut().filter(|_| bracket == Bracket::Curly) {
-            inner.declared = std::mem::take(&mut outer.of_block);
-            inner.is_function = std::mem::take(&mut outer.is_of_function);
+            inner.declared = std::mem::take(&mut outer.next_block);
+            inner.is_function = std::mem::take(&mut outer.next_is_function);
         }
         scopes.push(inner);
     }

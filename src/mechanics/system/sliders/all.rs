@@ -206,26 +206,25 @@ impl Sliders {
     fn friction_overshoot(&self, unknowns: &[f64], aim: Option<SliderEvent>) -> Option<Overshoot> {
         let mut starts = None;
         for (index, slider) in self.iter().enumerate() {
-            let event = SliderEvent::SlipEnd(index);
-            let (number, is_aim) = (event.number(), aim == Some(event));
-            if is_aim {
+            let [end, start] = [SliderEvent::SlipEnd(index), SliderEvent::SlipStart(index)];
+            if aim == Some(end) {
                 if let Some(distance) = slider.missed_slip_end(unknowns) {
-                    return Some(Overshoot { event: number, distance });
+                    return Some(Overshoot { event: end.number(), distance });
                 }
                 continue;
             }
             match slider.friction_transition(unknowns) {
                 Some(FrictionTransition::SlipEnds { reversed: distance }) => {
-                    return Some(Overshoot { event: number, distance });
+                    return Some(Overshoot { event: end.number(), distance });
                 }
-                Some(FrictionTransition::SlipStarts { excess }) => {
-                    let event = SliderEvent::SlipStart(index).number();
-                    starts = starts.or(Some(Overshoot { event, distance: excess }));
+                Some(FrictionTransition::SlipStarts { excess: distance }) => {
+                    starts = starts.or(Some(Overshoot { event: start.number(), distance }));
                 }
-                None if aim == Some(SliderEvent::SlipStart(index)) => {
-                    let event = SliderEvent::SlipStart(index).number();
-                    let missed = slider.missed_slip_start();
-                    starts = missed.map(|reserve| Overshoot { event, distance: -reserve });
+                None if aim == Some(start) => {
+                    let missed = slider.missed_slip_start().map(|reserve| -reserve);
+                    let missed =
+                        missed.map(|distance| Overshoot { event: start.number(), distance });
+                    starts = starts.or(missed);
                 }
                 None => {}
             }

@@ -3,12 +3,10 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Largest ratio of the path length in a step to the length of its chord in a disc [-].
-/// If the ratio is larger and the chord is shorter than `GRAZING`, a path of an open contact point from outside to outside does not count as
-/// a passage through the disc.
+/// Largest ratio of the length of a grazing path in a step to the length of its chord in the disc, for a passage through the disc [-].
 const LONGEST_PATH: f64 = 1e3;
 
-/// Largest length of a chord that a long path may ignore, as a fraction of the radius of the disc [-].
+/// Largest length of the chord of a grazing path, as a fraction of the radius of the disc [-].
 const GRAZING: f64 = 0.1;
 
 /// Straight path of a point relative to a disc in a step.
@@ -35,8 +33,8 @@ impl DiscPath {
         let nearest_end = start.norm().min((start + movement).norm());
         let half_chord_squared = square(nearest_end.min(radius)) - deepest.norm_squared();
         let is_open = nearest_end >= radius && !is_closed;
-        let ignored = (length / LONGEST_PATH).min(GRAZING * radius);
-        let allowed = if is_open { ignored } else { nearest_end };
+        let grazing = (length / LONGEST_PATH).min(GRAZING * radius);
+        let allowed = if is_open { grazing } else { nearest_end };
         is_within && 2.0 * half_chord_squared.max(0.0).sqrt() > allowed
     }
 }

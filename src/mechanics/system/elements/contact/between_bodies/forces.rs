@@ -100,22 +100,21 @@ impl PairForces {
     }
 
     /// Returns true if no bodies can touch, because all control points are close to their positions in the configuration `start`.
-    /// The argument `position` returns the present position of a control point of a body.
-    fn is_clear(&self, position: impl Fn(usize, usize) -> Vec2) -> bool {
+    /// The argument `movement` returns the displacement of a control point of a body in the step.
+    fn is_clear(&self, bodies: &[Body], movement: impl Fn(&Body, usize) -> Vec2) -> bool {
         let is_near_start = |shape: &Shape| {
-            let moved = |(at, start): (usize, &Vec2)| position(shape.body, at) - start;
-            let squared = shape.start.points.iter().enumerate().map(moved);
-            let farthest = squared.map(|by| by.norm_squared()).fold(0.0, larger);
+            let body = &bodies[shape.body];
+            let controls = body.dynamics.control_points().iter().zip(&shape.start.points);
+            let apart =
+                controls.enumerate().map(|(at, (now, start))| now + movement(body, at) - start);
+            let farthest = apart.map(|by| by.norm_squared()).fold(0.0, larger);
             farthest * square(2.0 * shape.amplification()) < square(self.clearance)
         };
         self.clearance > 0.0 && self.pairs.is_empty() && self.shapes.iter().all(is_near_start)
     }
 
     fn is_clear_with(&self, bodies: &[Body], increments: &[f64]) -> bool {
-        self.is_clear(|body, at| {
-            let body = &bodies[body];
-            body.dynamics.control_points()[at] + body.vector_at(at, increments)
-        })
+        self.is_clear(bodies, |body, at| body.vector_at(at, increments))
     }
 
     /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
@@ -130,13 +129,18 @@ impl PairForces {
         self.find_pairs();
     }
 
+    /// Sets the configuration `start` to the positions at the start of the step, if it is older.
+    fn use_present_start(&mut self, bodies: &[Body]) {
+        if !self.is_current {
+            self.set_configuration(bodies);
+        }
+    }
+
     fn move_to(&mut self, bodies: &[Body], increments: &[f64]) {
         if self.is_clear_with(bodies, increments) {
             return;
         }
-        if !self.is_current {
-            self.set_configuration(bodies);
-        }
+        self.use_present_start(bodies);
         for shape in &mut self.shapes {
             shape.move_by(bodies[shape.body].by_control_point(increments));
         }
@@ -166,17 +170,6 @@ impl PairForces {
                 }
             }
         }
-    }
-
-    /// Moves all shapes by the increments of the step that are stored in the bodies.
-    fn move_to_end(&mut self, bodies: &[Body]) {
-        if !self.is_current {
-            self.set_configuration(bodies);
-        }
-        for shape in &mut self.shapes {
-            shape.move_by(bodies[shape.body].moved().iter().copied());
-        }
-        self.prepare_pairs();
     }
 
     /// Computes the boxes and samples of all touched bodies, which the search for nearest points needs.
@@ -297,12 +290,16 @@ impl InternalForce for PairForces {
 
     fn advance(&mut self, bodies: &[Body]) {
         let time = ContactTime::new(&self.rate_history, self.stage);
-        let is_clear = self.is_clear(|body, at| {
-            let [x, y, _] = bodies[body].moved()[at];
-            bodies[body].dynamics.control_points()[at] + Vec2::new(x, y)
+        let is_clear = self.is_clear(bodies, |body, at| {
+            let [x, y, _] = body.moved()[at];
+            Vec2::new(x, y)
         });
         if !is_clear {
-            self.move_to_end(bodies);
+            self.use_present_start(bodies);
+            for shape in &mut self.shapes {
+                shape.move_by(bodies[shape.body].moved().iter().copied());
+            }
+            self.prepare_pairs();
         }
         let was_open = !self.pairs.iter().any(|pair| pair.normal.is_closed());
         let (mut force, mut rate) = (0.0, 0.0);

@@ -53,25 +53,6 @@ impl PairIndex {
         ]
     }
 
-    pub(super) fn save(self, state: &mut Vec<f64>) {
-        state.extend([self.shape, self.site, self.target].map(|index| index as f64));
-    }
-
-    /// Reads the indices of a saved contact, and returns them with the candidate pair of the contact.
-    /// Returns `None` if the model has no such contact.
-    pub(super) fn restored<'c>(
-        shapes: &[Shape],
-        candidates: &'c [CandidatePair],
-        next: &mut dyn FnMut() -> Option<f64>,
-    ) -> Option<(Self, &'c CandidatePair)> {
-        let mut index = || Some(next()? as usize);
-        let index = Self { shape: index()?, site: index()?, target: index()? };
-        let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
-        let candidate = candidates.iter().find(is_own)?;
-        shapes[index.shape].sites.get(index.site)?;
-        Some((index, candidate))
-    }
-
     pub(super) fn allowed(self, shapes: &[Shape]) -> AllowedParts {
         let is_own_axis = self.shape == self.target;
         if is_own_axis { shapes[self.shape].sites[self.site].allowed } else { WHOLE_AXIS }
@@ -619,7 +600,11 @@ impl ContactPair {
         candidates: &[CandidatePair],
         next: &mut dyn FnMut() -> Option<f64>,
     ) -> Option<Self> {
-        let (index, candidate) = PairIndex::restored(shapes, candidates, next)?;
+        let mut index = || Some(next()? as usize);
+        let index = PairIndex { shape: index()?, site: index()?, target: index()? };
+        let is_own = |one: &&CandidatePair| (one.shape, one.target) == (index.shape, index.target);
+        let candidate = candidates.iter().find(is_own)?;
+        shapes[index.shape].sites.get(index.site)?;
         let (span, xi) = (next()? as usize, next()?);
         let foot = shapes[index.target].foot_in(span, xi)?;
         let mut pair = Self::new(candidate, index.site, shapes, foot);
@@ -639,9 +624,10 @@ impl ContactPair {
     }
 
     pub(super) fn save(&self, state: &mut Vec<f64>) {
+        let PairIndex { shape, site, target } = self.index;
         let Foot { xi, span, .. } = self.start.foot;
-        self.index.save(state);
-        state.extend([span as f64, xi]);
+        state.extend([shape, site, target, span].map(|index| index as f64));
+        state.push(xi);
         self.normal.save(state);
         if let Some(friction) = &self.friction {
             friction.force.save(state);

@@ -68,7 +68,7 @@ impl<'s> GapSearch<'s> {
     /// The reduced gap excludes most contact points from the search.
     fn add_vertices(&mut self, candidate: &CandidatePair) {
         let CandidatePair { shape, target, .. } = *candidate;
-        if shape == target || !self.is_near(candidate) {
+        if !self.is_near(candidate) {
             return;
         }
         let vertices = |at: usize| self.shapes[at].vertices(&self.configurations[at]);

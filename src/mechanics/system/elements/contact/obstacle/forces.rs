@@ -94,10 +94,17 @@ impl TouchingBody {
         }
     }
 
+    /// Contact points with forces in the present step.
+    fn active_points(&self) -> &[ContactPoint] {
+        if self.is_active { &self.points } else { &[] }
+    }
+
+    fn active_points_mut(&mut self) -> &mut [ContactPoint] {
+        if self.is_active { &mut self.points } else { &mut [] }
+    }
+
     fn deactivate(&mut self) {
-        if self.is_active {
-            self.points.iter_mut().for_each(ContactPoint::open);
-        }
+        self.active_points_mut().iter_mut().for_each(ContactPoint::open);
         self.is_active = false;
     }
 
@@ -155,9 +162,8 @@ impl ObstacleForces {
         self.bodies.iter().flat_map(|body| &body.points)
     }
 
-    /// Points of the bodies that can touch the obstacle in the present step.
     fn active_points(&self) -> impl Iterator<Item = &ContactPoint> {
-        self.bodies.iter().filter(|body| body.is_active).flat_map(|body| &body.points)
+        self.bodies.iter().flat_map(TouchingBody::active_points)
     }
 
     fn begin_increment(&mut self, bodies: &[Body]) {
@@ -254,8 +260,9 @@ impl InternalForce for ObstacleForces {
     }
 
     fn correct(&mut self, bodies: &[Body], correction: &[f64]) {
-        for own in self.bodies.iter_mut().filter(|own| own.is_active) {
-            own.points.iter_mut().for_each(|point| point.correct(&bodies[own.body], correction));
+        for own in &mut self.bodies {
+            let body = &bodies[own.body];
+            own.active_points_mut().iter_mut().for_each(|point| point.correct(body, correction));
         }
     }
 
@@ -274,9 +281,8 @@ impl InternalForce for ObstacleForces {
         for own in &mut self.bodies {
             let was_open = !own.points.iter().any(ContactPoint::is_closed);
             let (mut force, mut rate) = (0.0, 0.0);
-            let is_active = own.is_active;
-            for point in own.points.iter_mut().filter(|_| is_active) {
-                let body = &bodies[own.body];
+            let body = &bodies[own.body];
+            for point in own.active_points_mut() {
                 self.last_force += point.mean_force();
                 self.dissipated += point.advance(&self.surface, time, body);
                 if point.force() >= force {
