@@ -20,9 +20,12 @@ const MOST_TRIES: usize = 60;
 /// A step over a very short distance would convert rounding errors of positions to velocities.
 const NEAR: f64 = 1e-10;
 
-/// Time after the start of a step within which an end of slip or a take-off is moved to the start, as a fraction of the step length.
-/// In a very short step, rounding errors of positions would become velocities, and the energy balance would be inaccurate.
-const SHORT: f64 = 1e-6;
+/// Shortest duration from the start of a step to a friction transition or take-off, and from there to the end of the step, as a fraction of the step length.
+/// In a shorter step, rounding errors of positions would become contact forces.
+const SHORT: f64 = 1e-4;
+
+/// Largest error of the time of a friction transition or take-off, as a fraction of the step length.
+const RESOLUTION: f64 = 1e-7;
 
 /// Largest number of halvings of a step that starts with a slider at an end of its master.
 /// The halvings search for a shorter step in which the slider moves away from the end.
@@ -47,6 +50,18 @@ enum Event {
     StopRelease,
 }
 
+impl Event {
+    /// Event at the end of a step that ends before the target by less than the resolution of the search.
+    fn just_before(target: SliderEvent) -> Self {
+        match target {
+            SliderEvent::Limit(_) | SliderEvent::Landing(_) => Self::JustBefore,
+            SliderEvent::SlipEnd(_) | SliderEvent::SlipStart(_) | SliderEvent::TakeOff(_) => {
+                Self::Slider(target)
+            }
+        }
+    }
+}
+
 enum ArrivalEstimate {
     Between(TimeBracket),
     /// The event is at the end of a step that was taken, or at the start of the interval.
@@ -63,8 +78,12 @@ struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
     last: Option<BracketSide>,
-    /// Shortest duration of a step that the search tries [time].
+    /// Shortest duration of an attempted step [time].
     shortest: f64,
+    /// Longest duration of an attempted step [time].
+    longest: f64,
+    /// Difference between the two durations at which the search ends [time].
+    resolution: f64,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -75,7 +94,7 @@ enum BracketSide {
 
 impl TimeBracket {
     fn new(before: (f64, f64), after: (f64, f64)) -> Self {
-        Self { before, after, last: None, shortest: 0.0 }
+        Self { before, after, last: None, shortest: 0.0, longest: after.0, resolution: 0.0 }
     }
 
     fn with_shortest(self, shortest: f64) -> Self {
@@ -104,11 +123,12 @@ impl TimeBracket {
     }
 
     fn is_converged(&self) -> bool {
-        self.after.0 - self.before.0 <= 4.0 * f64::EPSILON * self.after.0
+        let smallest = (4.0 * f64::EPSILON * self.after.0).max(self.resolution);
+        self.after.0 - self.before.0 <= smallest || self.before.0 >= self.longest
     }
 
     fn next_duration(&self) -> f64 {
-        self.estimate().max(self.shortest)
+        self.estimate().clamp(self.shortest, self.longest)
     }
 
     fn estimate(&self) -> f64 {
@@ -122,10 +142,16 @@ fn bracket_sign_change(
     interval: Interval,
     Overshoot { event, distance }: Overshoot,
     start: f64,
-    shortest: f64,
+    dt: f64,
 ) -> ArrivalEstimate {
-    let bracket =
-        TimeBracket::new((0.0, -start), (interval.duration(), distance)).with_shortest(shortest);
+    let whole = interval.duration();
+    let shortest = (SHORT * dt).min(0.25 * whole);
+    let bracket = TimeBracket {
+        shortest,
+        longest: whole - shortest,
+        resolution: RESOLUTION * dt,
+        ..TimeBracket::new((0.0, -start), (whole, distance))
+    };
     match start <= 0.0 || distance <= 0.0 || bracket.estimate() < shortest {
         true => ArrivalEstimate::at_once(event),
         false => ArrivalEstimate::Between(bracket),
@@ -158,17 +184,17 @@ impl Simulation {
                     self.bracket_arrival(cut, limit, overshoot.distance)?
                 }
                 SliderEvent::SlipEnd(slider) => {
-                    let (speed, shortest) = (self.model.slip_speed(slider), SHORT * self.dt());
-                    bracket_sign_change(cut, overshoot, speed, shortest)
+                    let speed = self.model.slip_speed(slider);
+                    bracket_sign_change(cut, overshoot, speed, self.dt())
                 }
                 SliderEvent::TakeOff(slider) => {
-                    let (push, shortest) = (self.model.push(slider), SHORT * self.dt());
-                    bracket_sign_change(cut, overshoot, push, shortest)
+                    let push = self.model.push(slider);
+                    bracket_sign_change(cut, overshoot, push, self.dt())
                 }
                 SliderEvent::Landing(slider) => self.bracket_landing(cut, overshoot, slider)?,
                 SliderEvent::SlipStart(slider) => {
                     let reserve = self.model.sticking_reserve(slider);
-                    bracket_sign_change(cut, overshoot, reserve, SHORT * self.dt())
+                    bracket_sign_change(cut, overshoot, reserve, self.dt())
                 }
             };
             let mut bracket = match bracket {
@@ -179,22 +205,17 @@ impl Simulation {
                 if bracket.is_at_start() {
                     return Ok(EventStep { step: None, event: Event::Slider(target) });
                 }
-                if bracket.is_converged() {
-                    self.model.set_target(None);
-                    let short = Interval::lasting(interval.start, bracket.before.0);
-                    let report = self.stepper.integrator.step(&mut self.model, short)?;
-                    return Ok(EventStep { step: Some((short, report)), event: Event::JustBefore });
-                }
                 if tries.next().is_none() {
                     return Err(StepError::Overshoot { interval, overshoot: first, iterations: 0 });
                 }
-                let duration = bracket.next_duration();
+                let (duration, event, aim) = match bracket.is_converged() {
+                    true => (bracket.before.0, Event::just_before(target), None),
+                    false => (bracket.next_duration(), Event::Slider(target), Some(target)),
+                };
+                self.model.set_target(aim);
                 cut = Interval::lasting(interval.start, duration);
                 overshoot = match self.attempt(cut)? {
-                    Ok(report) => {
-                        let event = Event::Slider(target);
-                        return Ok(EventStep { step: Some((cut, report)), event });
-                    }
+                    Ok(report) => return Ok(EventStep { step: Some((cut, report)), event }),
                     Err(overshoot) => overshoot,
                 };
                 if overshoot.event != target.number() {

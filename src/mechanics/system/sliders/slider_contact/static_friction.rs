@@ -131,12 +131,22 @@ mod tests {
         let (mut time, mut sign) = (0.0, 1.0);
         for (at, duration) in [0.1, 0.04, 0.07, 0.2].into_iter().enumerate() {
             let middle = time + 0.5 * duration;
-            let along = 3.0 + 2.0 * middle + sign * 0.01 / duration;
+            let along = 3.0 + 2.0 * middle + sign * 0.001 / duration;
             friction.advance(StickingForces { along, across: 20.0 - middle, duration });
             (time, sign) = (time + duration, -sign);
             let exact = 0.5 * (20.0 - time) - (3.0 + 2.0 * time);
             let error = (friction.start_reserve() - exact).abs();
             assert!(error < 1e-12 || at < 2, "{at}: {error:e}");
         }
+    }
+
+    /// A mean force above the limit starts a slip, although the force extrapolated to the end of the step is below the limit.
+    #[test]
+    fn mean_force_must_not_exceed_the_limit() {
+        let mut friction = StaticFriction::new(0.5);
+        let step = |along| StickingForces { along, across: 20.0, duration: 0.1 };
+        friction.advance(step(20.0));
+        assert_eq!(friction.excess(step(10.5)), Some(0.5));
+        assert_eq!(friction.excess(step(9.5)), None);
     }
 }
