@@ -44,6 +44,14 @@ impl Schedule {
     }
 }
 
+/// Schedules without script functions are equal if their terms are equal. A schedule with a script function differs from all others.
+impl PartialEq for Schedule {
+    fn eq(&self, other: &Self) -> bool {
+        let [mut own, mut others] = [Vec::new(), Vec::new()];
+        self.append_terms(&mut own).and(other.append_terms(&mut others)).is_some() && own == others
+    }
+}
+
 impl Serialize for Schedule {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut terms = Vec::new();

@@ -380,7 +380,7 @@ fn check_method(scene: &Scene, method: Method) -> Result<(), SimulationError> {
     method.check()?;
     let name = method.entry().name;
     let sliders = scene.sliders_with_friction().filter(|_| method != Method::EnergyMomentum);
-    let contacts = scene.contacts_with_friction().filter(|_| method == Method::FourthOrder);
+    let contacts = scene.elements_with_friction().filter(|_| method == Method::FourthOrder);
     if let Some(object) = sliders.chain(contacts).next() {
         return Err(SimulationError::FrictionMethod { object, method: name });
     }

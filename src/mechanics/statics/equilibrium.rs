@@ -205,6 +205,9 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
         drive.motions().any(|(_, motion)| matches!(motion, PrescribedMotion::Rate(_)))
     };
     let drive = scene.drives.iter().find(is_rate).map(|drive| (&drive.name, InTime::Speed));
+    if let Some(brake) = scene.brakes().next() {
+        return Err(StaticsError::Brake { brake: brake.object() });
+    }
     let load = scene.loads().find(|load| load.schedule.is_sampled());
     match drive.or(load.map(|load| (load.title.as_ref().unwrap_or(&load.name), InTime::Controller)))
     {

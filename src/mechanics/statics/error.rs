@@ -42,6 +42,10 @@ pub enum StaticsError {
     )]
     TimeDependent { name: String, by: InTime },
     #[error(
+        "{brake} holds any moment up to its friction limit, so that the equilibrium is not unique"
+    )]
+    Brake { brake: String },
+    #[error(
         "{drive}: prescribed motion can only be applied in load steps, not with arc-length control"
     )]
     Driven { drive: String },

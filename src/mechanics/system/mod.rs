@@ -14,8 +14,8 @@ mod state;
 mod step_mean;
 
 pub use elements::{
-    Along, Anchor, Branch, ContactMember, ContactState, ContactTarget, DampingLaw, Drag, Dragged,
-    Drive, DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping,
+    Along, Anchor, BrakeLaw, Branch, ContactMember, ContactState, ContactTarget, DampingLaw, Drag,
+    Dragged, Drive, DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping,
     MotionCurvature, Obstacle, ObstacleShape, Origin, OutsideLaw, PairContact, Penetration,
     PointMass, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, UnsampledChange,
 };

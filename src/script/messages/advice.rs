@@ -108,6 +108,11 @@ fn statics_hint(error: &StaticsError) -> Option<String> {
             begins with 0, such as angle: |t| 0.5 * t, and scene.equilibrium(#{ time: 1 })"
                 .into()
         }
+        StaticsError::Brake { .. } => {
+            "in a scene for the equilibrium, replace the brake by a clamp or a torsion spring if \
+            it holds, or by scene.moment if it slips"
+                .into()
+        }
         StaticsError::TimeDependent { .. } => {
             "give its force or torque in equilibrium as a number, in a scene for the \
             equilibrium"

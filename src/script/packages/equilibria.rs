@@ -344,7 +344,7 @@ fn print_notes(context: &Context, rest: &Equilibrium, load_factor: f64) {
         context.print_message(&format!("note: the equilibrium of '{name}' is not stable"));
     }
     let sliders = rest.scene().sliders_with_friction();
-    if let Some(object) = sliders.chain(rest.scene().contacts_with_friction()).next() {
+    if let Some(object) = sliders.chain(rest.scene().elements_with_friction()).next() {
         let scene = &rest.scene().name;
         context.print_message(&format!(
             "note: the equilibrium of '{scene}' does not include the friction of {object}"

@@ -32,7 +32,7 @@ pub(super) fn law(
     kind: &SpringKind,
 ) -> Result<ParsedLaw, ScriptError> {
     let (ease, acts) = match kind {
-        SpringKind::Torsion(_) => ("angle", Acts::Both),
+        SpringKind::Torsion(_) | SpringKind::Brake { .. } => ("angle", Acts::Both),
         SpringKind::Length(_) => ("length", meant(&ACTS, &options.text("acts")?)),
     };
     if options.has("law") {

@@ -3,6 +3,9 @@
 use rhai::{Dynamic, ImmutableString};
 
 use super::scenes::{SCENE, STATION};
+use super::schedules::{
+    DELAY, SAMPLE, SCHEDULE_KINDS, controlled_schedule_of, expect_controller, sample_clock_of,
+};
 use super::simulations::SIMULATION;
 use super::spring_laws::{ACTS, ParsedLaw, damping, law};
 use crate::geometry::Vec2;
@@ -21,7 +24,7 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{
-    Anchor, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
+    Anchor, BrakeLaw, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
 };
 
 pub const TABLE: BindingTable = BindingTable {
@@ -102,7 +105,24 @@ pub const TABLE: BindingTable = BindingTable {
                       scene.hinge(rod.end, arm.start);\n\
                       scene.torsion_spring(rod.end, arm.start, #{ stiffness: 3, damping: 0.1 });\n\
                       scene.torsion_spring(arm.end, #{ stiffness: 0.1 });")
-            .with_related(&["spring", "hinge"]),
+            .with_related(&["spring", "hinge", "brake"]),
+        method(SCENE, "brake", &[object("from", STATION), either("to", BRAKED), options("options", BRAKE_KEYS).optional()], brake)
+            .returns(Returns::object(SPRING))
+            .summary("Adds a brake or clutch: Coulomb friction between two sections, or between a \
+                section and the ground.")
+            .doc("The brake holds with any moment up to `moment`, and slips with this moment \
+                beyond it. While it holds, it deflects elastically by at most `deflection` and \
+                does not creep. The dissipated energy is the moment times the slip. An \
+                equilibrium with a brake is not unique and is refused; fourth_order() does not \
+                support brakes.")
+            .example("let arm = scene.beam(#{ axis: line([2, 0], [3, 0]), basis: bspline(4), section: s });\n\
+                      scene.hinge(rod.end, arm.start);\n\
+                      scene.brake(rod.end, arm.start, #{ moment: 0.5, name: \"clutch\" });\n\
+                      // A brake on the ground that a controller applies above a speed.\n\
+                      scene.brake(arm.end, #{ moment: |t, q| if abs(q.spin(arm.end)) > 3 { 2 } else { 0 } });\n\
+                      let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
+                      check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated.clutch\") > 0);")
+            .with_related(&["torsion_spring", "hinge", "motor", "friction"]),
         property(SPRING, "name", |call| Ok(call.receiver::<SpringHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the spring.")
@@ -133,6 +153,22 @@ const PLACE: &[Kind] = &[Kind::Object(STATION), Kind::Point];
 const FROM: Parameter = either("from", PLACE);
 const TO: Parameter = either("to", PLACE);
 const TURNED: &[Kind] = &[Kind::Object(STATION), Kind::Options(TORSION_KEYS)];
+const BRAKED: &[Kind] = &[Kind::Object(STATION), Kind::Options(BRAKE_KEYS)];
+const BRAKE_KEYS: &[Parameter] = &[
+    either("moment", SCHEDULE_KINDS).unit("force·length").doc(
+        "friction limit: a number, a schedule, a function of time |t| …, or a controller \
+            |t, q| …; a brake with a normal force has the product of coefficient of friction, \
+            normal force and radius",
+    ),
+    number("deflection")
+        .positive()
+        .unit("rad")
+        .doc("elastic rotation at the largest moment so far")
+        .or(Presence::Number(1e-4)),
+    text("name").optional(),
+    SAMPLE,
+    DELAY,
+];
 
 const STIFFNESS: Parameter = number("stiffness").positive().unit("force/length").optional();
 const DAMPING_KINDS: &[Kind] = &[Kind::Number(NumberRange::Finite), Kind::Function, Kind::Points];
@@ -267,7 +303,11 @@ impl Scripted for SpringHandle {
                 }
                 curve => curve.describe(),
             };
-            let lines = [("law", law), ("damping", damping)];
+            let limit = match &spring.kind {
+                SpringKind::Brake { law, .. } => Some(law.limit.describe()),
+                SpringKind::Length(_) | SpringKind::Torsion(_) => None,
+            };
+            let lines = [("law", law), ("damping", damping), ("moment", limit)];
             lines
                 .into_iter()
                 .filter_map(|(label, value)| Some((label.to_owned(), value?)))
@@ -309,10 +349,7 @@ fn add(
     let name = options.get_if::<ImmutableString>("name").map(String::from);
     let name = name.unwrap_or_else(|| scene.borrow().free_name(prefix));
     let damping = damping(call, options)?;
-    let spring = Spring { name, kind, law, origin, damping };
-    scene.borrow_mut().add_spring(spring).map_err(spring_error)?;
-    let index = scene.borrow().springs().count() - 1;
-    Ok(Dynamic::from(SpringHandle { scene: handle, index }))
+    add_spring(handle, Spring { name, kind, law, origin, damping })
 }
 
 fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -353,6 +390,36 @@ fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
 }
 
+fn brake(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let scene = call.receiver::<SceneHandle>()?;
+    let from = Anchor::Station(scene.own_station(&call.get::<StationHandle>("from")?)?);
+    let (sections, options) = match call.get_if::<StationHandle>("to") {
+        Some(to) => {
+            let to = Anchor::Station(scene.own_station(&to)?);
+            ([from, to], call.options("options")?)
+        }
+        None => ([Anchor::Ground(Vec2::zeros()), from], call.options("to")?),
+    };
+    let clock = sample_clock_of(&options)?;
+    let limit = controlled_schedule_of(call, &options, "moment", &scene, clock)?;
+    expect_controller(call, clock, std::iter::once(&limit))?;
+    let law = BrakeLaw { limit, deflection: options.number("deflection")? };
+    let shared = scene.shared_for_change();
+    let name = options.get_if::<ImmutableString>("name").map(String::from);
+    let name = name.unwrap_or_else(|| shared.borrow().free_name("brake"));
+    let kind = SpringKind::Brake { sections, law };
+    let (origin, damping) = (Origin::Zero, DampingLaw::default());
+    let spring = Spring { name, kind, law: None, origin, damping };
+    add_spring(scene, spring)
+}
+
+fn add_spring(handle: SceneHandle, spring: Spring) -> Result<Dynamic, ScriptError> {
+    let scene = handle.shared_for_change();
+    scene.borrow_mut().add_spring(spring).map_err(spring_error)?;
+    let index = scene.borrow().springs().count() - 1;
+    Ok(Dynamic::from(SpringHandle { scene: handle, index }))
+}
+
 fn spring_error(error: SystemError) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
@@ -361,7 +428,8 @@ fn spring_error(error: SystemError) -> ScriptError {
         SystemError::ActiveDamper { .. } => CallPart::Key("damping".into()),
         SystemError::FewPoints { name, .. } => CallPart::Key((*name).into()),
         SystemError::Value { name, .. }
-            if ["length", "damping", "stiffness", "table"].contains(name) =>
+            if ["length", "damping", "stiffness", "table", "moment", "deflection"]
+                .contains(name) =>
         {
             CallPart::Key((*name).into())
         }

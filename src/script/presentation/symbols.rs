@@ -143,8 +143,9 @@ fn of_spring(spring: &Spring, found: &mut impl Iterator<Item = Vec2>) -> Vec<Pla
         direction: plain(direction),
     };
     let symbol = of_spring_kind(spring);
-    if let SpringKind::Torsion(anchors) = &spring.kind {
-        let moving = anchors.iter().rposition(|anchor| matches!(anchor, Anchor::Station(_)));
+    if spring.kind.is_angle() {
+        let moving =
+            spring.anchors().iter().rposition(|anchor| matches!(anchor, Anchor::Station(_)));
         let at = moving.and_then(|index| path.get(index));
         return at.map(|at| placed(symbol, *at, Vec2::zeros())).into_iter().collect();
     }
@@ -165,7 +166,7 @@ fn around(scene: &Scene, at: &Station) -> [Station; 3] {
 
 pub fn of_spring_kind(spring: &Spring) -> Symbol {
     match (&spring.kind, &spring.law) {
-        (SpringKind::Torsion(_), _) => Symbol::TorsionSpring,
+        (SpringKind::Torsion(_) | SpringKind::Brake { .. }, _) => Symbol::TorsionSpring,
         (SpringKind::Length(path), _) if path.len() > 2 => Symbol::Tendon,
         (SpringKind::Length(_), None) => Symbol::Damper,
         (SpringKind::Length(_), Some(_)) => Symbol::Spring,

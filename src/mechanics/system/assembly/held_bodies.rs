@@ -3,7 +3,7 @@
 use crate::beams::{BodyIndex, Station};
 use crate::joints::Component;
 use crate::system::elements::{Dragged, Element};
-use crate::system::{Scene, SpringKind, System, SystemError};
+use crate::system::{Scene, System, SystemError};
 
 impl System {
     /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration is undetermined.
@@ -47,7 +47,7 @@ impl System {
 /// Returns true if a spring, a damper, drag or a slider acts at a point of a rigid body.
 fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
     let is_there = |station: &Station| station.body == BodyIndex::Rigid(body, point);
-    let springs = scene.springs().filter(|spring| matches!(spring.kind, SpringKind::Length(_)));
+    let springs = scene.springs().filter(|spring| !spring.kind.is_angle());
     let is_dragged = |element: &Element| matches!(element, Element::Drag(drag) if matches!(&drag.on, Dragged::Point { station, .. } if is_there(station)));
     springs.into_iter().any(|spring| spring.stations().any(is_there))
         || scene.sliders.iter().any(|slider| is_there(&slider.slave))
@@ -58,8 +58,7 @@ fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
 fn is_turned(scene: &Scene, body: usize) -> bool {
     let is_own =
         |station: &Station| matches!(station.body, BodyIndex::Rigid(own, _) if own == body);
-    let mut springs =
-        scene.springs().filter(|spring| matches!(spring.kind, SpringKind::Torsion(_)));
+    let mut springs = scene.springs().filter(|spring| spring.kind.is_angle());
     springs.any(|spring| spring.stations().any(is_own))
         || scene
             .drives

@@ -90,7 +90,8 @@ impl Elements {
         rates: &[f64],
     ) -> Result<(), (String, LoadError)> {
         for resistance in &mut self.resistances {
-            resistance.begin_step(interval, bodies, rates);
+            let prepared = resistance.begin_step(interval, bodies, rates);
+            prepared.map_err(|error| (resistance.name().to_owned(), error))?;
         }
         self.forces.iter_mut().try_for_each(|force| {
             force.begin_step(interval, stages).map_err(|error| (force.name().to_owned(), error))

@@ -12,6 +12,7 @@ use crate::beams::{ForceSummary, Movement, RateCollocation};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 pub struct DragForces {
@@ -63,9 +64,15 @@ impl InternalForce for DragForces {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.rate_history.begin(interval.duration());
         self.points.iter_mut().for_each(|point| point.begin_step(&bodies[point.body], rates));
+        Ok(())
     }
 
     fn begin_movement(&mut self, _bodies: &[Body]) {

@@ -151,10 +151,14 @@ impl Elongation {
         }
     }
 
+    /// Largest of the increments from which the elongation change is computed [length, rad].
+    pub fn moved(&self) -> f64 {
+        self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()))
+    }
+
     /// Largest rounding error of the elongation change [length, rad].
     fn rounding(&self) -> f64 {
-        let moved = self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()));
-        rounding_error(moved)
+        rounding_error(self.moved())
     }
 
     pub fn absorb_rounding(&mut self, missing: f64) -> bool {

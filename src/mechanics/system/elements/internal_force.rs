@@ -7,6 +7,7 @@ use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +47,15 @@ pub trait InternalForce {
     }
 
     /// Prepares a step that starts with the given rates of the unknowns. Iterations start with the forces of the last step.
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]);
+    ///
+    /// # Errors
+    /// Fails if a schedule of the element has no valid value.
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError>;
 
     /// Prepares a static increment, such as a static load step, in which the element has no damping.
     fn begin_movement(&mut self, bodies: &[Body]);

@@ -12,6 +12,7 @@ use crate::beams::{
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::SystemError;
 use crate::system::bodies::Body;
 
@@ -85,10 +86,16 @@ impl InternalForce for DampedMaterial {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.rate_history.begin(interval.duration());
         self.gather(bodies, rates);
         self.dashpots.begin_step(&self.movements);
+        Ok(())
     }
 
     fn begin_movement(&mut self, _bodies: &[Body]) {

@@ -2,6 +2,7 @@
 //! A new type of element needs a file in this folder and a variant of [`Element`].
 
 mod all;
+mod brake;
 mod branch;
 mod contact;
 mod contact_watch;
@@ -39,6 +40,7 @@ mod work_and_impulse;
 mod zero_length_spring;
 
 pub use all::Elements;
+pub use brake::BrakeLaw;
 pub use branch::{Along, Branch};
 pub use contact::{
     ContactMember, ContactState, ContactTarget, Obstacle, ObstacleShape, PairContact, Penetration,

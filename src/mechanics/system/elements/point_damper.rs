@@ -15,6 +15,7 @@ use crate::beams::{ForceSummary, Movement, RateCollocation};
 use crate::geometry::{Vec2, cross};
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 /// Damper between two points. Its force depends on the rate of their distance.
@@ -154,11 +155,17 @@ impl InternalForce for PointDamper {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.rate_history.begin(interval.duration());
         self.force.begin_step();
         self.speed = self.size(bodies, rates);
         self.applied_force = Vec2::zeros();
+        Ok(())
     }
 
     fn begin_movement(&mut self, _bodies: &[Body]) {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::brake::{Brake, BrakeLaw};
 use super::damping_law::DampingLaw;
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::elongation::{Elongation, ElongationEnd};
@@ -11,6 +12,7 @@ use super::spring_law::SpringLaw;
 use super::zero_length_spring::ZeroLengthSpring;
 use crate::beams::{BodyIndex, Station};
 use crate::geometry::Vec2;
+use crate::loads::Schedule;
 use crate::system::{SystemError, Turning};
 
 /// Attachment of a spring.
@@ -30,6 +32,25 @@ pub enum SpringKind {
     Length(Vec<Anchor>),
     /// Angle of the section at the second point minus the angle of the section at the first point. The ground does not rotate.
     Torsion([Anchor; 2]),
+    /// Angle as in [`Self::Torsion`], between the sections of a brake or clutch.
+    Brake {
+        /// Attachments of the brake.
+        sections: [Anchor; 2],
+        /// Friction of the brake.
+        law: BrakeLaw,
+    },
+}
+
+impl SpringKind {
+    /// Returns true if the quantity is an angle.
+    pub fn is_angle(&self) -> bool {
+        !matches!(self, Self::Length(_))
+    }
+
+    /// Returns true for a brake or clutch.
+    pub fn is_brake(&self) -> bool {
+        matches!(self, Self::Brake { .. })
+    }
 }
 
 /// Configuration of zero elongation in a force law.
@@ -61,7 +82,7 @@ impl Spring {
     pub fn anchors(&self) -> &[Anchor] {
         match &self.kind {
             SpringKind::Length(anchors) => anchors,
-            SpringKind::Torsion(anchors) => anchors,
+            SpringKind::Torsion(anchors) | SpringKind::Brake { sections: anchors, .. } => anchors,
         }
     }
 
@@ -81,7 +102,7 @@ impl ElementDef for Spring {
         };
         for station in self.stations() {
             setting.check_station("a spring", station)?;
-            if matches!(self.kind, SpringKind::Torsion(_)) && !station.turns() {
+            if self.kind.is_angle() && !station.turns() {
                 let by = Turning::TorsionSpring;
                 return Err(SystemError::ParticleTurned { object: self.object(), by });
             }
@@ -110,8 +131,7 @@ impl ElementDef for Spring {
                 if !(stiffness.is_finite() && *stiffness > 0.0) {
                     return refused("stiffness", *stiffness, "a positive finite number");
                 }
-                let is_angle = matches!(self.kind, SpringKind::Torsion(_));
-                let is_length = !is_angle && self.origin == Origin::Zero;
+                let is_length = !self.kind.is_angle() && self.origin == Origin::Zero;
                 if !(natural.is_finite() && (*natural >= 0.0 || !is_length)) {
                     let allowed = "zero or a positive finite number [length]";
                     return refused("length", *natural, allowed);
@@ -126,6 +146,7 @@ impl ElementDef for Spring {
                 }
                 self.check_finite("table", points)?;
             }
+            None if let SpringKind::Brake { law, .. } = &self.kind => law.check(&self.object())?,
             None if !self.damping.is_active() => {
                 return refused("damping", 0.0, "a positive number if there is no stiffness");
             }
@@ -136,6 +157,11 @@ impl ElementDef for Spring {
 
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         vec![self.stations().copied().collect()]
+    }
+
+    fn schedule(&self) -> Option<(&str, &Schedule)> {
+        let SpringKind::Brake { law, .. } = &self.kind else { return None };
+        Some((&self.name, &law.limit))
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
@@ -201,11 +227,15 @@ impl ElementDef for Spring {
             }
         }
         let elongation = match (&self.kind, terminals.as_slice()) {
-            (SpringKind::Torsion(_), [from, to]) => {
+            (SpringKind::Torsion(_) | SpringKind::Brake { .. }, [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
             }
             _ => Elongation::path_length(terminals, &at),
         };
+        if let SpringKind::Brake { law, .. } = &self.kind {
+            let brake = Brake::new(self.name.clone(), elongation, law.clone());
+            return Ok(BuiltElement::Resistance(Box::new(brake)));
+        }
         let origin = match self.origin {
             Origin::Zero => 0.0,
             Origin::AsBuilt => elongation.drawn(),
@@ -291,6 +321,7 @@ impl Spring {
     /// Type and name for messages.
     pub fn object(&self) -> String {
         match (&self.kind, &self.law) {
+            (SpringKind::Brake { .. }, _) => format!("brake '{}'", self.name),
             (_, None) => format!("damper '{}'", self.name),
             (SpringKind::Torsion(_), _) => format!("torsion spring '{}'", self.name),
             (SpringKind::Length(anchors), _) if anchors.len() > 2 => {

@@ -15,6 +15,7 @@ use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 #[derive(Debug, Clone)]
@@ -140,11 +141,17 @@ impl InternalForce for SpringDamper {
         &self.name
     }
 
-    fn begin_step(&mut self, interval: Interval, _bodies: &[Body], _rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        _bodies: &[Body],
+        _rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.duration = interval.duration();
         self.spring.begin_step();
         self.damper.begin_step();
         [&mut self.force_coordinates, &mut self.current].into_iter().for_each(|all| all.fill(0.0));
+        Ok(())
     }
 
     fn begin_movement(&mut self, _bodies: &[Body]) {

@@ -15,6 +15,7 @@ use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::geometry::Vec2;
 use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 pub struct ZeroLengthSpring {
@@ -95,8 +96,13 @@ impl InternalForce for ZeroLengthSpring {
         self.along[0].name()
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
-        self.parts_mut().for_each(|part| part.begin_step(interval, bodies, rates));
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
+        self.parts_mut().try_for_each(|part| part.begin_step(interval, bodies, rates))
     }
 
     fn begin_movement(&mut self, bodies: &[Body]) {

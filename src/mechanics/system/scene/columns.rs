@@ -37,7 +37,9 @@ impl Scene {
                 Element::Spring(spring) => {
                     let own = match spring.kind {
                         SpringKind::Length(_) => &COLUMNS_OF_SPRINGS,
-                        SpringKind::Torsion(_) => &COLUMNS_OF_TORSION_SPRINGS,
+                        SpringKind::Torsion(_) | SpringKind::Brake { .. } => {
+                            &COLUMNS_OF_TORSION_SPRINGS
+                        }
                     };
                     all.extend(own.iter().map(|own| Sensor::of(&spring.name, own, source)));
                     let sums = [&STORED, &DISSIPATED];

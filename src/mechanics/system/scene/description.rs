@@ -118,6 +118,11 @@ impl Scene {
         })
     }
 
+    /// Brakes and clutches, in the order of addition.
+    pub fn brakes(&self) -> impl Iterator<Item = &Spring> {
+        self.springs().filter(|spring| spring.kind.is_brake())
+    }
+
     /// Schedules of elements and drives, with the name of the element or drive.
     pub fn schedules(&self) -> impl Iterator<Item = (&str, &Schedule)> {
         let of_elements = self.elements.iter();

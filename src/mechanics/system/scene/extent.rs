@@ -129,7 +129,7 @@ impl Scene {
 /// Natural length of a spring [length]; zero for angles and for laws without a natural length.
 fn natural_length(spring: &Spring) -> f64 {
     match (&spring.kind, &spring.law) {
-        (SpringKind::Torsion(_), _) | (_, None) => 0.0,
+        (SpringKind::Torsion(_) | SpringKind::Brake { .. }, _) | (_, None) => 0.0,
         (_, Some(SpringLaw::Linear { natural, .. })) => natural.abs(),
         (_, Some(law)) => {
             let corners = law.sharp_corners().into_iter();

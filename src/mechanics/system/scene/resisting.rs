@@ -84,11 +84,12 @@ impl Scene {
         sliders.map(|slider| format!("slider '{}'", slider.name))
     }
 
-    /// Types and names of obstacles and contacts between bodies with friction.
-    pub fn contacts_with_friction(&self) -> impl Iterator<Item = String> {
+    /// Types and names of brakes, and of obstacles and contacts between bodies with friction.
+    pub fn elements_with_friction(&self) -> impl Iterator<Item = String> {
         self.elements.iter().filter_map(|element| match element {
             Element::Obstacle(obstacle) if obstacle.friction > 0.0 => Some(obstacle.object()),
             Element::Contact(contact) if contact.friction > 0.0 => Some(contact.object()),
+            Element::Spring(brake) if brake.kind.is_brake() => Some(brake.object()),
             _ => None,
         })
     }

@@ -99,6 +99,13 @@ impl<const N: usize> SlipTrial<N> {
     };
 }
 
+impl SlipTrial<1> {
+    /// Slip that is a local coordinate itself.
+    pub fn of_coordinate(slip: f64, moved: f64) -> Self {
+        Self { slip, slope: [1.0], direction: [1.0], direction_slope: [[0.0]], moved }
+    }
+}
+
 /// Damping coefficient along the surface while a contact sticks [force·time/length].
 /// `factor` is the damping factor of the normal force [-].
 pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
@@ -153,6 +160,24 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
+    /// Increases the stiffness at a constant friction force. Returns the energy dissipated by this change [energy].
+    pub fn stiffen(&mut self, stiffness: f64, damping_factor: f64) -> f64 {
+        let before = self.energy();
+        self.deflection *= self.stiffness / stiffness;
+        self.set_stiffness(stiffness, damping_factor);
+        before - self.energy()
+    }
+
+    /// Sets the stiffness [force/length] and the damping along the surface, for the present effective mass.
+    pub fn set_stiffness(&mut self, stiffness: f64, damping_factor: f64) {
+        self.set_scales(stiffness, self.mass, damping_factor);
+    }
+
+    /// Stiffness along the surface [force/length].
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
     /// Sets the stiffness, the damping and the effective mass along the surface.
     /// `damping_factor` is the damping factor of the normal force [-].
     pub fn set_scales(&mut self, stiffness: f64, mass: f64, damping_factor: f64) {
@@ -162,6 +187,12 @@ impl<const N: usize> PointFriction<N> {
 
     pub fn begin_step(&mut self) {
         self.force.begin_step();
+    }
+
+    /// Sets the friction force and the deflection to zero.
+    pub fn clear(&mut self) {
+        self.release();
+        (self.deflection, self.force.last) = (0.0, 0.0);
     }
 
     /// Sets the friction force of an open contact to zero. The deflection is kept until the end of the step.

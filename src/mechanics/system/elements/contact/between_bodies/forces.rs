@@ -12,6 +12,7 @@ use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 use crate::system::elements::contact::{ContactState, ContactTime, NormalLaw, Penetration};
 use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
@@ -227,13 +228,19 @@ impl InternalForce for PairForces {
         self.pairs.iter_mut().for_each(|pair| pair.measure_gap(&self.shapes));
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.rate_history.begin(interval.duration());
         self.begin_configuration(bodies);
         for shape in &mut self.shapes {
             shape.set_velocities(bodies[shape.body].by_control_point(rates));
         }
         self.pairs.iter_mut().for_each(|pair| pair.begin_step(&self.shapes));
+        Ok(())
     }
 
     fn begin_movement(&mut self, bodies: &[Body]) {

@@ -11,6 +11,7 @@ use crate::beams::{ForceSummary, Movement, SpanStiffness};
 use crate::geometry::{Vec2, larger, perpendicular};
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 use crate::system::elements::contact::{ContactState, ContactTime, Penetration};
 use crate::system::elements::contact_watch::{ContactWatch, ShortBounce};
@@ -199,11 +200,17 @@ impl InternalForce for ObstacleForces {
         }
     }
 
-    fn begin_step(&mut self, interval: Interval, bodies: &[Body], rates: &[f64]) {
+    fn begin_step(
+        &mut self,
+        interval: Interval,
+        bodies: &[Body],
+        rates: &[f64],
+    ) -> Result<(), LoadError> {
         self.rate_history.begin(interval.duration());
         self.rates.clear();
         self.rates.extend_from_slice(rates);
         self.begin_increment(bodies);
+        Ok(())
     }
 
     fn begin_movement(&mut self, bodies: &[Body]) {
