@@ -6,6 +6,7 @@ mod common;
 mod adaptive;
 mod archive;
 mod bodies;
+mod brakes;
 mod composition;
 mod consistency;
 mod contact_friction;

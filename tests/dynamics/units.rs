@@ -94,6 +94,7 @@ impl Units {
                 1.0,
                 self.moment(),
             ),
+            brake @ SpringKind::Brake { .. } => panic!("{brake:?}"),
         };
         let law = spring.law.as_ref().map(|law| match law {
             SpringLaw::Linear { stiffness, natural } => {

@@ -1,4 +1,4 @@
-//! Brake or clutch: Coulomb friction between two sections, with a friction limit that is a function of time (docs/theory.md, section 9.8).
+//! Brake or clutch: Coulomb friction between two sections, with a friction limit that is a function of time (docs/theory.md, section 9.1).
 //! The friction law with its elastic deflection is that of contact points.
 
 use serde::{Deserialize, Serialize};

@@ -41,12 +41,13 @@ pub const WORDS: &[ForeignName] = &[
         &["damper", "energy_decaying", "generalized_alpha"],
     ),
     entry(
-        &["friction", "coulomb", "stick-slip", "stiction", "frictionless", "brake"],
-        "scene.slider(station, beam, #{ friction: 0.3 }) slides with Coulomb friction; friction of \
-        other joints is not supported yet, but a damper with \
-        #{ damping: |rate| 5 * tanh(rate / 0.01), rates: [-1, 1] } between two stations \
-        approximates dry friction along their distance",
-        &["slider", "damper"],
+        &["friction", "coulomb", "stick-slip", "stiction", "frictionless", "clutch"],
+        "scene.slider(station, beam, #{ friction: 0.3 }) slides with Coulomb friction; \
+        scene.wall, scene.disc and scene.contact have the option friction; \
+        scene.brake(section, #{ moment: 2 }) is friction of a hinge, a brake or a clutch; a damper \
+        with #{ damping: |rate| 5 * tanh(rate / 0.01), rates: [-1, 1] } approximates dry friction \
+        along a distance",
+        &["slider", "brake", "wall", "contact"],
     ),
     entry(
         &["plasticity", "plastic", "yielding", "creep", "fatigue", "fracture", "hysteresis"],
