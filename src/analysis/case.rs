@@ -13,11 +13,9 @@ use crate::simulation::{
 };
 use crate::system::{Scene, Sensor};
 
-/// Run of a study in a form that can be serialised.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
     pub scene: Scene,
-    /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
     /// Observation times in increasing order [time]. The last observation time is the end of the run.
     pub stops: Vec<f64>,
@@ -56,7 +54,6 @@ impl Case {
         is_data.then(|| postcard::to_stdvec(&*case).ok()).flatten()
     }
 
-    /// Restores a case from the result of [`to_bytes`](Self::to_bytes); `None` for invalid data.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         postcard::from_bytes(bytes).ok()
     }

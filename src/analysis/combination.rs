@@ -19,11 +19,9 @@ impl ObservedScene {
     }
 }
 
-/// Scene with its meshes, an integrator and a step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
     pub subject: usize,
-    /// Integrator and step size.
     pub settings: SimulationSettings,
 }
 
@@ -43,12 +41,10 @@ pub fn all_combinations(
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// Index of the scene with the most spans. If several scenes have the same number of spans, the last scene is returned.
 pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// Method of the highest order. If several methods have the same order, the first method is returned.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }

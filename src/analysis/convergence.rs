@@ -9,14 +9,12 @@ use crate::integrators::Method;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RefinedParameter {
     Step,
-    /// Mesh size, which is one divided by the number of spans.
     Mesh,
 }
 
 /// Smallest ratio of a significant error to the uncertainty of the reference.
 const SIGNIFICANCE: f64 = 2.0;
 
-/// Errors of a quantity for one integrator and several sizes, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     pub method: Method,
@@ -28,12 +26,10 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the step or mesh size with the index `rung`; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error at the size `rung` can be used to compute an order, that is, if it is nonzero and significant.
     pub fn counts_for_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -78,13 +74,10 @@ pub struct Convergence {
     /// Length scale of position errors [length].
     pub length: f64,
     pub reference: ReferenceSolution,
-    /// Errors by integrator and quantity.
     pub ladders: Vec<Refinement>,
-    /// Failed runs, with size, integrator and reason.
     pub failures: Vec<(f64, Method, String)>,
 }
 
-/// Name of the combined error of the positions of all stations.
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
@@ -116,7 +109,6 @@ impl Convergence {
         std::iter::once(together).chain(each).collect()
     }
 
-    /// Names of the quantities in the study, without duplicates.
     pub fn quantities(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {

@@ -30,7 +30,6 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
-    /// The runs agree to rounding.
     Exact,
     /// The observed order is at least 0.7 times the order of the method, or at least 0.7 if this order is unknown, and the error is small.
     Converged,
@@ -55,7 +54,6 @@ impl ErrorVerdict {
     }
 }
 
-/// Estimated error of a quantity due to the discretisation in time or in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscretisationError {
     /// Errors at times of the run [time, dimension of the quantity].
@@ -88,7 +86,6 @@ impl DiscretisationError {
     }
 }
 
-/// A quantity on three levels of refinement, from fine to coarse. The third level is optional.
 #[derive(Debug, Clone, Copy)]
 pub struct RefinementLevels<'a> {
     pub sizes: [f64; 3],

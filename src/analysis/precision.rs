@@ -8,11 +8,9 @@ use super::run_result::RunResult;
 use super::timing::Timing;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Combination of mesh, integrator and step size, with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
     pub mesh: String,
-    /// Integrator and step size.
     pub settings: SimulationSettings,
     pub result: RunResult,
     /// Run time; `None` if the run failed.
@@ -66,7 +64,6 @@ pub struct Precision {
     pub length: f64,
     pub observables: Vec<Observable>,
     pub reference: ReferenceSolution,
-    /// All combinations, including those whose runs failed.
     pub rows: Vec<PrecisionRow>,
     pub external_results: Vec<ExternalResult>,
 }
@@ -105,7 +102,6 @@ impl Precision {
         confirmed.min_by(|a, b| a.cost_and_error().0.total_cmp(&b.cost_and_error().0))
     }
 
-    /// Names of the other programs, without duplicates.
     pub fn program_names(&self) -> Vec<&str> {
         let mut peers = Vec::new();
         for peer in

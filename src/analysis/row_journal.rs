@@ -17,7 +17,6 @@ const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RowEntry {
-    /// First entry: identification of the sweep.
     Sweep {
         fingerprint: u64,
         rows: u64,
@@ -30,7 +29,6 @@ pub enum RowEntry {
     Failed(u64, String),
 }
 
-/// Journal of a sweep, opened for appending entries.
 #[derive(Debug)]
 pub struct RowJournal {
     file: BufWriter<File>,
@@ -86,10 +84,6 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Writes the buffer to the file, unless the last write was very recent.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn flush_periodically(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
             self.flush()?;
@@ -97,20 +91,12 @@ impl RowJournal {
         Ok(())
     }
 
-    /// Writes the buffer to the file.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn flush(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
         self.file.flush()
     }
 }
 
-/// Removes a journal if it exists.
-///
-/// # Errors
-/// Fails if the file cannot be removed.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

@@ -7,7 +7,6 @@ use crate::simulation::Simulation;
 /// Largest difference of two times that count as equal, as a fraction of the length of a run.
 const SAME_TIME: f64 = 1e-9;
 
-/// Quantity whose values are recorded during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TracedQuantity {
     pub name: String,
@@ -19,7 +18,6 @@ pub struct TracedQuantity {
 pub enum TraceSource {
     /// Position of a station in all recorded configurations [length].
     Position(Station),
-    /// Column of the history that contains present values.
     Column,
     /// Column of the history that contains means over the last step, such as contact forces.
     StepMean,

@@ -218,7 +218,6 @@ pub(super) fn judge_one(
     process::exit(0)
 }
 
-/// Sets system limits for this process, in addition to the limits that the program checks.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
     use nix::sys::resource::{Resource, getrlimit, setrlimit};

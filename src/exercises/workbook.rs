@@ -19,15 +19,9 @@ pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint, or the solution if all hints were given.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
-    Hint {
-        text: String,
-        number: usize,
-        count: usize,
-    },
-    /// The model solution. It is given when all hints have been given.
+    Hint { text: String, number: usize, count: usize },
     Solution(&'static str),
 }
 
@@ -69,15 +63,10 @@ impl Workbook {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }
 
-    /// Returns true if the file of the exercise differs from its start file.
     pub fn is_begun(&self, exercise: &Exercise) -> bool {
         read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
-    /// Returns the progress of the student.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or is damaged.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
     }
@@ -91,10 +80,6 @@ impl Workbook {
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Records the result of an attempt at an exercise.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or written.
     pub fn record(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.record(exercise, passed))
     }
@@ -139,7 +124,6 @@ impl Workbook {
     }
 }
 
-/// Returns the first unused name among `name.old`, `name.old2` and so on.
 fn free_name(file: &Path) -> PathBuf {
     let numbered = |number: usize| match number {
         1 => file.with_extension("old"),

@@ -59,7 +59,6 @@ struct DesignSearch<E> {
 }
 
 impl Rating {
-    /// Largest violation of a constraint; zero if all constraints are satisfied.
     pub fn largest_violation(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)

@@ -33,7 +33,6 @@ pub enum TerminationReason {
     Settled,
     /// No step reduces the sum of squares, although the derivatives predict a reduction. The cause is noise of the runs or a discontinuity.
     Stalled,
-    /// The maximum number of iterations was reached.
     Unfinished,
 }
 

@@ -21,23 +21,18 @@ const NOTE: f64 = 12.0;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesColour {
-    /// Next colour of the palette.
     #[default]
     Next,
     /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
-    /// Black, for series that summarise all other series.
     Black,
 }
 
-/// Visual weight of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesEmphasis {
-    /// Line of normal width.
     #[default]
     Full,
     Thin,
-    /// Thin and pale line in the background.
     Pale,
 }
 
@@ -87,7 +82,6 @@ impl Series {
     }
 }
 
-/// Line chart: series over common axes, with a title, labels and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineChart {
     title: String,
@@ -188,7 +182,6 @@ impl LineChart {
         self
     }
 
-    /// Adds thin lines above and below a series, at the given distances from its points.
     pub fn add_band(&mut self, index: usize, distances: &[f64]) {
         for sign in [1.0, -1.0] {
             let points = self.series[index].points.iter().zip(distances);

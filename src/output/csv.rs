@@ -18,7 +18,6 @@ impl CsvTable {
         Self::default()
     }
 
-    /// Adds a comment to the table. Each line of the text becomes a comment line.
     pub fn comment(mut self, text: impl Into<String>) -> Self {
         self.comments.push(text.into());
         self
@@ -46,7 +45,6 @@ impl CsvTable {
         self
     }
 
-    /// Text of the CSV file. Fails if the columns have different lengths.
     pub fn to_text(&self) -> Result<String, OutputError> {
         self.common_length()?;
         let mut bytes = Vec::new();

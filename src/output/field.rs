@@ -32,7 +32,6 @@ pub struct FieldPicture {
 }
 
 impl FieldPicture {
-    /// Creates a picture without beams. `label` names the quantity that the colours show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }

@@ -34,7 +34,6 @@ pub struct HeatCell {
     pub text: String,
 }
 
-/// Heat map: cells in named rows and columns, with a legend of the colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,

@@ -14,7 +14,6 @@ const BREADTH: f64 = 5.0;
 /// Largest half length of a cylinder [pixels], and its largest half length as a fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
-/// Line from one point to another, for a spring or damper.
 pub struct Link {
     from: Point,
     along: Point,

@@ -32,7 +32,6 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
     }
 }
 
-/// Text with blanks added at the end, so that it has `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
     // Formatting in Rust would count characters instead of columns, and is limited to a width of 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))

@@ -31,7 +31,6 @@ pub struct SimulationPositions {
     steps: usize,
 }
 
-/// Successful inputs of a session, in their order.
 #[derive(Clone, Debug, Default)]
 pub struct SessionRecord {
     entries: Vec<RecordedInput>,
@@ -133,7 +132,6 @@ impl SessionRecord {
         self.entries.iter().map(RecordedInput::source)
     }
 
-    /// Returns true if an input returned early. The script does not repeat such inputs.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, RecordedInput::EarlyReturn(_)))
     }
@@ -149,7 +147,6 @@ impl RecordedInput {
     }
 }
 
-/// Positions of the simulations in variables and of the last used simulation, without duplicates.
 pub fn simulation_positions(
     scope: &Scope,
     latest: Option<SimulationHandle>,

@@ -27,7 +27,6 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// Creates an empty transcript. Imported files are searched for in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
@@ -53,7 +52,6 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed. The declarations of failed inputs are ignored.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;

@@ -130,10 +130,6 @@ impl Folder {
         found.is_ok_and(|(folder, name)| folder.0.metadata(name).is_ok())
     }
 
-    /// Returns true if no other program has locked this regular file below the folder.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist or cannot be opened.
     pub fn is_unlocked(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
@@ -167,10 +163,6 @@ impl Folder {
         self.sync()
     }
 
-    /// Removes a file or a link in this folder.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be removed.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file(name.as_os_str())
     }

@@ -48,10 +48,6 @@ impl Scratch {
         self.folder.path()
     }
 
-    /// Creates a new folder inside this folder.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }

@@ -22,10 +22,6 @@ pub struct FileChecksum {
 }
 
 impl FileChecksum {
-    /// Computes the checksum and the length of a content.
-    ///
-    /// # Errors
-    /// Fails if the content cannot be read.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {

@@ -55,7 +55,6 @@ pub fn stop(document: &Document) {
     document.check.store(true, Ordering::Relaxed);
 }
 
-/// Shows the diagnostics of a document in the editor.
 pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {
     let method = lsp::PublishDiagnosticsNotification::METHOD.as_str();
     let shown = lsp::PublishDiagnosticsParams { uri, version, diagnostics };
@@ -129,7 +128,6 @@ fn related(at: &Location) -> Option<lsp::DiagnosticRelatedInformation> {
     Some(lsp::DiagnosticRelatedInformation { location, message: "the error is here".into() })
 }
 
-/// Text of a line, counted from 1, without its indentation.
 fn line_range(text: &str, line: usize) -> lsp::Range {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let line = text[start..].lines().next().unwrap_or_default();

@@ -22,7 +22,6 @@ use crate::script::state::limits::Limits;
 /// Largest run time of the statements before a position for an answer to a request.
 const LONGEST_ANSWER: Duration = Duration::from_secs(1);
 
-/// Limits of an evaluation for an answer to a request.
 pub fn limits() -> Limits {
     Limits { time: Some(LONGEST_ANSWER), ..Limits::default() }
 }
@@ -30,7 +29,6 @@ pub fn limits() -> Limits {
 pub struct Document {
     pub version: i32,
     pub text: String,
-    /// Stops the check of this version.
     pub check: Arc<AtomicBool>,
     /// Names at the start of the line of the last request, with the text before it.
     names: RefCell<Option<(String, CompletionContext)>>,
@@ -43,7 +41,6 @@ impl Document {
         Self { version, text, check: Arc::default(), names: RefCell::default() }
     }
 
-    /// Applies a change of the client.
     pub fn change(&mut self, change: lsp::TextDocumentContentChangeEvent) {
         use lsp::TextDocumentContentChangeEvent as Change;
         match change {
@@ -56,12 +53,10 @@ impl Document {
         }
     }
 
-    /// Text of the document as a script.
     pub fn program(&self, uri: &Uri) -> Program {
         Program::from_text(&uris::path(uri), &self.text)
     }
 
-    /// Forgets names of imported files, which may have changed.
     pub fn forget_names(&mut self) {
         self.names.take();
     }

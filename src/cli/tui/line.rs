@@ -69,7 +69,6 @@ impl ScreenLine {
         Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// Wraps a line of code at a width of `columns`, after a blank if possible.
     pub fn wrapped(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());

@@ -35,7 +35,6 @@ impl PageLayout {
 /// Maximum width of text, because wider text is harder to read [columns].
 const WIDEST: usize = 100;
 
-/// Returns the lines that show the state on a screen of the given size. `solution` contains the lines of the model solution.
 pub fn screen(
     state: &TuiState,
     (columns, rows): (usize, usize),

@@ -36,10 +36,6 @@ pub struct RawTerminal {
 }
 
 impl RawTerminal {
-    /// Switches the terminal to the alternate screen and raw mode.
-    ///
-    /// # Errors
-    /// Fails if the terminal does not support the alternate screen or raw mode.
     pub fn enter() -> io::Result<Self> {
         enter_raw_mode()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());

@@ -149,7 +149,6 @@ fn packed_sign(sign: &SymbolMark) -> Value {
     })
 }
 
-/// Packs a spring. An anchor on the ground is stored as a point without weights.
 fn packed_spring(spring: &SpringShape) -> Value {
     let anchor = |anchor: &SpringEnd| match anchor {
         SpringEnd::Moving(at) => place(at, 0),
@@ -159,7 +158,6 @@ fn packed_spring(spring: &SpringShape) -> Value {
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
-/// Packs a beam as the index of its first point and its shape. Beams with the same mesh share a shape.
 fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({
@@ -182,7 +180,6 @@ fn place(place: &PointCombination, from: usize) -> Value {
     json!([place.first - from, weights])
 }
 
-/// Packs the coordinates of all points, with the same resolution along both axes.
 fn packed_points(viewer_data: &ViewerData) -> Result<(Value, Value), OutputError> {
     let along = |pick: fn(&Point) -> f64| {
         Quantisation::over(viewer_data.points.iter().flatten().map(pick), FINEST)

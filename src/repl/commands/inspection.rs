@@ -81,7 +81,6 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_latest_result("invariants()")
 }
 
-/// Shows the estimated errors of the last simulation: a table of all quantities, or a chart of the named columns.
 pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let words = operand.split([',', ' ']).map(|name| name.trim_matches('"').to_owned());
     let columns: Vec<String> = words.filter(|name| !name.is_empty()).collect();

@@ -13,7 +13,6 @@ pub struct Command {
     /// Operand as shown in the help; empty without an operand.
     pub placeholder: &'static str,
     pub summary: &'static str,
-    /// Further help text; may be empty.
     pub doc: &'static str,
     /// Function that executes the command. Its argument is the text after the command name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
@@ -38,7 +37,6 @@ pub const QUIT: Command = Command {
     body: session::quit,
 };
 
-/// All commands of the prompt, in the order of the help.
 pub const COMMANDS: &[Command] = &[
     HELP,
     Command {

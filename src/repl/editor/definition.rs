@@ -96,7 +96,6 @@ impl<'t> TokenizedText<'t> {
         self.tokens.get(index).is_some_and(|token| token.kind == TokenKind::Word)
     }
 
-    /// Path in quotes after the word `import`.
     fn imported_path(&self, index: usize) -> Option<&'t str> {
         let is_import = index.checked_sub(1).is_some_and(|before| self.written(before) == "import");
         self.written(index).strip_prefix('"').filter(|_| is_import)?.strip_suffix('"')
@@ -113,7 +112,6 @@ impl<'t> TokenizedText<'t> {
         names.filter(|at| self.written(*at) == name).map(|at| self.range(at)).collect()
     }
 
-    /// Name of the function that begins with the word `fn` at `start`: the last word before the parameters.
     fn name_of_function(&self, start: usize) -> Option<usize> {
         let head = start + 1..self.tokens.len().min(start + 1 + LONGEST_NAME);
         let name = head.take_while(|at| self.written(*at) != "(").last();
@@ -138,7 +136,6 @@ impl<'t> TokenizedText<'t> {
         at.map(|at| self.range(at)).into_iter().collect()
     }
 
-    /// Declaration of the variable at the token `of`; empty if there is none.
     fn variable(&self, of: usize) -> Vec<Range<usize>> {
         let mut scopes = vec![Scope::default()];
         for at in 0..=of {
@@ -209,7 +206,6 @@ impl<'t> TokenizedText<'t> {
         }
     }
 
-    /// Words after the token `start`, up to the token `end` or the start of a block.
     fn words_until(&self, start: usize, end: &str) -> Vec<usize> {
         let rest = start + 1..self.tokens.len();
         let rest = rest.take(2 * MOST_PARAMETERS);
@@ -222,12 +218,10 @@ impl<'t> TokenizedText<'t> {
 mod tests {
     use super::*;
 
-    /// Position of the occurrence with this number of a part of the text.
     fn find(text: &str, part: &str, number: usize) -> usize {
         text.match_indices(part).nth(number).expect("the part occurs").0
     }
 
-    /// Occurrences of `name` that are the definition of the occurrence `of`.
     fn defining(text: &str, name: &str, of: usize) -> Vec<usize> {
         let Some(Definition::Here(found)) = definition(text, find(text, name, of)) else {
             panic!("{text}")

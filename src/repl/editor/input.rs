@@ -34,7 +34,6 @@ pub struct CalleeName<'t> {
 }
 
 impl<'t> Input<'t> {
-    /// Collects the tokens of `text` before `position`.
     pub fn before(text: &'t str, position: usize) -> Self {
         let text = text.get(..position).unwrap_or(text);
         let all = scan(text);

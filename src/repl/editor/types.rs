@@ -123,7 +123,6 @@ impl<'t> Types<'_, 't> {
         inside.of.filter(|_| inside.start == opener + 1)
     }
 
-    /// Type of a name, which may be declared in this input, or be a variable of the session or a constant of the language.
     fn variable(&self, at: usize, depth: usize) -> Option<ValueKind> {
         let name = self.input.written(at);
         if at.checked_sub(1).is_some_and(|before| self.input.written(before) == "::") {

@@ -8,7 +8,6 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 
-/// Checked arguments of a call. An omitted argument has its default, if it has one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -98,7 +97,6 @@ impl Arguments {
         self.get(name)
     }
 
-    /// Value of the argument as a map of options. If the argument is omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {

@@ -2,27 +2,22 @@
 
 use super::returns::Returns;
 
-/// Functions of Rhai for one type of value.
 pub struct BuiltInTable {
     pub name: &'static str,
-    /// One or two sentences about the functions.
     pub doc: &'static str,
     pub rows: &'static [BuiltIn],
 }
 
-/// Function of Rhai with all its notations.
 pub struct BuiltIn {
     /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
     pub returns: Returns,
     pub summary: &'static str,
-    /// Further help text; may be empty.
     pub doc: &'static str,
     pub example: &'static str,
     pub related: &'static [&'static str],
 }
 
-/// Notation of a function of Rhai, split into its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionForm {
     /// Type of the value before the dot; `None` for a function.
@@ -34,11 +29,9 @@ pub struct FunctionForm {
     pub required: Vec<&'static str>,
     /// Names of the optional arguments, after the required ones.
     pub optional: Vec<&'static str>,
-    /// Text after the name.
     pub ending: NameSuffix,
 }
 
-/// Text after the name of a function in its notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
     Property,
@@ -47,7 +40,6 @@ pub enum NameSuffix {
     Repeated,
 }
 
-/// Creates the entry of a function of Rhai. The method [`BuiltIn::returns`] adds the return value.
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -80,29 +72,24 @@ impl BuiltIn {
         self.forms.iter().map(|form| written(form))
     }
 
-    /// Returns true if the function is a method or property of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.form_of(type_name).is_some()
     }
 
-    /// First notation of the function in which a value of this type stands before the dot.
     pub fn form_of(&self, type_name: &str) -> Option<FunctionForm> {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// First notation in which the function is called without a value before the dot.
     pub fn form_of_function(&self) -> Option<FunctionForm> {
         self.written().find(|form| form.receiver.is_none())
     }
 
-    /// Returns true if the function can be called without a receiver.
     pub fn is_function(&self) -> bool {
         self.form_of_function().is_some()
     }
 }
 
 impl FunctionForm {
-    /// Returns true if this notation applies to values of the type with this name.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }

@@ -11,12 +11,10 @@ pub enum ValueKind {
     Any,
     Number,
     Integer,
-    /// The value `true` or `false`.
     Boolean,
     Text,
     Character,
     Function,
-    /// Time of the clock.
     Timestamp,
     Range,
     Map,
@@ -100,7 +98,6 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// Return value of a binding with its type, dimension and description, for the documentation.
 #[derive(Clone, Copy)]
 pub struct Returns {
     pub kind: ValueKind,
@@ -117,7 +114,6 @@ impl Returns {
     pub const ANYTHING: Self = Self::of(ValueKind::Any);
     pub const NUMBER: Self = Self::of(ValueKind::Number);
     pub const INTEGER: Self = Self::of(ValueKind::Integer);
-    /// The value `true` or `false`.
     pub const BOOLEAN: Self = Self::of(ValueKind::Boolean);
     pub const TEXT: Self = Self::of(ValueKind::Text);
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
@@ -140,7 +136,6 @@ impl Returns {
         Self::of(ValueKind::Array(element))
     }
 
-    /// Value of one of several types. The most likely type comes first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }
@@ -150,7 +145,6 @@ impl Returns {
         self
     }
 
-    /// Replaces the description of the type, for example by `an angle from -PI to PI`.
     pub const fn with_description(mut self, words: &'static str) -> Self {
         self.description = words;
         self

@@ -64,7 +64,6 @@ impl Sources {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Resets the state of the parser before it reads another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
@@ -90,7 +89,6 @@ impl Sources {
         })
     }
 
-    /// Records that the functions and closures of a syntax tree belong to a file.
     pub fn record_file(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
@@ -103,17 +101,14 @@ impl Sources {
         }
     }
 
-    /// Returns true if the statements of an imported file declare an input.
     pub fn imports_have_inputs(&self) -> bool {
         !self.inputs.borrow().in_imports.is_empty()
     }
 
-    /// Returns true if a function declares an input with this name.
     pub fn functions_have_input(&self, name: &str) -> bool {
         self.inputs.borrow().in_functions.contains(name)
     }
 
-    /// Returns true if the statements of an imported file declare an input with this name.
     pub fn imports_have_input(&self, name: &str) -> bool {
         self.inputs.borrow().in_imports.contains(name)
     }

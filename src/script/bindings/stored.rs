@@ -75,15 +75,12 @@ impl StoredFunction {
         &self.role
     }
 
-    /// State shared by the calls of the run.
     pub fn context(&self) -> &Context {
         &self.context
     }
 }
 
-/// Reason why a script function did not return a number.
 pub enum NoNumber {
     Failed(Box<EvalAltResult>),
-    /// The function returned a value of another type, which the text describes.
     Other(String),
 }

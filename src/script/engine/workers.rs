@@ -93,10 +93,6 @@ impl Worker {
         Ok(Self { host, script, program: program.clone(), interrupt })
     }
 
-    /// Calls a function of the script by its name.
-    ///
-    /// # Errors
-    /// Fails if the function fails.
     pub fn call(&self, name: &str, arguments: Vec<Dynamic>) -> EngineResult<Dynamic> {
         let options = CallFnOptions::new().eval_ast(true);
         let mut scope = Scope::new();

@@ -320,7 +320,6 @@ fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Rejects the option `error` for a table that does not come from a simulation.
 fn expect_no_errors(call: &Call, options: &Options) -> Result<(), ScriptError> {
     if !options.boolean(ERROR.name).unwrap_or(false) {
         return Ok(());

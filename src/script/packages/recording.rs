@@ -111,7 +111,6 @@ pub(super) fn report_diverged_rerun(
     Ok(())
 }
 
-/// Rejects a picture for a time that is too far from the nearest recorded configuration.
 pub(super) fn expect_near(
     call: &Call,
     of: &SimulationHandle,

@@ -250,7 +250,6 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
-/// Warns if the quadrature points of the mesh do not resolve the variation of a tapered section.
 fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
@@ -275,7 +274,6 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     Ok(())
 }
 
-/// Warns if a beam on its mesh is longer or shorter than its given axis.
 fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let beam = &scene.beams[index];

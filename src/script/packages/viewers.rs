@@ -192,7 +192,6 @@ pub(super) fn span(
     Ok((from, to))
 }
 
-/// Stations assigned to simulations. Each station must belong to at least one simulation.
 fn assigned(
     given: &[StationHandle],
     simulations: &[SimulationHandle],

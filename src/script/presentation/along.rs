@@ -14,7 +14,6 @@ use crate::system::{BeamPlaces, BeamSample, System, SystemError};
 
 const DIGITS: usize = 6;
 
-/// Section results of some beams at one time.
 pub struct SectionForceProfile {
     /// First part of titles. The name of the quantity is appended.
     pub title: String,
@@ -75,7 +74,6 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes the symbols that `shown` excludes.
     pub fn with_symbols(mut self, shown: Visibility) -> Self {
         self.outline.symbols = shown.visible(self.outline.symbols);
         self
@@ -136,7 +134,6 @@ impl SectionForceProfile {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
-    /// Summary as lines of text, for output that is not a terminal.
     pub fn summary(&self, quantity: &BeamQuantity) -> String {
         let number = |value: f64| significant(value, DIGITS);
         let line = |beam: &BeamProfile| {

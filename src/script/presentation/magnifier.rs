@@ -18,7 +18,6 @@ pub struct Magnifier<'a> {
     joints: Vec<Vec<Station>>,
 }
 
-/// Rigid motion of a body since the start.
 #[derive(Clone, Copy, Default)]
 struct RigidMotion {
     from: Vec2,
@@ -74,10 +73,6 @@ impl<'a> Magnifier<'a> {
         !self.travel.is_held(body)
     }
 
-    /// Magnified configuration.
-    ///
-    /// # Errors
-    /// Fails if a station lies outside its beam.
     pub fn configuration(
         &self,
         now: &DrawnConfiguration,
@@ -108,10 +103,6 @@ impl<'a> Magnifier<'a> {
         })
     }
 
-    /// Rigid motions of all bodies.
-    ///
-    /// # Errors
-    /// Fails if a station lies outside its beam.
     pub fn rigid_motions(&self, now: &DrawnConfiguration) -> Result<MagnifiedBodies, SystemError> {
         let mut motions = Vec::new();
         for (body, joints) in self.joints.iter().enumerate() {
@@ -167,7 +158,6 @@ impl<'a> Magnifier<'a> {
         [of.particles[particle]].iter().chain(outline).copied().collect()
     }
 
-    /// Displacements that keep travelling bodies attached to magnified bodies.
     fn shifts(
         &self,
         bodies: &MagnifiedBodies,

@@ -19,9 +19,7 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// First time.
     pub from: f64,
-    /// Last time.
     pub to: f64,
     pub every: f64,
 }
@@ -212,7 +210,6 @@ fn configuration(
     })
 }
 
-/// Returns true if the beams have so few spans that their knots can be marked.
 pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     let meshes = simulation.model().meshes();
     let spans: usize = meshes.iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();

@@ -14,11 +14,9 @@ pub struct Token {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
-    /// Spaces and line ends.
     Space,
     /// Line comment, or closed block comment.
     Comment,
-    /// Unclosed block comment.
     OpenComment,
     /// String or character literal, or raw string.
     Text,
@@ -32,7 +30,6 @@ pub enum TokenKind {
     Number,
     Open(Bracket),
     Close(Bracket),
-    /// Operator or punctuation.
     Symbol,
 }
 
@@ -64,7 +61,6 @@ impl Token {
         text.get(self.start..self.end).unwrap_or_default()
     }
 
-    /// Returns true if the token is neither space nor comment.
     pub fn is_significant(&self) -> bool {
         !matches!(self.kind, TokenKind::Space | TokenKind::Comment | TokenKind::OpenComment)
     }
@@ -297,7 +293,6 @@ fn begins_marked(rest: &str) -> bool {
     rest.bytes().take(MOST_MARKS + 1).find(|byte| *byte != b'#') == Some(b'"')
 }
 
-/// Returns true if a character may occur in a name.
 pub fn is_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }

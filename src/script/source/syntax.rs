@@ -61,12 +61,10 @@ pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// State of the token hook while it reads a text.
 #[derive(Clone, Default)]
 pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
-    /// True if reading a text must not be interrupted.
     is_undisturbed: Rc<Cell<bool>>,
 }
 

@@ -177,10 +177,6 @@ impl OutputFolder {
         &self.folder
     }
 
-    /// Path of the file `name` in the output folder.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder.
     pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
         if !is_plain(Path::new(name)) {
             return Err(ScriptError::new(format!(

@@ -63,7 +63,6 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     chart
 }
 
-/// Refinement levels that can be used to compute an order, from coarse to fine.
 fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.counts_for_order(*rung))
 }

@@ -47,7 +47,6 @@ pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
 
-/// First sentence or clause of a reason, at most one line.
 pub fn first_sentence(text: &str) -> String {
     let ends = ["; ", ". ", "\n"].iter().filter_map(|end| text.find(end));
     let sentence = &text[..ends.min().unwrap_or(text.len())];

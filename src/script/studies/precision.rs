@@ -14,7 +14,6 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 
-/// Runs the study. In a dry run, nothing is computed.
 pub fn study(
     call: &Call,
     options: &ErrorOptions,

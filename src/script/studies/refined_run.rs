@@ -13,10 +13,8 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::SimulationSettings;
 
-/// Number of steps of the first run.
 const FIRST_STEPS: f64 = 50.0;
 
-/// Maximum number of runs.
 const MOST_RUNS: usize = 12;
 
 /// Largest factor of refinement between two runs, for the steps and for the mesh.
@@ -31,7 +29,6 @@ pub struct RefinedRunRequest {
     pub end: f64,
     /// Largest estimated error of positions, relative to the size of the scene [-].
     pub tolerance: f64,
-    /// Integrator.
     pub method: Method,
     /// Time after which no further run is started [s].
     pub max_time: f64,
@@ -175,10 +172,6 @@ impl RefinedRun {
         }
     }
 
-    /// Result in a dry run: a simulation at the end time, without steps and errors.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built.
     pub fn dry_run(
         scene: &SceneHandle,
         request: &RefinedRunRequest,

@@ -20,7 +20,6 @@ const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
 const COLUMNS: usize = 2;
 
-/// Quantity that determines the colours of the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
     EnergyGrowth,
@@ -30,7 +29,6 @@ pub enum MapColouring {
 }
 
 impl MapColouring {
-    /// All quantities by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
         ("iterations", Self::Iterations),
@@ -45,7 +43,6 @@ impl MapColouring {
         }
     }
 
-    /// Name of the quantity, and the powers of ten at the ends of the colour scale.
     fn scale(self) -> (&'static str, (i32, i32)) {
         match self {
             Self::EnergyGrowth => ("energy growth", (-12, 0)),

@@ -117,7 +117,6 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression that contains a schedule with jumps at times that depend on a parameter.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -128,7 +127,6 @@ impl VariableFacts {
         })
     }
 
-    /// Reports a branch on several expressions that together depend on a parameter and on the argument of the function.
     fn by<'e>(
         &self,
         expressions: impl Iterator<Item = &'e Expr> + Clone,
@@ -247,7 +245,6 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// Searches a function that is stored in a variable and called with arguments.
     fn held(
         &self,
         function: &FnPtr,
@@ -262,7 +259,6 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Searches a closure inside another function. Arguments of the closure are treated like arguments of the outer function.
     fn within(
         &self,
         function: &FnPtr,

@@ -69,7 +69,6 @@ pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
 
-/// Index of the variant in which the present call is evaluated; 0 without evaluation in variants.
 pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
@@ -170,7 +169,6 @@ impl ParameterSet {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }
 
-    /// Index of the parameter with a name, counted from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }

@@ -7,7 +7,6 @@ use super::{blocks, brackets, declarations, expressions, signs};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// Explanation of syntax from another language: message, replacement and position.
 pub struct SyntaxFix {
     pub message: String,
     pub hint: String,

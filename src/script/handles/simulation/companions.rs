@@ -15,10 +15,8 @@ use crate::simulation::{Simulation, SimulationSettings, StepControl, StepSize};
 use crate::statics::Equilibrium;
 use crate::system::Scene;
 
-/// State from which a simulation was started.
 #[derive(Clone)]
 pub enum RunStart {
-    /// Initial state of the scene.
     Scene,
     Equilibrium(EquilibriumHandle),
     /// Saved simulation, whose start is not stored.
@@ -63,7 +61,6 @@ impl SimulationHandle {
         &self.0.start
     }
 
-    /// Returns true if the simulation calls script functions between steps.
     pub fn has_callbacks(&self) -> bool {
         self.callbacks().next().is_some() || !self.0.events.borrow().all().is_empty()
     }
@@ -141,7 +138,6 @@ impl SimulationHandle {
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {
-    /// Name of the function in messages.
     role: String,
     shared: Dynamic,
     value: Dynamic,

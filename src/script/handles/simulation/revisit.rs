@@ -19,10 +19,6 @@ pub struct Revisit {
 }
 
 impl Revisit {
-    /// Replaces a simulation by a copy of its present state.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again.
     pub fn at_present(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_present()?;
         Ok(Self::with(handle, copy))

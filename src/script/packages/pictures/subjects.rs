@@ -67,7 +67,6 @@ fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
-/// History of a value, which is a history or a simulation. For a simulation, it is the whole history.
 pub fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))

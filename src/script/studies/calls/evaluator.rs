@@ -78,10 +78,6 @@ impl FunctionQuery<'_> {
         }
     }
 
-    /// Calls `drive` with the evaluator.
-    ///
-    /// # Errors
-    /// Fails if there is no worker, or if `drive` fails.
     pub fn with_evaluator<T>(
         &self,
         calling: &Call,

@@ -82,10 +82,6 @@ impl RunFunction {
         Ok(Self { name: function.fn_name().to_owned(), captured, extra: Vec::new() })
     }
 
-    /// Adds a further argument after the map.
-    ///
-    /// # Errors
-    /// Fails if the value cannot be sent to other threads.
     pub fn with_extra_argument(
         &mut self,
         call: &Call,

@@ -16,7 +16,6 @@ use crate::simulation::StepControl;
 /// Value that can be sent to another thread.
 #[derive(Clone, Debug)]
 pub enum Portable {
-    /// Unit value `()`.
     Nothing,
     Boolean(bool),
     Integer(INT),
@@ -28,22 +27,17 @@ pub enum Portable {
     Map(Vec<(String, Self)>),
     /// Script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
-    /// Serialised native data: type and bytes.
     Data(DataKind, Vec<u8>),
 }
 
-/// Native types whose values can be serialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataKind {
-    /// Constant or tapered section.
     Section,
     Mesh,
     Curve,
     Knots,
     Method,
-    /// Adaptive step size.
     Control,
-    /// Schedule given by a formula or a table.
     Schedule,
 }
 

@@ -62,13 +62,11 @@ pub struct Fit {
     /// Result, with weighted residuals.
     pub fitted: Fitted,
     pub residuals: Vec<f64>,
-    /// Interpretation of the values that the fitted function returns.
     pub compared: Compared,
     pub confidence: f64,
 }
 
 impl Derivatives {
-    /// Parses the option.
     pub fn of(word: &str) -> Self {
         if word == "differences" { Self::Unknown } else { Self::Known }
     }
@@ -139,7 +137,6 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// Rejects a function for which the number of residuals depends on the parameters.
     fn expect_as_many(
         &self,
         call: &Call,
@@ -256,7 +253,6 @@ impl Fit {
         estimate.half_width(parameter, self.confidence)
     }
 
-    /// Description of the end of the search.
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
             TerminationReason::Settled => "settled",
@@ -341,10 +337,6 @@ impl Fit {
         }
     }
 
-    /// Page as an SVG picture.
-    ///
-    /// # Errors
-    /// Fails if the page cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)
     }

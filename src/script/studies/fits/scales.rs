@@ -36,10 +36,6 @@ impl<'s> ResultScales<'s> {
         Rating { objective, constraints: distances.collect() }
     }
 
-    /// Scaled objective and constraints with derivatives.
-    ///
-    /// # Errors
-    /// Fails if the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {
             return Err("it returns different results".into());

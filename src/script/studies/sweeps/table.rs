@@ -41,12 +41,10 @@ impl SweepTable {
         &self.swept.sweep
     }
 
-    /// Returns true if rows were selected.
     pub fn is_of_some_rows(&self) -> bool {
         self.chosen.is_some()
     }
 
-    /// Returns true if the logarithm of a parameter has the given distribution.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.swept.plan.is_spread_by_ratios(name)
     }
@@ -121,7 +119,6 @@ impl SweepTable {
         DataTable { columns: sweep.names().filter_map(column).chain([failures]).collect() }
     }
 
-    /// Numeric columns as arrays.
     pub fn archive(&self) -> NpzArchive {
         let is_number = |values: &&[f64]| values.iter().any(|x| x.is_finite());
         let column = |name: &str| {
