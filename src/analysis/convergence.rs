@@ -12,7 +12,7 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// Smallest ratio of a significant error to the uncertainty of the reference.
+/// Smallest ratio of an error to the uncertainty of the reference at which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several sizes.
+    /// Returns the errors of one integrator for several step or mesh sizes.
     /// The first returned element contains the error of all positions together, as a fraction of the length scale.
     /// Each further returned element contains the error of a single observable.
     pub fn ladders_of(

@@ -19,13 +19,13 @@ const SHARE_OF_ORDER: f64 = 0.7;
 /// Smallest observed order of a converging run if the order of the method is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
-/// Largest error at which an observed order is significant, relative to the scale of a quantity.
+/// Largest error at which a run may count as converged, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
 /// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest growth of the distance of two runs, after their last convergence, that does not count as chaos.
+/// Largest ratio of two distances of a pair of runs, at their end and at their last convergence, for a motion that is not chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

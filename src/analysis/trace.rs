@@ -28,7 +28,7 @@ pub enum TraceSource {
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals from the start, from which means over different steps can be computed.
+    /// True if the values are integrals over time from the start. The mean over a step follows from the difference of two integrals.
     is_integral: bool,
 }
 

@@ -8,7 +8,7 @@ use super::SearchRange;
 
 /// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Largest violation of a satisfied constraint. Constraints are scaled to order one.
+/// Largest violation at which a constraint counts as satisfied. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
 /// Largest magnitude of an unbounded parameter in the search, as a multiple of its size. A parameter near this limit counts as diverged.
 const FARTHEST: f64 = 1e15;

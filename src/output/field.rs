@@ -135,7 +135,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions in which the number of the largest value may be written, seen from the mark of the value. The preferred direction comes first.
+/// Directions from the mark of the largest value to its label. The first direction in which the label has room is used.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

@@ -9,7 +9,7 @@ const LEAD: (f64, f64) = (8.0, 0.15);
 /// Preferred length of a coil of a spring [pixels].
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
-/// Half width of a spring and of the cylinder of a damper.
+/// Half width of a spring and of the cylinder of a damper [pixels].
 const BREADTH: f64 = 5.0;
 /// Largest half length of a cylinder [pixels], and its largest half length as a fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);

@@ -16,7 +16,7 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space around a symbol, so that the symbol is not cut off.
+/// White space around a symbol, so that the symbol is not cut off [pixels].
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -27,7 +27,7 @@ impl Place<'_> {
     }
 }
 
-/// Candidates for the word at a place. A typed colon asks for candidates only as a part of `::`.
+/// Candidates for the word at a place. After a typed colon, candidates are returned only if the colon completes `::`.
 pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionResponse> {
     if trigger == Some(":") && !at.before().ends_with("::") {
         return None;
@@ -35,7 +35,7 @@ pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionRe
     let names = at.document.names(at.uri, at.offset)?;
     let (start, candidates) = complete(&at.document.text, at.offset, &names);
     let range = positions::range(&at.document.text, start..at.offset);
-    // Indentation is the task of the editor.
+    // Candidates that insert only blanks are omitted, because the editor indents lines.
     let words = candidates.into_iter().filter(|known| !known.replacement.trim().is_empty());
     Some(words.map(|known| item(known, range)).collect::<Vec<_>>().into())
 }

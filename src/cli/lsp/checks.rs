@@ -41,7 +41,7 @@ pub fn start(uri: &Uri, document: &mut Document) {
             return;
         }
         let found = check(&program, &stopped);
-        // The next message is not written between the test and the answer.
+        // While stdout is locked, no other message can be written between the test of `stopped` and the result.
         let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
             let notes = pitfalls(&program.text).into_iter();

@@ -19,7 +19,7 @@ use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::limits::Limits;
 
-/// Largest run time of the statements before a position for an answer to a request.
+/// Time limit for evaluating the statements before the cursor when a request is answered.
 const LONGEST_ANSWER: Duration = Duration::from_secs(1);
 
 pub fn limits() -> Limits {
@@ -30,7 +30,7 @@ pub struct Document {
     pub version: i32,
     pub text: String,
     pub check: Arc<AtomicBool>,
-    /// Names at the start of the line of the last request, with the text before it.
+    /// Text before the line of the last request, and the names that are known after this text.
     names: RefCell<Option<(String, CompletionContext)>>,
 }
 
@@ -61,7 +61,7 @@ impl Document {
         self.names.take();
     }
 
-    /// Names that are known at the start of the line of byte `offset`.
+    /// Names that are known at the start of the line that contains byte `offset`.
     pub fn names(&self, uri: &Uri, offset: usize) -> Option<CompletionContext> {
         let start = self.text[..offset].rfind('\n').map_or(0, |end| end + 1);
         let before = &self.text[..start];
@@ -79,7 +79,7 @@ impl Document {
 pub struct Documents(pub HashMap<Uri, Document>);
 
 impl Documents {
-    /// URI and text of the script that an import of `path` in a script reads.
+    /// URI and text of the script that a script in `folder` imports by `path`.
     /// A module of the standard library is written to a file, so that the editor can open it.
     pub fn imported(&self, folder: &Path, path: &str) -> Option<(Uri, String)> {
         if let Some(module) = library::find(path) {

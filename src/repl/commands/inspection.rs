@@ -18,7 +18,7 @@ use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 use crate::script::studies::error_estimate::{ErrorEstimate, QuantityError};
 use crate::simulation::Simulation;
 
-/// Maximum and minimum width of a value in the list of variables.
+/// Maximum and minimum width of a value in the list of variables [columns].
 const VALUE_WIDTH: usize = 70;
 const LEAST_VALUE_WIDTH: usize = 12;
 

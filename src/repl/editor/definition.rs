@@ -57,7 +57,7 @@ pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
 /// Largest number of parameters of a function. It limits the run time for texts with errors.
 const MOST_PARAMETERS: usize = 100;
 
-/// Tokens between the word `fn` and the parameters, as in `fn number.twice()`.
+/// Largest number of tokens between the word `fn` and the parameters, as in `fn number.twice()`.
 const LONGEST_NAME: usize = 3;
 
 struct TokenizedText<'t> {
@@ -72,9 +72,9 @@ struct Scope {
     /// True for the body of a function, where outer variables are not visible.
     is_function: bool,
     declared: Vec<usize>,
-    /// Name in a declaration whose value is not complete.
+    /// Token index of the name in a declaration whose value is not complete.
     pending: Option<usize>,
-    /// Names that are visible in the next block: parameters, loop variables, and errors.
+    /// Token indices of the names that are visible in the next block: parameters, loop variables, and variables of `catch`.
     next_block: Vec<usize>,
     next_is_function: bool,
 }

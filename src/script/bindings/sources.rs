@@ -68,7 +68,7 @@ impl Sources {
         self.reader.begin();
     }
 
-    /// Calls `work`, during which parsing cannot be stopped. It must parse only texts that have been parsed before.
+    /// Calls `work`, during which parsing cannot be stopped. The function `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }

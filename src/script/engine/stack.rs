@@ -75,7 +75,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// Stack size of a script [bytes]. It is at most a quarter of the remaining address space.
+/// Stack size of a script [bytes]. It is at most a quarter of a limited address space, unless the allowed call depth requires more.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {

@@ -223,7 +223,7 @@ fn mean(points: &[Vec2]) -> Vec2 {
     points.iter().sum::<Vec2>() / points.len().max(1) as f64
 }
 
-/// Displacement between two polylines at the point of the first one that is nearest to a given point.
+/// Displacement from the first polyline to the second, at the point of the first polyline that is nearest to `at`.
 fn displacement(at: Vec2, from: &[Vec2], to: &[Vec2]) -> Option<Vec2> {
     let part = |index: usize| {
         let along = from[index + 1] - from[index];

@@ -294,8 +294,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Factor of a load at a time. At a jump, it is the factor before the jump; at time zero, the factor after the jump.
-/// The factor of a load is 1 if a script function computes it, because script functions are not called here.
+/// Value of the schedule of a load at a time. At a jump, it is the value before the jump; at time zero, the value after the jump.
+/// The value is 1 if the schedule contains a script function, because script functions are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

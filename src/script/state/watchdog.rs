@@ -17,7 +17,7 @@ const INTERVAL: Duration = Duration::from_millis(10);
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Factor of the allowed processor time that gives the allowed wall-clock time.
+/// Largest wall-clock time of a run, as a multiple of the time limit. It applies even if the processor time is within the limit.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.

@@ -64,7 +64,7 @@ pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// Variant in which the present call is evaluated; `None` without evaluation in variants.
+/// Variant in which the present call is evaluated; `None` if the call is not evaluated in variants.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }

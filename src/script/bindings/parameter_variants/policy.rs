@@ -80,6 +80,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Lists of all domains with a rule.
+/// Domains whose rule is stated in this file.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

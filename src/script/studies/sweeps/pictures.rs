@@ -269,7 +269,8 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram. If few values repeat often, each value has a bin, bounded halfway between neighbours. Otherwise all bins have equal widths.
+/// Bins of a histogram. If few distinct values occur often, each value has a bin, bounded halfway between neighbours.
+/// Otherwise all bins have equal widths.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
