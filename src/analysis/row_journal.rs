@@ -60,9 +60,6 @@ pub fn read_rows<E: From<io::Error>>(
 
 impl RowJournal {
     /// Opens a journal to append entries after its first `whole` bytes. A missing file is created.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::open_or_create)?;
         let file = folder.append(&name)?;
@@ -71,9 +68,6 @@ impl RowJournal {
     }
 
     /// Appends an entry. Returns its length [bytes].
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn write(&mut self, entry: &RowEntry) -> io::Result<u64> {
         let payload = postcard::to_stdvec(entry).map_err(io::Error::other)?;
         let length = u32::try_from(payload.len()).map_err(io::Error::other)?;

@@ -40,9 +40,6 @@ impl Workbook {
     }
 
     /// Creates the folder and the missing start files. Returns the number of files written.
-    ///
-    /// # Errors
-    /// Fails if the folder or a file cannot be written.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -72,9 +69,6 @@ impl Workbook {
     }
 
     /// Returns the first exercise that has not been passed; `None` if all exercises have been passed.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or is damaged.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
@@ -85,9 +79,6 @@ impl Workbook {
     }
 
     /// Returns the next hint of an exercise, and records that it was given.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or written.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;

@@ -136,9 +136,6 @@ impl<E> Descent<'_, '_, E> {
 impl Design {
     /// Minimises like [`solve`](Self::solve), with derivatives, by SLSQP (D. Kraft, 1988).
     /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
-    ///
-    /// # Errors
-    /// Returns the first error of `rate_with_slopes` or `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,

@@ -84,9 +84,6 @@ impl Design {
     ///
     /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned.
     /// If a run fails, `rate` must return `None`, and the search avoids this design. If all runs fail, the result is `None`.
-    ///
-    /// # Errors
-    /// Returns the first error of `rate`.
     pub fn solve<E>(
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,

@@ -33,9 +33,6 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
 
     /// Returns the values at a point, with derivatives if the function provides them.
     /// The derivatives of the first call are checked against finite differences.
-    ///
-    /// # Errors
-    /// Returns an error of the evaluated function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {

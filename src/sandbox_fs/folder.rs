@@ -135,9 +135,6 @@ impl Folder {
     }
 
     /// Creates a new file for writing. Missing parent folders are also created.
-    ///
-    /// # Errors
-    /// Fails if a file of this name exists or the file cannot be created.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.0.create_file(name)
@@ -155,9 +152,6 @@ impl Folder {
     }
 
     /// Renames a file in this folder. An existing file with the new name is replaced.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be renamed.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name.as_os_str(), new.as_os_str())?;
         self.sync()

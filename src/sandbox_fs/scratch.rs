@@ -25,9 +25,6 @@ pub struct Scratch {
 
 impl Scratch {
     /// Creates a temporary folder, and removes the folders of processes that were killed.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }

@@ -112,9 +112,6 @@ impl Folder {
     }
 
     /// Renames a file below this folder to the first unused name. `free` returns the possible new names in turn. Returns the new name.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be renamed.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {

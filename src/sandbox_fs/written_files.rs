@@ -115,9 +115,6 @@ impl WrittenFiles {
     }
 
     /// Records the content of a file. The caller must do this before the file gets its final name. The record is written to disk immediately.
-    ///
-    /// # Errors
-    /// Fails if the record cannot be written.
     pub fn record(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
         if name.contains(['\n', '\r']) || is_last {

@@ -74,9 +74,6 @@ pub struct Editor {
 impl Editor {
     /// Creates a line editor on this terminal.
     /// If the history file cannot be read, it is ignored, and [`Self::take_history_problem`] returns the reason.
-    ///
-    /// # Errors
-    /// Fails if the terminal cannot be used.
     pub fn new(options: EditorOptions) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();

@@ -190,9 +190,6 @@ impl<J, R> WorkerPool<'_, J, R> {
 
 /// Calls `drive` with a pool of worker threads with separate engines. A job that takes longer than `wall` is stopped.
 /// The callback `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
-///
-/// # Errors
-/// Fails if no worker can be created.
 pub fn with_worker_pool<J: Send, R: Send, T>(
     config: &EngineConfig,
     wall: Duration,

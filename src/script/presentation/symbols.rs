@@ -79,9 +79,6 @@ impl<'a> SceneAt<'a> {
 }
 
 /// Symbols of a scene at a time. `places` returns the positions of stations. Zero loads have no symbol.
-///
-/// # Errors
-/// Fails if `places` fails.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,

@@ -57,17 +57,11 @@ impl OutputFolder {
     }
 
     /// Writes the file `name` in the output folder. A dry run only checks the name.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
 
     /// Writes the file `name` in the output folder in pieces. `write` receives the writer. A dry run only checks the name.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_by(
         &self,
         name: &str,
@@ -133,9 +127,6 @@ impl OutputFolder {
     }
 
     /// Writes a file that the script may [`read`](Self::read) later, also in a dry run.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
         if self.mode == RunMode::DryRun {

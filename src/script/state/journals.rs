@@ -90,9 +90,6 @@ impl Journals {
 
     /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep.
     /// If an existing journal belongs to the same sweep, `recall` receives its entries.
-    ///
-    /// # Errors
-    /// Fails if the journal cannot be read or written.
     pub fn open_rows(
         &self,
         path: PathBuf,

@@ -169,9 +169,6 @@ impl<'w> Evaluator<'w> {
 
     /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters.
     /// The argument `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
-    ///
-    /// # Errors
-    /// Fails if the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.evaluate_points(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),

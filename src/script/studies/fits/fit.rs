@@ -161,9 +161,6 @@ impl FitRequest<'_> {
     }
 
     /// Result of a dry run: the start values. The function is called once with these values.
-    ///
-    /// # Errors
-    /// Fails if the function fails.
     pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {

@@ -129,9 +129,6 @@ impl SweepTable {
     }
 
     /// Writes the table as CSV, row by row. The required memory does not depend on the number of rows.
-    ///
-    /// # Errors
-    /// Fails if the table cannot be written.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
