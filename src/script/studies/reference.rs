@@ -166,7 +166,7 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 }
 
 impl Reference {
-    /// Reads the option `reference`, and adds the comparable columns to the plan.
+    /// Reads the option `reference`, and adds to the plan the history columns that can be compared with it.
     pub fn read(
         call: &Call,
         options: &ErrorOptions,

@@ -80,6 +80,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Domains whose rule is stated in this file.
+/// Names of domains in the rules of this file. A test checks that these domains exist.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];
