@@ -71,7 +71,7 @@ pub struct Convergence {
     pub fixed: String,
     /// Times at which results are compared [time].
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub reference: ReferenceSolution,
     pub ladders: Vec<Refinement>,

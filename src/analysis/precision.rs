@@ -60,7 +60,7 @@ pub struct Precision {
     pub name: String,
     /// Times at which results are compared [time]. Runs end at the last of these times.
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub observables: Vec<Observable>,
     pub reference: ReferenceSolution,

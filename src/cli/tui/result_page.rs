@@ -1,4 +1,4 @@
-//! Converts the result of an attempt to lines.
+//! Converts the result of an attempt to lines of the screen.
 
 use super::line::{BAD, FAINT, GOOD, HEADING, PLAIN, ScreenLine, WARNING, labelled, paragraph};
 use super::state::TuiState;

@@ -42,7 +42,7 @@ impl FromOption for Dynamic {
     }
 }
 
-/// Types that the engine stores without conversion.
+/// Implements [`FromOption`] for types that the engine stores without conversion.
 macro_rules! held_as_they_are {
     ($($held:ty),*) => {
         $(impl FromOption for $held {

@@ -127,7 +127,7 @@ impl Sources {
     }
 
     /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
-    /// Within nested library calls, the outermost line is kept.
+    /// If library functions call each other, the line of the outermost call is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

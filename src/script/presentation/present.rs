@@ -18,7 +18,7 @@ const MOST_KEYS: usize = 12;
 /// Largest displayed nesting depth. The nesting of values may be infinite.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
-/// Minimum width of the values in summaries.
+/// Minimum width of the values in summaries [columns].
 const LEAST_ROOM: usize = 20;
 const MOST_LINES: usize = 200;
 

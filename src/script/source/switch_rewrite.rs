@@ -12,7 +12,7 @@ use crate::script::messages::error::EngineResult;
 /// Private-use character after `switch`. The parser reads it as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
-/// Parser name of the character after `switch`.
+/// Name of the character after `switch` in the parser.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;

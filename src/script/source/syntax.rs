@@ -22,7 +22,7 @@ use super::text::Source;
 use super::{loop_scoping, switch_rewrite};
 use crate::script::messages::stop::Stop;
 
-/// Prefix of the names of replaced operators.
+/// Prefix of the names of the operators that replace those of Rhai.
 pub const OWN: &str = "num";
 
 /// Replaced comparison, division and shift operators, with their precedences in Rhai.

@@ -25,7 +25,7 @@ pub struct ErrorStudyPlan {
     pub dts: Vec<StepSize>,
     /// Times at which the runs are compared, in increasing order [time].
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub limits: RunLimits,
 }

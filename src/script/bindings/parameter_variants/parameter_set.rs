@@ -11,7 +11,7 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation, as a fraction of the parameter.
+/// Default perturbation of a parameter, as a fraction of its value.
 /// The relative error of a difference quotient is about the square of the relative perturbation, plus the rounding error divided by it.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 

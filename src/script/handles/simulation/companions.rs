@@ -34,7 +34,7 @@ const NO_FILES: &str = "companion runs repeat the functions of a simulation and 
     files; write them after the run";
 
 impl SimulationHandle {
-    /// Starts a simulation of a scene on a mesh with another number of spans. It is not added to the report.
+    /// Starts a simulation of a scene on a mesh with another number of spans. The simulation is not added to the report.
     pub fn start_refined(
         scene: &SceneHandle,
         span_ratio: f64,
