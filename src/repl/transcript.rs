@@ -1,4 +1,4 @@
-//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains it.
+//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains the error.
 //! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;

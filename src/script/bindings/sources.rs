@@ -1,5 +1,5 @@
 //! Source files of script functions, and script lines that call the library.
-//! The engine does not know the file when native code calls closures of modules. It provides the lines of calls only in errors.
+//! The engine does not know the file when native code calls closures of modules. The engine provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};

@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, ObstacleShape, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Distance between the two points used to compute the tangent at a station, as a fraction of the beam length.
+/// Distance from a station to each of the two points from which the tangent is computed, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {

@@ -12,12 +12,12 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after the time limit, as a fraction of the limit.
-/// On a machine without other load, the run then ends within twice the time limit.
+/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit.
+/// On a machine without other load, a run with a time limit of some seconds then ends within twice this limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Largest wall-clock time of a run, as a multiple of the time limit. It applies even if the processor time is within the limit.
+/// Largest wall-clock time after a limit was exceeded, as a multiple of the processor time that is allowed in this period.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.

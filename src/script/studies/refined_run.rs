@@ -59,7 +59,7 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough.
+/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough or cannot be estimated.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,

@@ -13,7 +13,7 @@ pub struct SyntaxFix {
     pub at: Position,
 }
 
-/// Pattern of syntax from another language. It examines the tokens around the error. If they match, it returns an explanation.
+/// Pattern of syntax from another language. It examines the tokens around the error. A pattern that matches returns an explanation.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
 /// All patterns. Patterns with more context come first.
