@@ -10,7 +10,6 @@ use crate::elementary::power;
 /// Largest distance of two runs that is attributed to rounding, relative to the scale of a quantity.
 const ROUNDING: f64 = 1e-10;
 
-/// Smallest and largest order in the search for the observed order.
 const ORDERS: (f64, f64) = (0.05, 12.0);
 
 /// Smallest observed order of a converging run, relative to the order of the method.
@@ -43,7 +42,6 @@ pub enum ErrorVerdict {
 }
 
 impl ErrorVerdict {
-    /// Verdict in words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Exact => "exact",

@@ -8,7 +8,6 @@ use crate::simulation::{History, Simulation};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// Name of the station or column, unique among observables of the same type.
     pub name: String,
     pub kind: ObservableKind,
 }

@@ -84,7 +84,6 @@ struct KnownValue {
     estimated_error: f64,
 }
 
-/// Reference of a study: values of its observables at the times of the study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceSolution {
     pub source: String,

@@ -61,9 +61,7 @@ impl SweptValues {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLayout {
     Grid,
-    /// Points that are independent or form a low-discrepancy sequence.
     Points,
-    /// Saltelli blocks, from which Sobol' indices are computed.
     Saltelli,
 }
 

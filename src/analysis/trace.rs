@@ -79,7 +79,6 @@ impl Trace {
         }
     }
 
-    /// Largest distance of a value from the first value.
     pub fn range(&self) -> f64 {
         let first = self.values.first().copied().unwrap_or_default();
         self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)

@@ -15,7 +15,6 @@ pub enum Mark {
     WrongResult,
     Error,
     Stopped,
-    /// The file of the attempt is equal to the start file of the exercise.
     Unchanged,
     Missing,
 }

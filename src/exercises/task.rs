@@ -8,7 +8,6 @@ pub const TO_DO: &str = "To do:";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
     Words(String),
-    /// Preformatted lines, for example a formula or a table.
     Set(Vec<String>),
 }
 

@@ -13,7 +13,6 @@ const RESTARTS: usize = 4;
 /// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
 
-/// Objective and constraints of a design, with their derivatives with respect to all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
     pub rating: Rating,

@@ -11,7 +11,6 @@ pub struct CountedEvaluator<'a, 'e, E> {
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
     pub runs: usize,
-    /// Number of calls that returned derivatives.
     pub gradient_runs: usize,
     /// Reason why derivatives are computed by finite differences; `None` while they are requested from the function.
     pub differences: Option<String>,

@@ -44,7 +44,6 @@ pub struct Series {
     /// Line style of the series. If `None`, the line is continuous.
     /// After each complete use of the palette, the chart then selects the next line style.
     pub stroke: Option<Stroke>,
-    /// Shape of the markers, if the line style has markers.
     pub marker: Marker,
     pub ink: SeriesColour,
     pub weight: SeriesEmphasis,

@@ -21,7 +21,6 @@ const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
 const DIGITS: usize = 4;
 
-/// Picture of beams, with nonnegative values along them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -41,7 +40,6 @@ impl FieldPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over the beams, and obstacles below them.
     pub fn outline(mut self, outline: MechanismOutline) -> Self {
         self.outline = outline;
         self

@@ -51,7 +51,6 @@ impl Link {
         vec![begin.into_iter().chain(zigzag).chain(end).map(|at| self.at(at)).collect()]
     }
 
-    /// Piston in a cylinder that is open at one end.
     pub fn damper(&self) -> Vec<Vec<Point>> {
         let (middle, half) = (0.5 * self.length, CYLINDER.0.min(CYLINDER.1 * self.length));
         let (bottom, rim) = (middle - half, middle + half);

@@ -24,7 +24,6 @@ pub struct MotionFrame {
     pub time: f64,
     /// Centre line of each beam in the snapshot. The order of the beams is the same in all snapshots.
     pub lines: Vec<Vec<Point>>,
-    /// Points that are marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
@@ -75,7 +74,6 @@ impl MotionPicture {
         self
     }
 
-    /// Draws symbols of supports, joints, sliders and loads over all snapshots, and obstacles below them.
     pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
         self.symbols.extend(symbols);
         self

@@ -30,9 +30,7 @@ pub enum Symbol {
     Guided,
     /// Support that fixes the angle and no component of the position.
     HeldAngle,
-    /// Prescribed rotation of a section as a function of time.
     Motor,
-    /// Prescribed displacement along a direction as a function of time.
     Carriage,
     Joint,
     RigidJoint,
@@ -89,7 +87,6 @@ impl Symbol {
     }
 }
 
-/// Symbol at a point, in data units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
     pub symbol: Symbol,

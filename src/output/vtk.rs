@@ -17,7 +17,6 @@ const LINE: u8 = 3;
 pub struct VtkGrid {
     /// Bodies. In the file, the cell field `body` contains the index of the body of each cell.
     pub cells: Vec<VtkCell>,
-    /// Fields with values at the points of all cells, in the order of the points.
     pub fields: Vec<VtkField>,
 }
 

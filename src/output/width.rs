@@ -13,7 +13,6 @@ pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
 
-/// Longest beginning of a text with at most `most` columns.
 pub fn beginning(text: &str, most: usize) -> &str {
     let mut taken = 0;
     let beyond = text.char_indices().find(|(_, letter)| {

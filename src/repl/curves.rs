@@ -38,7 +38,6 @@ impl CurveAbscissa {
 pub struct PlotCurve {
     pub name: String,
     pub over: CurveAbscissa,
-    /// Dimension of the values, if it is known.
     pub dimension: Option<&'static str>,
     pub points: Vec<Point>,
 }

@@ -7,7 +7,6 @@ use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
 /// Largest number of lines that the engine can count. In a longer session, counting starts again at line 1.

@@ -11,7 +11,6 @@ use super::Folder;
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
-/// Number of bytes read at a time for the computation of a checksum.
 const PIECE: usize = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

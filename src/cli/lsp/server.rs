@@ -57,7 +57,6 @@ enum Phase {
 struct Server {
     phase: Phase,
     documents: Documents,
-    /// True if the client shows Markdown.
     shows_markdown: bool,
 }
 

@@ -7,7 +7,6 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of, printable_line};
 
-/// ANSI codes for the style of a text segment.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");

@@ -49,9 +49,7 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// The user leaves an exercise that has not been passed.
     Skip,
-    /// The user requests the solution after all hints were given.
     Solution,
 }
 

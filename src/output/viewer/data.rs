@@ -89,7 +89,6 @@ pub struct Trail {
     pub at: PointCombination,
 }
 
-/// Quantity along all beams that determines their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
     pub name: String,

@@ -16,7 +16,6 @@ use crate::output::symbol::{PlacedSymbol, Symbol};
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
-/// Scripts of the page, in the order of their dependencies.
 const PROGRAMS: [&str; 9] = [
     include_str!("page/reading.js"),
     include_str!("page/film.js"),

@@ -18,7 +18,6 @@ pub struct Command {
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
-/// Help command, which can also be written `?`.
 pub const HELP: Command = Command {
     name: ":help",
     operand: CommandOperand::Name,
@@ -172,7 +171,6 @@ pub const COMMANDS: &[Command] = &[
 ];
 
 impl Command {
-    /// Usage line of the command, such as `:run TIME`.
     pub fn usage(&self) -> String {
         format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }

@@ -87,7 +87,6 @@ struct InputReader<'t> {
     outer: Vec<BracketLevel<'t>>,
     level: BracketLevel<'t>,
     line: usize,
-    /// True if the last token requires a continuation.
     is_incomplete: bool,
     /// True if the last token ends a value. A bar after a value is an operator.
     is_value: bool,

@@ -7,7 +7,6 @@ const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
     pub text: &'t str,
-    /// Tokens of the text, without spaces and comments.
     pub tokens: Vec<Token>,
     /// Token that ends at the cursor. It may be white space or a comment.
     pub last: Option<Token>,

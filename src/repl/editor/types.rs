@@ -13,7 +13,6 @@ const LONGEST_CHAIN: usize = 32;
 /// Largest nesting depth of parentheses and declarations that is examined.
 const DEEPEST: usize = 16;
 
-/// Derivation of types from tokens, session variables, and return types of functions.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
     pub input: &'a Input<'t>,

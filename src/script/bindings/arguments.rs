@@ -25,7 +25,6 @@ impl Arguments {
         Self { parameters, values }
     }
 
-    /// Returns true if the argument is given or has a default.
     pub fn has(&self, name: &str) -> bool {
         self.find(name).is_ok()
     }

@@ -27,7 +27,6 @@ pub struct FunctionForm {
     pub arguments: &'static str,
     /// Names of the required arguments; empty for a property.
     pub required: Vec<&'static str>,
-    /// Names of the optional arguments, after the required ones.
     pub optional: Vec<&'static str>,
     pub ending: NameSuffix,
 }
@@ -36,7 +35,6 @@ pub struct FunctionForm {
 pub enum NameSuffix {
     Property,
     Arguments,
-    /// Arguments, of which the last may be repeated.
     Repeated,
 }
 
@@ -94,7 +92,6 @@ impl FunctionForm {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// List of the arguments, with optional arguments in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()

@@ -222,7 +222,6 @@ fn make(
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 
-/// Hint for a load whose function reads a simulation during a step.
 pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";

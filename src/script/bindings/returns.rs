@@ -20,7 +20,6 @@ pub enum ValueKind {
     Map,
     Array(&'static ValueKind),
     Object(Type),
-    /// Value of one of the given types. The most likely type comes first.
     OneOf(&'static [ValueKind]),
 }
 

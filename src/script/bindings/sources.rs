@@ -28,7 +28,6 @@ pub struct Sources {
     reader: TokenReader,
 }
 
-/// Names of the inputs that a run of a study can vary.
 #[derive(Default)]
 struct InputNames {
     in_functions: BTreeSet<String>,

@@ -70,7 +70,6 @@ impl StoredFunction {
         self.function.curry().iter().filter(|value| value.is_shared())
     }
 
-    /// Name of the function in messages.
     pub fn role(&self) -> &str {
         &self.role
     }

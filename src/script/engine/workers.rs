@@ -23,13 +23,11 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
-/// Interval of checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Time to wait before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
-/// Data for the creation of an engine on another thread.
 #[derive(Clone)]
 pub struct EngineConfig {
     catalog: Catalog,

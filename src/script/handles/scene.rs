@@ -24,7 +24,6 @@ const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities
 #[derive(Clone)]
 pub struct SceneHandle {
     variants: Rc<Variants>,
-    /// Functions of user-defined columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
     /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
@@ -48,7 +47,6 @@ struct PerturbedBuilds {
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
-/// Release condition that is evaluated by a script function.
 #[derive(Clone)]
 pub struct Condition {
     pub function: Rc<StoredFunction>,

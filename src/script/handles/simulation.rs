@@ -46,7 +46,6 @@ struct Live {
     is_firing: Cell<bool>,
     /// True if an early end of the run has already been reported.
     is_ending_told: Cell<bool>,
-    /// True if the last advance failed or was interrupted.
     was_stopped: Cell<bool>,
     notes: Notes,
     start: RunStart,

@@ -145,7 +145,6 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
 }
 
 struct VtkFiles {
-    /// Name of the collection file without extension, with its folder.
     stem: String,
     /// Name of the collection file without extension and without its folder.
     base: String,

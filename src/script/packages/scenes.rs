@@ -186,7 +186,6 @@ const OTHER: Parameter =
     object("other", STATION).doc("second station; default: the ground").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
-/// Option for the initial rigid-body motion of beams and bodies.
 pub(super) const START_VELOCITY: Parameter =
     point("velocity").unit("length/time").doc("initial velocity of the point `about`").optional();
 pub(super) const START_SPIN: Parameter =

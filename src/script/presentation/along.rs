@@ -104,7 +104,6 @@ impl SectionForceProfile {
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
-    /// Chart of the quantity over the arc length of the beams, without a title.
     pub fn chart(&self, quantity: &BeamQuantity) -> LineChart {
         let chart = LineChart::new("")
             .x_label("s, from the start of the beam [length]")
@@ -116,7 +115,6 @@ impl SectionForceProfile {
         })
     }
 
-    /// Picture in which the colour and width of the beams show the magnitude of the quantity.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),

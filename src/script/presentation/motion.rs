@@ -26,7 +26,6 @@ pub struct Times {
 
 pub struct MotionOptions {
     pub times: Times,
-    /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
     /// Magnification of deformations since the start; `None` for no magnification.
     pub magnify: Option<f64>,
@@ -45,7 +44,6 @@ pub enum Visibility {
 }
 
 impl Visibility {
-    /// Symbols that are drawn. Obstacles are always drawn.
     pub fn visible(self, symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
         match self {
             Self::Yes => symbols,

@@ -56,7 +56,6 @@ pub struct SceneAt<'a> {
 }
 
 impl<'a> SceneAt<'a> {
-    /// Scene of a simulation at a time, without released connections.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.releasables().into_iter().map(|(_, hold)| hold);

@@ -2,7 +2,6 @@
 //!
 //! The lexer of the engine stops at the first error and drops comments and spaces. The editor must highlight the whole of an unfinished input.
 
-/// Piece of an input, the bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     pub kind: TokenKind,
@@ -38,11 +37,8 @@ pub enum Bracket {
     Round,
     /// The brackets `[` or `?[` of arrays and indices.
     Square,
-    /// The brace `{` of blocks.
     Curly,
-    /// The bracket `#{` of maps.
     Map,
-    /// The bracket `${` of an interpolation.
     Interpolation,
 }
 
@@ -108,7 +104,6 @@ struct Scanner<'t> {
     text: &'t str,
     at: usize,
     open: Vec<Bracket>,
-    /// True within a string in backticks.
     is_within_text: bool,
 }
 

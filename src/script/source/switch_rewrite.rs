@@ -12,7 +12,6 @@ use crate::script::messages::error::EngineResult;
 /// Private-use character after `switch`. The parser reads it as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
-/// Name of the character after `switch` in the parser.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
@@ -36,7 +35,6 @@ pub fn install(
     );
 }
 
-/// Positions of the keyword `switch`.
 pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }

@@ -23,7 +23,6 @@ pub struct OutputFolder {
     written: RefCell<Vec<PathBuf>>,
     /// Record of the files written by earlier runs, which is read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// Folders in which temporary files of crashed runs have been removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Contents of files that a dry run would have written. The script may read them.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
@@ -197,7 +196,6 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
 }
 
 pub struct InputFolder {
-    /// Name of the folder in messages.
     pub word: &'static str,
     pub path: PathBuf,
     pub open: fn(&Path) -> io::Result<Folder>,

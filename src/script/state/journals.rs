@@ -22,7 +22,6 @@ pub struct Journals {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
-    /// Journal that is removed when the script ends.
     Run,
     /// Journal that is not removed, because it contains a part that will be merged.
     Persistent,

@@ -62,7 +62,6 @@ impl Watchdog {
     }
 }
 
-/// Wall-clock time and processor time of the process.
 #[derive(Clone, Copy)]
 struct Clocks {
     wall: Instant,

@@ -33,7 +33,6 @@ pub fn deviation(deviation: Option<Deviation>) -> String {
     }
 }
 
-/// Label of a drift; `-` if unknown.
 pub fn drift(drift: f64) -> String {
     if drift.is_nan() { "-".to_owned() } else { scientific(drift, ERROR_DIGITS) }
 }
@@ -58,7 +57,6 @@ pub fn first_sentence(text: &str) -> String {
     format!("{whole_words} …")
 }
 
-/// List of times: `t = 2.5, 7.5`.
 pub fn at_times(times: &[f64]) -> String {
     let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
     format!("t = {}", times.join(", "))

@@ -160,7 +160,6 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// Number of cells, and number of completed cells.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())

@@ -36,9 +36,7 @@ pub(super) struct Decision {
 
 #[derive(Clone, Default)]
 struct VariableFacts {
-    /// Variables that depend on a parameter.
     varied: BTreeSet<String>,
-    /// Variables that depend on the argument of the function.
     asked: BTreeSet<String>,
     /// Variables that contain schedules with jumps at times that depend on a parameter.
     jumping: BTreeSet<String>,
@@ -56,7 +54,6 @@ struct Facts {
 struct BranchSearch<'s, 'n> {
     native: &'s NativeCallContext<'n>,
     depth: usize,
-    /// Number of functions that may still be searched.
     left: &'s Cell<usize>,
 }
 

@@ -24,7 +24,6 @@ pub struct Sides<'s> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
-    /// The function has a kink or a jump between the perturbed arguments.
     Discontinuous,
     /// A point of infinite slope is too close to the arguments.
     InfiniteSlope,

@@ -19,7 +19,6 @@ use crate::system::Scene;
 pub enum RunStart {
     Scene,
     Equilibrium(EquilibriumHandle),
-    /// Saved simulation, whose start is not stored.
     Loaded,
 }
 

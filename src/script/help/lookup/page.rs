@@ -34,9 +34,7 @@ pub struct StyledText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpStyle {
     Plain,
-    /// Heading or name, shown in bold.
     Name,
-    /// Dimension or remark, shown dim.
     Remark,
 }
 

@@ -16,7 +16,6 @@ use crate::script::messages::nouns::with_article;
 pub struct RunFunction {
     pub name: String,
     pub captured: Vec<(String, Portable)>,
-    /// Arguments that follow the map of values.
     pub extra: Vec<Portable>,
 }
 

@@ -13,7 +13,6 @@ use crate::loads::Schedule;
 use crate::script::handles::section::SectionHandle;
 use crate::simulation::StepControl;
 
-/// Value that can be sent to another thread.
 #[derive(Clone, Debug)]
 pub enum Portable {
     Nothing,
@@ -25,7 +24,6 @@ pub enum Portable {
     Vector(Vec2),
     Array(Vec<Self>),
     Map(Vec<(String, Self)>),
-    /// Script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
     Data(DataKind, Vec<u8>),
 }
@@ -160,7 +158,6 @@ impl Portable {
         }
     }
 
-    /// Numeric value; booleans count as 0 and 1.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Boolean(truth) => Some(f64::from(u8::from(*truth))),

@@ -48,7 +48,6 @@ pub struct DesignRequest<'o> {
 pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
     pub results: Vec<(String, f64)>,
-    /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,
     /// Index of an unbounded parameter that diverged because the objective decreases without limit.
     pub runaway: Option<usize>,

@@ -22,12 +22,7 @@ const ERROR_DIGITS: usize = 2;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     Residuals,
-    /// Values of a model, to be compared with measurements.
-    Model {
-        measured: Vec<f64>,
-        /// Abscissas of the measurements.
-        over: Option<Vec<f64>>,
-    },
+    Model { measured: Vec<f64>, over: Option<Vec<f64>> },
 }
 
 pub struct FitRequest<'o> {
@@ -59,7 +54,6 @@ pub enum Derivatives {
 pub struct Fit {
     pub name: String,
     pub names: Vec<String>,
-    /// Result, with weighted residuals.
     pub fitted: Fitted,
     pub residuals: Vec<f64>,
     pub compared: Compared,
@@ -303,7 +297,6 @@ impl Fit {
         )
     }
 
-    /// Page with the data and the model curve, if any, and the residuals below.
     pub fn page(&self) -> Page {
         let count = self.residuals.len();
         let places: Vec<f64> = match &self.compared {

@@ -7,7 +7,6 @@ use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
 
 pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
-    /// Index of the objective among the results.
     at: usize,
     limits: &'s [(usize, &'s Limit)],
     /// Magnitude of the objective in the first run.

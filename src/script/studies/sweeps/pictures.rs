@@ -208,7 +208,6 @@ impl Picture<'_> {
         })
     }
 
-    /// Scatter matrix of numeric columns, with histograms on the diagonal.
     pub fn matrix(&self, names: &[&str]) -> Page {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         let is_whole = |row: &usize| columns.iter().all(|column| column.number(*row).is_finite());

@@ -12,7 +12,6 @@ use crate::output::{
     format_number, significant,
 };
 
-/// Name of the column with the reasons of failures.
 pub const FAILURE: &str = "failure";
 const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
