@@ -78,7 +78,7 @@ impl Case {
     }
 
     /// Returns true if no interval between observation times, schedule breaks and releases is longer than `dt`.
-    /// A run with the step size `dt` or a larger one then takes one step from each of these times to the next.
+    /// With the step size `dt` or a larger one, a run then takes a single step in each of these intervals.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

@@ -24,7 +24,7 @@ const TOO_LARGE: f64 = 0.3;
 /// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest ratio of two distances of a pair of runs, at their end and at their last convergence, for a motion that is not chaotic.
+/// Largest growth of the distance of two runs, from their last convergence to their end, for a motion that is not chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -168,7 +168,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // If the curve of the first chart is equal, it is visible in the gaps of a dashed line.
+                // An equal curve of the first chart remains visible in the gaps of a dashed line.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })

@@ -28,7 +28,7 @@ impl CsvTable {
         self
     }
 
-    /// Keeps every n-th row and the last row, so that about `numbers` values remain. A comment line contains n.
+    /// Keeps every n-th row and the last row, so that about `numbers` values remain. The number n is stated in a comment line.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);

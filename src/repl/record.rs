@@ -59,7 +59,7 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // The saved script repeats the movement, and the repeated call may fail again. Therefore the script catches its error.
+                // The saved script repeats the advance or rewind, which may fail again. Therefore the script catches its error.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));

@@ -185,7 +185,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Success
 }
 
-/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn with the first column.
+/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn in the chart of the first column.
 fn charts(
     shell: &Shell,
     options: &Map,

@@ -89,7 +89,8 @@ pub(super) struct Missing {
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run after `time` cannot be computed again. Explicitly requested data cause an error, other data a note.
+/// Reports that the states of a run after `time` cannot be computed again.
+/// For explicitly requested data, the report is an error, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,

@@ -197,7 +197,8 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Recorded configuration nearest to a time. For the present time, the present configuration, even if it is not recorded.
+/// Recorded configuration nearest to a time.
+/// For the present time, the present configuration is returned, even if it is not recorded.
 fn configuration(
     simulation: &Simulation,
     time: f64,

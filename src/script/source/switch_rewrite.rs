@@ -1,4 +1,4 @@
-//! Check of the values of `switch`. For values that Rhai cannot compare, it would silently execute the default case.
+//! Check of the values of `switch`. For values that Rhai cannot compare, Rhai would silently execute the default case.
 //!
 //! A private-use character is inserted after the keyword `switch` before parsing.
 //! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.

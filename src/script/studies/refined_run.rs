@@ -20,7 +20,7 @@ const MOST_RUNS: usize = 12;
 /// Largest factor of refinement between two runs, for the steps and for the mesh.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Fraction of the tolerance that is allowed for the error in time, and again for the error in space.
+/// Largest allowed error in time, and largest allowed error in space, each as a fraction of the tolerance.
 const PART: f64 = 0.5;
 
 pub struct RefinedRunRequest {

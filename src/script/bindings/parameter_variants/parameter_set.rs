@@ -12,7 +12,7 @@ use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
 /// Default perturbation of a parameter, as a fraction of its value.
-/// The relative error of a difference quotient is about the square of the relative perturbation, plus the rounding error divided by it.
+/// The relative error of a difference quotient is about the square of the relative perturbation `p`, plus the rounding error over `p`.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
 /// Parameters of a scene. The unperturbed variant contains the given values.

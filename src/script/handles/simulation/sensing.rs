@@ -63,7 +63,8 @@ impl ColumnReader {
         }
     }
 
-    /// Sets the outputs of the controllers in the scene to their values in this simulation before a time, because simulations share the scene.
+    /// Sets the outputs of the controllers in the scene to their values in this simulation before the time `time`.
+    /// The outputs may belong to another simulation, because simulations share the scene.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.outputs.before(number, time));
