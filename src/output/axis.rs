@@ -18,7 +18,7 @@ pub const DEFAULT_FLOOR: f64 = 1e-18;
 /// Magnitude to which numbers are limited, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// Width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
+/// Largest width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]

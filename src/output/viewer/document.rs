@@ -30,7 +30,7 @@ const PROGRAMS: [&str; 9] = [
 
 /// Number of rounding intervals between the smallest and the largest value of a field. A screen shows fewer different shades.
 const SHADES: u16 = 255;
-/// Number of rounded values of a load component between -1 and 1. The number is odd, so that zero is one of the values.
+/// Number of values to which a load component between -1 and 1 is rounded. The number is odd, so that zero is one of the values.
 const LOAD_STEPS: u16 = 4095;
 /// Number of steps between 0 and 1 for rounding of weights. The rounding error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;

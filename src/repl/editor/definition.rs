@@ -7,9 +7,9 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 /// Place where a name is defined. Ranges are bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Definition<'t> {
-    /// In the same text. Functions of one name may have several definitions.
+    /// The definitions are in the same text. Functions of one name may have several definitions.
     Here(Vec<Range<usize>>),
-    /// In an imported file. Without a name, the file itself is meant.
+    /// The definition is in an imported file. Without a name, it is the file itself.
     Imported {
         /// Path in the import.
         path: &'t str,

@@ -17,7 +17,7 @@ pub const FOLDER: &str = "std/";
 
 /// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// Stored in the engine as the default tag of calls.
+/// The sources are stored in the engine as the default tag of calls.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,

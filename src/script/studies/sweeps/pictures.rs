@@ -269,7 +269,7 @@ struct Class {
 }
 
 /// Bins of a histogram. If few distinct values occur often, each value has a bin, bounded halfway between neighbours.
-/// Otherwise all bins have equal widths.
+/// A histogram of other values has bins of equal width.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
