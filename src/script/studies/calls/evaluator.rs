@@ -116,7 +116,7 @@ impl FunctionQuery<'_> {
     /// Value of the function at a point, in the engine of the script.
     ///
     /// # Errors
-    /// Fails if the function fails. The error contains its position.
+    /// Returns the error of the function with its position.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
         self.call_here(calling, &QueryPoint::Value(point.to_vec()))
     }

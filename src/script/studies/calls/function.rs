@@ -122,7 +122,7 @@ impl RunFunction {
     /// Calls the function in the engine of the script, with copies of captured values.
     ///
     /// # Errors
-    /// Fails if the function fails (with the position of the error), or if it changes a captured variable.
+    /// Returns the error of the function with its position. Also fails if the function changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::internal_error("the function of a study is not found again");
