@@ -25,7 +25,6 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// Description of allowed relaxation times.
     pub(crate) const ALLOWED: &'static str = "zero or a positive finite number [time]";
 
     /// Checks that all relaxation times are finite and not negative.
@@ -151,7 +150,6 @@ impl Dashpots {
         }
     }
 
-    /// Prepares a static increment, in which the dashpots exert no forces.
     pub(crate) fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);

@@ -226,7 +226,6 @@ impl Mesh {
         b.first < a.first + self.basis.degree()
     }
 
-    /// Quadrature points and weights for the strain `Γ` on each span of a smooth run.
     fn force_rules(&self, run: &[Span]) -> Result<RunRule, BeamError> {
         match self.quadrature {
             Quadrature::Patch => {

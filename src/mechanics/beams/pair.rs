@@ -168,7 +168,6 @@ impl Rotation<Lanes> {
 }
 
 impl Default for Rotation<Lanes> {
-    /// Placeholder value; every lane is set before use.
     fn default() -> Self {
         Self { cos: Lanes::default(), sin: Lanes::default() }
     }

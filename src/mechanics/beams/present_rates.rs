@@ -42,7 +42,6 @@ const KEPT: f64 = 0.8;
 /// The ratio of the errors is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
-/// Weighted sums of the errors of the dashpot rates in the recent steps, from which the steps are judged to resolve the rates or not.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
     mismatches: [RateMismatch; 3],

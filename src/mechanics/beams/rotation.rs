@@ -13,7 +13,6 @@ pub enum RotationIncrement {
     Angle,
 }
 
-/// Rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn<T> {
     cos: T,

@@ -32,7 +32,6 @@ impl BasisValues {
         values
     }
 
-    /// Derivatives of the basis functions with respect to ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]
     }

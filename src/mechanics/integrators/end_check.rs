@@ -3,8 +3,6 @@
 use super::{Integrator, Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
-/// Integrator that rejects a step if the state at its end violates a condition of the constraints.
-/// The conditions of the constraints depend on the present forces, which are known only after the step. A rejected step is undone.
 pub(super) struct EndCheck {
     integrator: Box<dyn Integrator>,
 }

@@ -180,7 +180,6 @@ impl JointKind {
         }
     }
 
-    /// Returns true if joints of this type tie rotations, so that they transmit moments.
     pub(crate) fn ties_rotation(self) -> bool {
         self.components().contains(&Component::Rotation)
     }

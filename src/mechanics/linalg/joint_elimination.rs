@@ -10,7 +10,6 @@ const SCALINGS: usize = 4;
 
 type MatrixEntry = (usize, usize, f64);
 
-/// Square sparse matrix with its order of elimination and a border of dense rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct JointElimination {
     size: usize,

@@ -22,10 +22,7 @@ pub(super) struct Storage {
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
     pub(super) last_columns: Vec<usize>,
-    /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, which are all equal by default. The choice of pivots divides the entries of a row by the size of the row.
-    /// A row exchange also exchanges the row sizes.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -67,7 +64,6 @@ impl Storage {
         storage
     }
 
-    /// Sets the storage to zero and changes its size. Memory is allocated only if the size exceeds all earlier sizes.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
         (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_HALF_BANDWIDTH));
         self.pivots.resize(size, 0);

@@ -236,7 +236,6 @@ impl Schedule {
         }
     }
 
-    /// Returns true if the schedule contains a controller that is sampled at every step.
     pub(crate) fn is_sampled_every_step(&self) -> bool {
         match self {
             Self::Sampled(_) => true,

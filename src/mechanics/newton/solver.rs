@@ -95,7 +95,6 @@ pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
-    /// Residual norms after each iteration with its corrections.
     history: Vec<ResidualNorms>,
 }
 

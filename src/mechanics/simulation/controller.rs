@@ -33,7 +33,6 @@ pub(super) struct StepController {
     pub(super) largest: f64,
 }
 
-/// Size of the next step, and state of the PI controller. It is part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
@@ -100,12 +99,10 @@ impl StepController {
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// Updates the controller after a step of the given duration [time] whose equations could not be solved.
     pub(super) fn fail(&self, state: &mut StepSizeState, duration: f64) {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Ratio of the step size with the allowed error to the size of the last step, reduced by a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }

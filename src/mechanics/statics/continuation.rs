@@ -186,7 +186,6 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.distance - last.distance)
     }
 
-    /// Solves for a load factor. The step is halved if no equilibrium is found, or if the equilibrium does not continue the path.
     fn solve_for_factor(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
         self.query_monitor()?;
         let from = self.path.load_factor();
@@ -238,7 +237,6 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Solves for an equilibrium near the last equilibrium, for a given load factor. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),

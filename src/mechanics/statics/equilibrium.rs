@@ -213,7 +213,6 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model in its initial state, with the schedules of its loads evaluated at the time `loading.time`.
 fn prepare(
     scene: &Scene,
     loading: &Loading,

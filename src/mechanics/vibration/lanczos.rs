@@ -68,7 +68,6 @@ impl<'a> Lanczos<'a> {
         search
     }
 
-    /// Number of vectors that a search for `count` modes stores.
     pub(super) fn width(count: usize) -> usize {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }

@@ -217,7 +217,6 @@ impl OtherPairs<'_> {
         self.values[0] > WIDE * self.values[count - 1]
     }
 
-    /// Removes the components of all pairs from the given displacements.
     fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);

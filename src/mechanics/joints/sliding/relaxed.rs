@@ -34,7 +34,6 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     })
 }
 
-/// Sliding equation. The sliding direction is the mean tangent at the start plus a multiple of the gap.
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {

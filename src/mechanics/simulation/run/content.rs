@@ -20,7 +20,6 @@ const MOST_COUNTED: u64 = 1 << 52;
 /// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Stored data of a simulation, from which all other data of the simulation are computed.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,

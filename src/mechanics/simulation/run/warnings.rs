@@ -349,7 +349,6 @@ impl Simulation {
         })
     }
 
-    /// Possible causes of a large change of the kinetic energy within a step: the element with the largest dissipation, and controllers.
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;

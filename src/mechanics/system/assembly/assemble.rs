@@ -191,7 +191,6 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// Control points of all bodies in the initial configuration, with the slaves of sliders moved onto the meshes of their masters.
     fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             query(self.scene, goes_on)?;

@@ -34,7 +34,6 @@ struct RequestedRate<'a> {
     at: &'a Station,
 }
 
-/// Initial rates of prescribed degrees of freedom, numbered after the unknowns.
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,

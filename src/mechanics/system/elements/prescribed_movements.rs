@@ -68,7 +68,6 @@ pub struct DriveState {
     pub moment: f64,
 }
 
-/// Ratio of a rotation increment to the rotation angle, which converts moments between the two measures of rotation.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }

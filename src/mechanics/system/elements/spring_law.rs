@@ -132,7 +132,6 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force is zero in a whole segment of the law.
     pub(crate) fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,

@@ -17,7 +17,6 @@ impl System {
         self.sliders.iter().any(|slider| slider.active_friction().is_some())
     }
 
-    /// Selects slip or stick for all sliders according to their present velocities.
     pub(in crate::system) fn choose_friction_modes(&mut self) {
         if !self.has_friction() {
             return;
@@ -62,8 +61,6 @@ impl System {
         Ok(solver)
     }
 
-    /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit.
-    /// Returns true if a slider starts to slip.
     pub(super) fn start_overloaded_slips(&mut self, now: &Instant) -> bool {
         let mut starts = false;
         for at in 0..self.sliders.len() {

@@ -20,7 +20,6 @@ pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 /// The first response is computed with the included deformations only, the second response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Unit impulse in one direction: generalised forces, and the velocity changes that the impulse causes.
 pub(super) struct ImpulseResponse {
     pub(super) forces: Vec<f64>,
     pub(super) rates: Vec<f64>,
@@ -82,7 +81,6 @@ impl ImpactLaw {
     }
 }
 
-/// Contacts of one impact with their directions, and the velocities due to their impulses.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
@@ -287,7 +285,6 @@ impl System {
         closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
     }
 
-    /// Generalised forces of a unit impulse in an impact direction, at all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);

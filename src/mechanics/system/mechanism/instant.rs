@@ -109,8 +109,6 @@ impl System {
         SystemError::NoInstant { time: self.motion.time, reason }
     }
 
-    /// Adds all forces at the present time to `out`, except inertia forces and contact forces.
-    /// The argument `rates` contains the rates by control point.
     fn add_present_forces(
         &mut self,
         rates: &[Vec<Movement>],
@@ -148,7 +146,6 @@ impl System {
         Ok(seen)
     }
 
-    /// Solves the equations of motion for the accelerations and the contact forces, from a residual with all other forces.
     fn solve_present_forces(&mut self, present: &mut PresentForces) -> Result<(), SystemError> {
         present.prescribed.clear();
         present.prescribed.extend(self.supports.prescribed().accelerations());

@@ -54,7 +54,6 @@ impl SeamCorner {
     }
 }
 
-/// Sliders that pass seams at the same time, with the corners at these seams.
 pub(super) struct SeamCrossings {
     passing: Vec<(usize, MasterEnd, Seam)>,
     sections: Vec<SeamCorner>,
@@ -97,7 +96,6 @@ impl Response {
 }
 
 impl System {
-    /// Returns true if the track of a slider continues beyond a limit of the present beam.
     pub(crate) fn continues_beyond(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }

@@ -34,7 +34,6 @@ impl System {
         }
     }
 
-    /// Computes the powers of a step of the given duration [time].
     pub(super) fn update_powers(&mut self, duration: f64) {
         let Some(mut powers) = self.exchanged.powers.take() else { return };
         for (step, work) in powers.iter_mut().zip(self.works()) {

@@ -136,8 +136,6 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks at all contact points and the friction forces of slipping sliders constant in the next step.
-    /// Returns true if the equations of the next step change.
     pub(crate) fn freeze_contacts(&mut self) -> bool {
         self.sliders.freeze_contacts()
     }
@@ -146,7 +144,6 @@ impl System {
         self.sliders.unfreeze_contacts();
     }
 
-    /// Returns true if a kink under a contact force, or a friction force, is kept constant.
     pub(crate) fn has_frozen_contacts(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }

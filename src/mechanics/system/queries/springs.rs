@@ -45,12 +45,10 @@ impl System {
         branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
-    /// Springs with a bounce that the steps have not resolved, with their names.
     pub(crate) fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
-    /// Elongations and rates of springs and dampers beyond the range of their laws, with the indices of the springs in the scene.
     pub(crate) fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
         let mut found = Vec::new();
         let all = self.elements().resistances().filter(|one| one.stretched().is_some());

@@ -25,7 +25,6 @@ impl System {
         })
     }
 
-    /// Body and point of the rigid link whose constraint force is the given unknown.
     pub(crate) fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
         let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
         Some((link.body, link.point))

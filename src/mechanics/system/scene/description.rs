@@ -283,10 +283,6 @@ impl Scene {
         self.add_element(Element::PointMass(mass))
     }
 
-    /// Adds an element.
-    ///
-    /// # Errors
-    /// Fails if a number of the element is out of range or a station does not exist.
     pub(crate) fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
         element.description().check(self)?;
         if let Element::Damping(MaterialDamping { name, .. }) = &element
@@ -358,7 +354,6 @@ impl Scene {
         }
     }
 
-    /// Description of the body to which a station belongs, such as `beam 'arm'`.
     pub(crate) fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),

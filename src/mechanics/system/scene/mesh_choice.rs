@@ -45,7 +45,6 @@ impl Scene {
         }
     }
 
-    /// Chooses the meshes of the beams on which an element exerts concentrated forces.
     pub(super) fn choose_meshes_under(&mut self, element: usize) {
         for station in concentrated(&self.elements[element]) {
             if let Some(beam) = station.beam() {
@@ -77,7 +76,6 @@ impl BeamDefinition {
     }
 }
 
-/// Stations at which an element exerts a concentrated force or moment.
 fn concentrated(element: &Element) -> Vec<Station> {
     match element {
         Element::PointMass(mass) => vec![mass.station],

@@ -164,7 +164,6 @@ impl Scene {
         tangent.map(|tangent| tangent.normalize()).map_err(SystemError::geometry(name))
     }
 
-    /// Checks that a slider with a side has no option that is unavailable for such sliders.
     fn check_side(&self, slider: &Slider) -> Result<(), SystemError> {
         if slider.side.is_none() {
             return Ok(());

@@ -42,7 +42,6 @@ pub enum ValueTime {
 pub(in crate::system) enum QuantityReader {
     Motion(fn(&System, &BodyPoint) -> f64),
     Acceleration(fn(Vec2) -> f64),
-    /// Angle of a tracked section.
     Angle,
     Section(fn(&SectionForces) -> f64),
     Energy(fn(&BodyEnergy) -> f64),

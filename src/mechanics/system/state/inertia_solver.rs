@@ -8,7 +8,6 @@ pub struct InertiaSolver {
     is_factorised: bool,
     /// Generalised forces of a unit impulse on all degrees of freedom.
     forces: Vec<f64>,
-    /// Velocities of the unknowns due to the unit impulse.
     rates: Vec<f64>,
 }
 

@@ -238,7 +238,6 @@ mod tests {
     use super::*;
     use crate::beams::RotationIncrement;
 
-    /// A contact that stays open has no force at any approach speed before the step.
     #[test]
     fn an_open_contact_is_not_damped() {
         let elastic = ContactLaw::HalfPlane { stiffness: 1e4 };

@@ -19,7 +19,6 @@ use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
 
-/// Pair of shapes that can touch: the contact points of `shape` touch the axis of `target`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CandidatePair {
     pub(super) shape: usize,
@@ -42,7 +41,6 @@ impl CandidatePair {
     }
 }
 
-/// Contact forces between the bodies of an element, with all pairs that touch at present.
 pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
@@ -129,7 +127,6 @@ impl PairForces {
         self.find_pairs();
     }
 
-    /// Sets the configuration `start` to the positions at the start of the step, if it is older.
     fn use_present_start(&mut self, bodies: &[Body]) {
         if !self.is_current {
             self.set_configuration(bodies);
@@ -172,7 +169,6 @@ impl PairForces {
         }
     }
 
-    /// Computes the boxes and samples of all touched bodies, which the search for nearest points needs.
     fn prepare_pairs(&mut self) {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }

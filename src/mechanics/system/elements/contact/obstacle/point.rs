@@ -27,7 +27,6 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Gap at a position, and the vector from the obstacle to this position.
     fn gap(&self, at: Vec2) -> (f64, Vec2) {
         match self.shape {
             ObstacleShape::HalfPlane { point, normal } => {
@@ -69,7 +68,6 @@ impl Surface {
     }
 }
 
-/// Change of the gap in an iterate, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     change: f64,
@@ -88,7 +86,6 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    /// Trial with zero change of the gap at a surface with the given normal.
     pub(super) fn along(normal: Vec2) -> Self {
         Self { secant: normal, slope: normal, ..Self::NONE }
     }
@@ -170,7 +167,6 @@ pub(super) struct ContactPoint {
     linearised: GapTrial,
     /// Forces applied at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
-    /// Friction; `None` without friction.
     friction: Option<Box<PointFriction<3>>>,
     /// Friction moment applied in the present iterate, as an internal moment [force·length].
     applied_moment: f64,
@@ -269,7 +265,6 @@ impl ContactPoint {
         }
     }
 
-    /// Sets the approach speed of a contact that was open before, for the velocity of the point at the start of the step.
     pub(super) fn set_approach(&mut self, surface: &Surface, velocity: Vec2) {
         let rate = surface.gradient(self.start).dot(&velocity);
         (self.normal.approach, self.normal.last_rate) = (rate.abs(), rate);
@@ -352,7 +347,6 @@ impl ContactPoint {
         ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the contact law.
     pub(super) fn add_linearised(
         &mut self,
         surface: &Surface,
@@ -472,7 +466,6 @@ impl ContactPoint {
         of_force - self.applied_moment * duration
     }
 
-    /// State of a closed contact at the start of the step; `None` for an open contact.
     pub(super) fn closed(&self, surface: &Surface, body: &Body) -> Option<ClosedContact> {
         if !self.is_closed() {
             return None;
@@ -499,7 +492,6 @@ impl ContactPoint {
         })
     }
 
-    /// Adds the force of a closed contact at the start of the step, for rates at the control points of the body.
     pub(super) fn add_force_at_start(
         &self,
         contact: &ClosedContact,
