@@ -76,7 +76,6 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Value of the same type as `self` with the given number in all lanes.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;

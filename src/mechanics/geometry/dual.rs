@@ -109,7 +109,6 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         Self { x: Dual::constant(value.x), y: Dual::constant(value.y) }
     }
 
-    /// Vector whose components are the variables with the indices `first` and `first + 1`.
     pub fn variable(value: Vec2, first: usize) -> Self {
         Self { x: Dual::variable(value.x, first), y: Dual::variable(value.y, first + 1) }
     }

@@ -29,7 +29,6 @@ impl PreciseBand {
         Self { size, half_bandwidth, high: vec![0.0; count], low: vec![0.0; count] }
     }
 
-    /// Number of rows.
     pub fn size(&self) -> usize {
         self.size
     }

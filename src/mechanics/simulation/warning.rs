@@ -22,7 +22,6 @@ const BOUNCE: f64 = 5.0;
 /// Smallest number of steps per period for which no warning is given.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Cause of rate changes within a step, other than a vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.

@@ -22,7 +22,6 @@ use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 /// The rounding error of strains is therefore larger than the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
-/// Bodies of a scene with the meshes of the beams, from which the model is built.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,

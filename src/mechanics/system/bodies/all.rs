@@ -120,7 +120,6 @@ impl Bodies {
         all
     }
 
-    /// Writes the values of [`by_control_point`](Self::by_control_point) for all bodies to a buffer.
     pub fn write_by_control_point(&self, values: &[f64], all: &mut Vec<Vec<Movement>>) {
         all.resize_with(self.len(), Vec::new);
         for (body, own) in self.iter().zip(all) {

@@ -9,7 +9,6 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::{Body, Momenta};
 
-/// Elements of a model: point masses, weight, external forces and internal forces (springs, dampers, drag).
 #[derive(Default)]
 pub struct Elements {
     masses: Vec<NodalMass>,
@@ -54,7 +53,6 @@ impl Elements {
         &*self.resistances[at]
     }
 
-    /// Springs, dampers, material damping and drag, in the order of the scene.
     pub fn resistances(&self) -> impl Iterator<Item = &dyn InternalForce> + Clone {
         self.resistances.iter().map(|resistance| &**resistance)
     }
@@ -115,7 +113,6 @@ impl Elements {
         self.forces.iter().map(|force| force.tracked_sections()).sum()
     }
 
-    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of all point masses.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
@@ -160,7 +157,6 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// Appends the data of all existing contacts between bodies to `contacts`.
     pub fn save_contacts(&self, contacts: &mut Vec<f64>) {
         self.resistances.iter().for_each(|resistance| resistance.save_contacts(contacts));
     }
@@ -253,7 +249,6 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
 
-    /// Calls `take` with the degrees of freedom and the static stiffness of each spring.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],

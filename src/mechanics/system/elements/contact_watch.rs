@@ -21,7 +21,6 @@ pub struct ShortBounce {
     pub duration: f64,
 }
 
-/// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
     /// Number of steps since the contact began; zero while the spring is slack.

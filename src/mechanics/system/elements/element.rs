@@ -73,7 +73,6 @@ impl Element {
     }
 }
 
-/// Definition of an element in a scene.
 pub trait ElementDef {
     /// Checks the numbers and the stations of the element.
     ///

@@ -19,7 +19,6 @@ pub fn collocation(stage: Stage) -> Collocation {
     Collocation { configuration: tau, stress: sigma, rotations }
 }
 
-/// Iterate of a step in which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
     pub bodies: &'a [Body],

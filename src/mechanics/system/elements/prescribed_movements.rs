@@ -15,7 +15,6 @@ use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::system::bodies::Body;
 use crate::system::step_mean::StepMean;
 
-/// Supported degree of freedom with a prescribed motion.
 pub struct PrescribedMovement {
     pub support: Support,
     pub drive: usize,
@@ -200,7 +199,6 @@ impl PrescribedMovements {
         DriveState { work: self.drives[drive].work, force, moment }
     }
 
-    /// Names of the drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -209,7 +207,6 @@ impl PrescribedMovements {
         })
     }
 
-    /// Names of the drives whose prescribed rate changes between the sampling points of a step, with the largest such change of each drive.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -289,14 +286,12 @@ impl PrescribedMovements {
         std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
-    /// Stores the changes of momentum that an impact causes at the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;
         }
     }
 
-    /// Stores the mean momenta of a step at the control points of the prescribed degrees of freedom.
     pub fn store_mean_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;

@@ -8,7 +8,6 @@ use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::system::bodies::Body;
 
-/// Weight of beams and point masses: constant forces with a potential.
 pub struct Weight {
     gravity: Vec2,
     forces: LoadVector,

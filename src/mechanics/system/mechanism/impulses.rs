@@ -24,7 +24,6 @@ pub struct ExchangeLedger {
     pub powers: Option<Vec<StepPower>>,
 }
 
-/// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
     numbers: Vec<DegreesOfFreedom>,
     links: Vec<[usize; 2]>,

@@ -3,7 +3,6 @@
 use super::System;
 use crate::system::elements::ExternalForce;
 
-/// Power of a drive or a load over the last step.
 pub struct StepPower {
     /// Work in the step divided by its duration [energy/time]. Before the first step, the value is the present power of a drive.
     pub power: f64,

@@ -130,7 +130,6 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink during a step in which the slider moves along `passage`.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -210,7 +209,6 @@ impl KinkedAxis {
         self.jump = across - tangent * (pull / tangent.norm_squared());
     }
 
-    /// Returns true if a contact force displaces the axis at the slider.
     pub fn is_compliant(&self) -> bool {
         self.compliance_derivatives[0] > self.none
     }

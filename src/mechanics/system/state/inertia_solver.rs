@@ -12,7 +12,6 @@ pub struct InertiaSolver {
 }
 
 impl InertiaSolver {
-    /// Creates a solver for the given numbers of unknowns and of degrees of freedom.
     pub fn new(unknowns: usize, half_bandwidth: usize, degrees_of_freedom: usize) -> Self {
         Self {
             inertia: BandedMatrix::zeros(unknowns, half_bandwidth),
@@ -22,7 +21,6 @@ impl InertiaSolver {
         }
     }
 
-    /// Returns true if the solver has factors of an inertia matrix.
     pub fn is_factorised(&self) -> bool {
         self.is_factorised
     }
@@ -40,7 +38,6 @@ impl InertiaSolver {
         Ok(())
     }
 
-    /// Factors of the last inertia matrix.
     pub fn factors(&self) -> BandedLu<'_> {
         self.inertia.factors()
     }

@@ -4,7 +4,6 @@ use super::accelerations::Accelerations;
 use super::forecast::{IncrementPrediction, Prediction};
 use super::{MonitoredBody, Resolution, StepMeasures};
 
-/// Present time and rates, with measures of the temporal resolution of the motion.
 pub struct MotionState {
     /// Present time, which is the end of the last step [time].
     pub time: f64,

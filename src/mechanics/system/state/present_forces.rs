@@ -7,7 +7,6 @@ use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
 /// The vectors are reused in the next step. They are enlarged only if the number of contacts increases.
 pub struct PresentForces {
-    /// Rates of all bodies by control point.
     pub rates: Vec<Vec<Movement>>,
     /// Sum of all forces except inertia and contact forces, for each degree of freedom.
     pub residual: Vec<f64>,
@@ -27,7 +26,6 @@ pub struct PresentForces {
     pub magnitudes: Vec<f64>,
 }
 
-/// Response of the model to a unit contact force on a slave.
 #[derive(Default)]
 pub struct ContactResponse {
     /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
@@ -56,14 +54,12 @@ impl ContactResponse {
         inertia.solve(&mut self.rates);
     }
 
-    /// Adds `factor` times another response to this response.
     pub fn add(&mut self, factor: f64, other: &Self) {
         self.direction += other.direction * factor;
         let pairs = self.rates.iter_mut().zip(&other.rates);
         pairs.for_each(|(rate, other)| *rate += factor * other);
     }
 
-    /// Component of the rates or accelerations `v` in the direction of the unit force.
     pub fn component(&self, rates: &[f64]) -> f64 {
         let touched = self.forces.iter().zip(rates).filter(|(force, _)| **force != 0.0);
         touched.map(|(force, rate)| rate * force).sum()

@@ -9,7 +9,6 @@ const LONGEST_PATH: f64 = 1e3;
 /// Largest length of the chord of a grazing path, as a fraction of the radius of the disc [-].
 const GRAZING: f64 = 0.1;
 
-/// Straight path of a point relative to a disc in a step.
 pub struct DiscPath {
     /// Vector from the centre of the disc to the point at the start [length].
     pub start: Vec2,
@@ -17,7 +16,6 @@ pub struct DiscPath {
     pub movement: Vec2,
     /// Radius of the disc plus radius of the body around the point [length].
     pub radius: f64,
-    /// True if the point touches the disc at the start of the step.
     pub is_closed: bool,
 }
 

@@ -79,11 +79,9 @@ impl FrictionLaw {
 pub struct SlipTrial<const N: usize> {
     /// Slip [length].
     pub slip: f64,
-    /// Derivative of the slip with respect to the local coordinates.
     pub slope: [f64; N],
     /// Generalised force due to a unit friction force. The work of this generalised force equals the slip.
     pub direction: [f64; N],
-    /// Derivative of each component of the generalised force with respect to the local coordinates.
     pub direction_slope: [[f64; N]; N],
     /// Largest of the increments from which the slip is computed [length]. It determines the rounding error of the slip.
     pub moved: f64,
@@ -127,7 +125,6 @@ pub struct PointFriction<const N: usize> {
     linearised: SlipTrial<N>,
 }
 
-/// Normal force that limits the friction force of a contact in an iterate, with the duration of the step.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
@@ -215,7 +212,6 @@ impl<const N: usize> PointFriction<N> {
         self.linearised = self.trial;
     }
 
-    /// Generalised internal force of friction in the present iterate.
     pub fn present(&self) -> [f64; N] {
         self.trial.direction.map(|by| by * self.force.force)
     }
@@ -234,7 +230,6 @@ impl<const N: usize> PointFriction<N> {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    /// Derivative of the generalised friction force, for the given derivative of the normal force.
     pub fn tangent(&self, normal_slope: [f64; N]) -> [[f64; N]; N] {
         let SlipTrial { slope, direction, direction_slope, .. } = &self.linearised;
         let by_normal = normal_slope.map(|by| by * self.by_normal);
@@ -246,7 +241,6 @@ impl<const N: usize> PointFriction<N> {
         })
     }
 
-    /// Corrects the friction force for a change of the local coordinates and of the normal force.
     pub fn correct(&mut self, moved: [f64; N], normal_change: f64) {
         let slope = &self.linearised.slope;
         self.force.correct((0..N).map(|at| slope[at] * moved[at]).sum());

@@ -33,7 +33,6 @@ impl ContactLaw {
         }
     }
 
-    /// Tension at a gap, and the derivative of the tension.
     pub fn at(&self, gap: f64) -> ForceTarget {
         match *self {
             _ if gap >= 0.0 => ForceTarget::default(),

@@ -13,16 +13,13 @@ use crate::system::elements::rate_history::RateHistory;
 /// The law of a soft contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
-/// Law of the normal force.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalLaw {
-    /// Elastic tension as a function of the gap.
     pub elastic: ContactLaw,
     /// Damping factor, which follows from the coefficient of restitution [-].
     pub damping: f64,
 }
 
-/// Time and stage at which the force of a contact is evaluated.
 #[derive(Clone, Copy)]
 pub struct ContactTime {
     pub stage: Stage,
@@ -49,7 +46,6 @@ impl ContactTime {
     }
 }
 
-/// Change of the gap in an iterate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GapChange {
     /// Change of the gap [length].
@@ -58,7 +54,6 @@ pub struct GapChange {
     pub moved: f64,
 }
 
-/// Normal force of a contact in a step.
 #[derive(Debug, Clone)]
 pub struct NormalForce {
     /// Quadrature weight [length]; 1 for a point.
