@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Data for the smallest scales by which the drifts of invariants are divided.
+/// Properties of a scene that determine lower bounds of the scales by which drifts of invariants are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].

@@ -15,7 +15,7 @@ use crate::system::rounded;
 /// Largest relative difference of two row spacings that count as equal.
 const EVEN: f64 = 1e-6;
 
-/// Smallest number of rows to which the window function is applied.
+/// Smallest number of rows of a column whose spectrum is computed.
 const FEWEST: usize = 16;
 
 /// Smallest ratio of the length with appended zeros to the original length of the column.

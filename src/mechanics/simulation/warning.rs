@@ -19,7 +19,7 @@ const REPEAT_FACTOR: f64 = 2.0;
 /// Factor by which the warning recommends to reduce the step size if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
-/// Smallest number of steps per period for which no warning is given.
+/// Number of steps per period of a vibration with the step size that a warning recommends.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
 #[derive(Debug, Clone, PartialEq)]

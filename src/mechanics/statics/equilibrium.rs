@@ -11,7 +11,7 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Largest sum of forces that counts as zero, as a fraction of the sum of their magnitudes.
+/// Largest unbalanced force or moment that counts as zero, as a fraction of the largest internal force or moment.
 const ROUNDING: f64 = 1e-12;
 
 /// Stability of an equilibrium.

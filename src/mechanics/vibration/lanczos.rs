@@ -13,11 +13,11 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Largest residual of a converged pair, as a fraction of the norm of the inverted stiffness.
+/// Largest residual of a converged pair, as a fraction of its eigenvalue.
 /// The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation. With a smaller ratio, the result consists of rounding errors.
+/// Largest ratio of the lengths of a vector after and before orthogonalisation for which the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
 /// Smallest ratio of the lengths of a vector after and before orthogonalisation that makes a second orthogonalisation unnecessary.

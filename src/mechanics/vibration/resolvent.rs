@@ -1,7 +1,7 @@
 //! Damped vibrations with a shift: eigenvalues of the quadratic problem near the shift (docs/theory.md, section 15).
 //!
 //! For a positive shift, the shifted inverse is bounded for damping of any strength (Lumer & Phillips 1961).
-//! A dashpot of any strength acts as a projection, whose singular vectors are computed by one-sided rotations.
+//! One-sided rotations decompose the damping into dashpots along orthogonal directions. An infinitely strong dashpot fixes its direction.
 //! Each reported eigenvalue is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
 //! The forces of strong dashpots are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 

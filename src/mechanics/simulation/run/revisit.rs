@@ -15,7 +15,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Step numbers and times of the stored states from which every later step up to the present is also stored.
+    /// Step numbers and times of the stored states, limited to the last steps without a missing state.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);

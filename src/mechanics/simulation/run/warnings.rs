@@ -59,7 +59,7 @@ const MOST_TURNS: usize = 20;
 /// Smallest number of adaptive steps that can cause a warning.
 const MANY_STEPS: usize = 5000;
 
-/// Largest ratio of the step size that resolves the motion of the scene to the mean step size without a warning [-].
+/// Largest ratio, without a warning, of the step size that resolves the motion of the scene to the mean step size [-].
 /// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 

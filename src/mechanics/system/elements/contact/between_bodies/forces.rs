@@ -366,7 +366,7 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    /// If the configuration `start` is older than the step, no bodies came near each other in the step, so no path crosses a body.
+    /// Returns false without a search if the configuration `start` is older than the step: no bodies came near each other in such a step.
     fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
         if !self.is_current || self.is_clear_with(bodies, increments) {
             return false;
