@@ -17,10 +17,10 @@ const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// Factor of the inertia in the balance of the step [-].
+    /// Factor by which inertia forces are multiplied in the balance of the step [-].
     pub(super) inertia: f64,
     pub(super) stage: Stage,
-    /// Factor of the forces in the balance of the step [-].
+    /// Factor by which the forces of the stage are multiplied in the balance of the step [-].
     pub(super) weight: f64,
     pub(super) prescribed: BalancedAt,
 }

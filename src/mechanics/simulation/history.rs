@@ -191,11 +191,11 @@ impl History {
     }
 
     /// Difference of an invariant from its value in the first row, divided by a scale.
-    /// The scale of a drift is the largest energy, momentum or angular momentum of all rows.
     /// The gap of joints is not divided by a scale.
     ///
-    /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the mass `m` and the kinetic energy `K`.
-    /// The scale of momenta is also at least the sum of the magnitudes of all exchanged impulses.
+    /// The scale of the energy is the largest energy or work of all rows.
+    /// The scale of the momentum is the larger of `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`, and the exchanged impulses.
+    /// The scale of the angular momentum is the largest of `sqrt(2 m K)` times the length scale, the angular momenta, and the exchanged impulses.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);

@@ -223,12 +223,12 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// Number of negative eigenvalues of the stiffness. The effect of follower loads is not included.
+    /// Number of negative eigenvalues of the stiffness; zero for scenes with follower loads.
     pub(super) fn unstable_directions(&self) -> usize {
         self.unstable_directions_with_inertia(0.0)
     }
 
-    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` [1/time²] times the inertia; zero for scenes with follower loads.
     pub(super) fn unstable_directions_with_inertia(&self, rate: f64) -> usize {
         if self.model.follower().is_some() {
             0

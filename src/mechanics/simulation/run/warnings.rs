@@ -35,7 +35,8 @@ const LARGEST_DRIFT: f64 = 1e-7;
 /// Rounding error of dissipated energies, as a fraction of these energies.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Smallest change of the kinetic energy in a step that counts as large, as a fraction of the total energy.
+/// Smallest dissipated energy for which a damper is reported as a possible cause.
+/// The energy is a fraction of the sum of the dissipated energy and the largest kinetic energy.
 const MUCH: f64 = 0.3;
 
 /// Largest number of unknowns for which modes of the initial configuration are computed.
@@ -315,8 +316,8 @@ impl Simulation {
 
     /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
     /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
-    /// The warning is also given if a step increased the energy. Differences within rounding are ignored.
-    /// The warning reports the step with the largest returned energy.
+    /// The warning is also given if dampers added energy in a step. Differences within rounding are ignored.
+    /// The warning reports the step with the largest difference between returned and dissipated energy.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;

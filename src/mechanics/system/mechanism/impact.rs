@@ -51,7 +51,7 @@ impl ImpulseResponse {
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
-/// The mean velocity does not contain velocities across masters, whose signs alternate from step to step.
+/// This mean velocity does not contain velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.

@@ -25,7 +25,7 @@ struct FrictionLaw {
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Weight of the friction force in the mean friction force of the step [-].
+    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
     share: f64,
 }
 
@@ -131,7 +131,7 @@ pub struct NormalContact {
     pub force: f64,
     /// Duration of the step [time].
     pub duration: f64,
-    /// Weight of the friction force in the mean friction force of the step [-].
+    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
     pub share: f64,
 }
 
@@ -269,7 +269,7 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Generalised internal force of friction at the start of the step.
-    /// The slip is linear in the local coordinates. The slip in `rates` is therefore the slip rate.
+    /// `rates` is the slip for the rates of the local coordinates, which is the slip rate because the slip is linear in the local coordinates.
     pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);
         let force = self.stiffness * self.deflection + damping * rates.slip;

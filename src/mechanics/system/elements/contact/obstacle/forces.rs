@@ -29,7 +29,7 @@ pub(super) struct TouchingBody {
     /// If `is_active` is false, the contact points have no forces and are not updated.
     is_active: bool,
     watch: ContactWatch,
-    /// Mean rate of the gap with the largest force in the last step [length/time].
+    /// Mean rate of the gap at the contact point with the largest force in the last step [length/time].
     last_rate: f64,
 }
 
