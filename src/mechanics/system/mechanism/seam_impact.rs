@@ -61,7 +61,7 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners at which the section direction changes; empty if it changes at no seam.
+    /// Corners of the section directions at all seams that are passed; empty if the section direction changes at none of them.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }

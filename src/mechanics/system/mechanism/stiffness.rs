@@ -130,7 +130,7 @@ impl System {
         self.negative_stiffness_count_with_inertia(0.0)
     }
 
-    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` [1/time²] times the inertia.
     pub(crate) fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
         let order = self.static_order();
         let inertia = match rate > 0.0 {

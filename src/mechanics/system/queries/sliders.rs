@@ -12,7 +12,7 @@ impl System {
         self.sliders().iter().map(|slider| slider.name.as_str())
     }
 
-    /// State of a slider: sliding, held at a stop, or released.
+    /// State of a slider: sliding, held at a stop, in flight, or released.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.slider(slider).state
     }

@@ -278,7 +278,8 @@ impl Scene {
     /// Adds a point mass at a station.
     ///
     /// # Errors
-    /// Fails if the mass is not positive and finite, or if the rotary inertia is negative.
+    /// Fails if the station does not exist, mass and rotary inertia are both zero, or one of them is negative or not finite.
+    /// Also fails if a particle has a rotary inertia.
     pub fn add_mass(&mut self, mass: PointMass) -> Result<(), SystemError> {
         self.add_element(Element::PointMass(mass))
     }
