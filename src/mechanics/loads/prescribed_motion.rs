@@ -167,10 +167,10 @@ impl PrescribedMotion {
         Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
     }
 
-    /// Rejects a motion whose displacement or prescribed rate jumps just after the start.
+    /// Rejects a displacement that jumps or has an infinite rate just after the start, and a prescribed rate that jumps there.
     ///
     /// # Errors
-    /// Fails if there is a jump, the script function fails, or a value is not finite.
+    /// Fails if the motion is rejected, the script function fails, or a value is not finite.
     pub(crate) fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),

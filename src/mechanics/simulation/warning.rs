@@ -172,7 +172,7 @@ pub enum Warning {
         dt: f64,
         /// Energy returned in the backward substep [energy].
         returned: f64,
-        /// Energy dissipated in the whole step [energy]; negative if the energy of the motion grew.
+        /// Energy dissipated in the whole step [energy]; negative if dampers added energy.
         dissipated: f64,
     },
     /// Prescribed motion with a kink within a step.

@@ -58,9 +58,8 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step has nearly the same direction as this step.
-    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a column.
-    /// Smaller steps are needed if the next step has reached another branch.
+    /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
+    /// Otherwise, the next step may have reached another branch of the path, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();

@@ -225,7 +225,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces to residual forces by subtracting the internal forces of the shape.
+/// Replaces `M φ` in `r` by the residual force `ω² M φ - K φ` of each shape `φ`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {

@@ -9,11 +9,11 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Largest kink length at which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// First limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
 /// Near this speed, the stiffness of a moving kink is nearly zero. Above the limit, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
-/// Second limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
 /// At the critical speed, the stiffness of the kink is zero.
 /// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
