@@ -9,7 +9,6 @@ pub struct PositiveBand {
     rows: Vec<Vec<f64>>,
 }
 
-/// Factors `L D Lᵀ` of a [`PositiveBand`], with a unit diagonal of `L`.
 #[derive(Debug, Clone)]
 pub struct PositiveFactors {
     /// Columns of the factors: column `i` contains `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.

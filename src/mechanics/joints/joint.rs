@@ -128,7 +128,6 @@ enum MotionLine {
 }
 
 impl MotionLine {
-    /// Line along a vector of any nonzero length; `None` for a zero vector.
     fn along(direction: Vec2) -> Option<Self> {
         match (direction.x == 0.0, direction.y == 0.0) {
             (true, true) => None,

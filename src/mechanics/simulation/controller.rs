@@ -43,7 +43,6 @@ pub(super) struct StepSizeState {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
-    /// Duration of the step [time].
     pub(super) duration: f64,
     /// Error of the step as a fraction of the allowed error [-].
     pub(super) error: f64,

@@ -65,7 +65,6 @@ pub struct Modes {
     /// Control points of all bodies in the configuration [length].
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
-    /// Decay rate of each mode [1/time].
     decay_rates: Vec<f64>,
 }
 

@@ -27,7 +27,6 @@ struct SharedRates<'a> {
     requested: Vec<Option<RequestedRate<'a>>>,
 }
 
-/// Requested start rate of a node [length/time, 1/time].
 #[derive(Clone, Copy)]
 struct RequestedRate<'a> {
     rate: f64,

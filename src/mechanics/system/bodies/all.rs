@@ -84,7 +84,6 @@ impl Bodies {
         place.interpolate(self[place.body].dynamics.control_points())
     }
 
-    /// Speed of the fastest control point [length/time].
     pub fn fastest_speed(&self, rates: &[f64]) -> f64 {
         let speeds = self.iter().flat_map(|body| {
             (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())

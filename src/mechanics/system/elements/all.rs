@@ -32,7 +32,6 @@ impl Elements {
         Self { masses, weight, forces, resistances, largest_mismatch: (0.0, 0) }
     }
 
-    /// Total mass of all point masses [mass].
     pub fn mass(&self) -> f64 {
         self.masses.iter().map(|mass| mass.mass).sum()
     }
@@ -223,12 +222,10 @@ impl Elements {
         self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
     }
 
-    /// Energy stored in springs [energy].
     pub fn stored(&self) -> f64 {
         self.resistances().map(InternalForce::stored).fold(0.0, |sum, stored| sum + stored)
     }
 
-    /// Energy dissipated since the start [energy].
     pub fn dissipated(&self) -> f64 {
         self.resistances()
             .map(InternalForce::dissipated)

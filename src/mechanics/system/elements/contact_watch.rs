@@ -29,7 +29,6 @@ pub struct ContactWatch {
     entry: f64,
     /// Largest force of the present contact so far [force, force·length].
     force: f64,
-    /// Time since the contact began [time].
     duration: f64,
     /// Largest force of a bounce that is attributed to rounding [force, force·length].
     noise: f64,

@@ -25,7 +25,7 @@ pub struct TrialState<'a> {
     pub stage: Stage,
     /// Increments of the unknowns since the start of the step [length, rad].
     pub increments: &'a [f64],
-    /// Factor of the forces [-].
+    /// Factor by which the forces are multiplied in the balance of the step [-].
     pub weight: f64,
 }
 

@@ -172,7 +172,6 @@ impl PrescribedMovements {
         self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
     }
 
-    /// Largest prescribed rotation in the current step [rad].
     pub fn largest_rotation(&self) -> f64 {
         self.largest_rotation
     }

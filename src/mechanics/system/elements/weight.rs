@@ -25,7 +25,6 @@ impl Weight {
         Self { gravity, forces }
     }
 
-    /// Potential energy of a body [energy].
     pub fn energy_of(&self, bodies: &[Body], body: usize) -> f64 {
         -self.forces.potential_work_on(bodies, |other| other == body)
     }

@@ -268,7 +268,6 @@ impl System {
         (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
-    /// Speed of the fastest control point [length/time].
     pub(in crate::system) fn fastest_speed(&self) -> f64 {
         self.bodies.fastest_speed(&self.motion.rates)
     }

@@ -21,7 +21,6 @@ impl System {
         Some(self.exchanged.powers.as_ref()?[drive].power)
     }
 
-    /// Power of a load over the last step [energy/time].
     pub(in crate::system) fn power_of_load(&self, load: usize) -> Option<f64> {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }

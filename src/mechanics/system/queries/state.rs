@@ -88,7 +88,6 @@ impl System {
         self.unknown_movements().kinds()
     }
 
-    /// Displacements of the control points of all bodies [length], from values of the unknowns.
     pub(crate) fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()

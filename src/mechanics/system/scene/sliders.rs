@@ -15,7 +15,6 @@ const CLOSED: f64 = 1e-6;
 struct StartGap {
     from: Vec2,
     to: Vec2,
-    /// Distance of the two points [length].
     gap: f64,
     /// Largest initial distance for which the slave is moved onto the axis [length].
     tolerance: f64,

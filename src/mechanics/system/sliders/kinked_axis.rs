@@ -90,7 +90,6 @@ impl KinkedAxis {
         }
     }
 
-    /// Largest speed along the master at which the kink varies with the contact force [length/time].
     pub fn fastest(&self) -> f64 {
         self.fastest
     }
@@ -233,12 +232,10 @@ impl KinkedAxis {
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 
-    /// Strain energy of the kink [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.jump.dot(&self.offset())
     }
 
-    /// Kinetic energy of the moving kink [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.inverse_square_speed * self.speed * self.speed * self.energy()
     }

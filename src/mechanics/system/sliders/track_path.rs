@@ -159,7 +159,6 @@ impl TrackPathSegment {
         }
     }
 
-    /// Position of an end of the beam [length].
     fn end_point(&self, bodies: &[Body], end: MasterEnd) -> Vec2 {
         let points = bodies[self.beam].dynamics.control_points();
         match end {

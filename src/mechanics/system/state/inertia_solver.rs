@@ -2,7 +2,6 @@
 
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
-/// Factorised inertia matrix, with allocated vectors for responses to unit impulses.
 pub struct InertiaSolver {
     inertia: BandedMatrix,
     is_factorised: bool,

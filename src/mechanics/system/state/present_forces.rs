@@ -22,7 +22,6 @@ pub struct PresentForces {
     pub responses: Vec<ContactResponse>,
     /// Acceleration in each contact direction due to each unit contact force [1/mass].
     matrix: BandedMatrix,
-    /// Magnitude of each contact force [force].
     pub magnitudes: Vec<f64>,
 }
 

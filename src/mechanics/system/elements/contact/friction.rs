@@ -77,7 +77,6 @@ impl FrictionLaw {
 /// Slip in an iterate as a function of `N` local coordinates, and the generalised force of a unit friction force.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipTrial<const N: usize> {
-    /// Slip [length].
     pub slip: f64,
     pub slope: [f64; N],
     /// Generalised force due to a unit friction force. The work of this generalised force equals the slip.
@@ -108,7 +107,6 @@ pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
 /// Friction force of a contact point in a step. Its slip is a function of `N` local coordinates.
 #[derive(Debug, Clone)]
 pub struct PointFriction<const N: usize> {
-    /// Coefficient of friction [-].
     coefficient: f64,
     /// Stiffness along the surface [force/length].
     stiffness: f64,
@@ -129,7 +127,6 @@ pub struct PointFriction<const N: usize> {
 pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub force: f64,
-    /// Duration of the step [time].
     pub duration: f64,
     /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
     pub share: f64,
@@ -258,7 +255,6 @@ impl<const N: usize> PointFriction<N> {
         contact.share * self.force.force * slip - (self.energy() - before)
     }
 
-    /// Elastic energy of the deflection [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.stiffness * self.deflection * self.deflection
     }
@@ -276,7 +272,6 @@ impl<const N: usize> PointFriction<N> {
         rates.direction.map(|by| by * force.clamp(-limit, limit))
     }
 
-    /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub fn sticking_damping(&self) -> f64 {
         self.damping
     }

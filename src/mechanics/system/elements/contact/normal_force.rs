@@ -23,7 +23,7 @@ pub struct NormalLaw {
 #[derive(Clone, Copy)]
 pub struct ContactTime {
     pub stage: Stage,
-    /// Factor of the force [-].
+    /// Factor by which the contact force is multiplied in the balance of the step [-].
     pub weight: f64,
     /// Coefficients of rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
@@ -48,7 +48,6 @@ impl ContactTime {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GapChange {
-    /// Change of the gap [length].
     pub value: f64,
     /// Largest of the increments from which the change of the gap is computed [length]. It determines the rounding error of the change.
     pub moved: f64,

@@ -29,7 +29,6 @@ pub(super) struct CandidatePair {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionOfPair {
-    /// Coefficient of friction [-].
     pub(super) coefficient: f64,
     /// Fractions of the moment of friction that act on `shape` and on `target` [-]. The sum of the fractions is one.
     pub(super) shares: [f64; 2],

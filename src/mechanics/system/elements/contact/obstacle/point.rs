@@ -22,7 +22,6 @@ pub(super) struct Surface {
     /// Radius of the bodies around their axes and points [length].
     pub(super) radius: f64,
     pub(super) law: NormalLaw,
-    /// Coefficient of friction [-].
     pub(super) friction: f64,
 }
 
@@ -557,10 +556,8 @@ impl ContactPoint {
 }
 
 pub(super) struct ClosedContact {
-    /// Gradient of the gap [-].
     pub(super) gradient: Vec2,
     pub(super) tension: ForceTarget,
-    /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
     /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub(super) sticking_damping: f64,
