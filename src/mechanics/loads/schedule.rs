@@ -218,7 +218,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// Number of script functions in the schedule. The method [`value`](Self::value) calls each script function once.
+    /// Number of script functions and controllers in the schedule. The method [`value`](Self::value) evaluates each of them once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => 1,

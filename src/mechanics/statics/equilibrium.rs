@@ -97,7 +97,7 @@ impl Equilibrium {
     /// Calls a function with the model at every point of the path, in order.
     ///
     /// # Errors
-    /// Fails in the same cases as [`find`](Self::find).
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
         let mut model = at_rest(&self.scene, &mut |_| true)?;
         let at = |point: &PathPoint| {
