@@ -126,7 +126,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion. The rate at the end then replaces the rate at the start.
+                // If the rate jumps within the step, the motion has a kink, and the rate at the end of the step replaces the rate at its start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {

@@ -1,7 +1,7 @@
 //! Frequency spectrum of a column over time.
 //!
 //! The mean is subtracted, and the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB).
-//! Then, zeros are appended.
+//! Zeros are appended to the weighted rows before the Fourier transform.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
 //! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
 //! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
