@@ -57,9 +57,6 @@ impl JointElimination {
     }
 
     /// Factorises the matrix with the given entries. Values for the same row and column are added up.
-    ///
-    /// # Errors
-    /// Fails if a column has no nonzero finite pivot.
     pub(super) fn factorise(
         &mut self,
         entries: &[MatrixEntry],

@@ -90,9 +90,6 @@ impl PreciseBand {
     }
 
     /// Factorises the sum of this matrix and `shift` times the matrix `other`.
-    ///
-    /// # Errors
-    /// Fails if a pivot is zero or not finite.
     pub fn factorise(
         &self,
         shift: f64,

@@ -143,9 +143,6 @@ impl PrescribedMotion {
 
     /// Jump of the rate at the start of a step [length/time, rad/time]; `None` if the rate is continuous.
     /// The jump is computed at declared breaks and for controllers. `before` is the rate at the end of the last step.
-    ///
-    /// # Errors
-    /// Fails if the script function fails or a value is not finite.
     pub(crate) fn jump_of_rate(
         &self,
         start: f64,

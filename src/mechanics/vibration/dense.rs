@@ -23,9 +23,6 @@ const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.
 /// Degrees of freedom without inertia have the eigenvalue zero.
-///
-/// # Errors
-/// Fails if the search is stopped.
 pub(super) fn all_pairs(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -31,9 +31,6 @@ pub(super) struct RefinedPair {
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
 /// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
 /// The residual includes these components.
-///
-/// # Errors
-/// Fails if the refinement is stopped.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -50,9 +50,6 @@ pub(super) struct Resolvent {
 
 impl Resolvent {
     /// Creates the problem for a shift whose square exceeds `-ω²` of all unstable modes with squared frequency `ω²`.
-    ///
-    /// # Errors
-    /// Fails if the search is stopped.
     pub(super) fn of(
         problem: &Quadratic,
         shift: f64,
@@ -81,9 +78,6 @@ impl Resolvent {
     }
 
     /// All eigenvalues as multiples of the shift, in increasing order of magnitude. The eigenvalues near the shift are accurate.
-    ///
-    /// # Errors
-    /// Fails if the search does not converge.
     pub(super) fn numbers(&self) -> Result<Vec<ComplexNumber>, VibrationError> {
         let matrix = self.matrix();
         let count = matrix.nrows();

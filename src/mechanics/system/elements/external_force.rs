@@ -48,17 +48,11 @@ pub trait ExternalForce {
 
     /// Prepares a step by evaluating time-dependent values.
     /// `_stages` lists the stages at which the integrator evaluates forces.
-    ///
-    /// # Errors
-    /// Fails if a value of the element is not finite.
     fn begin_step(&mut self, _interval: Interval, _stages: &[Stage]) -> Result<(), LoadError> {
         Ok(())
     }
 
     /// Evaluates the element just after a time, for example at the end of a static load step.
-    ///
-    /// # Errors
-    /// Fails if a value of the element is not finite.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }

@@ -255,9 +255,6 @@ impl PrescribedMovements {
 
     /// Jumps of prescribed rates at the start of a step, indexed by the degree of freedom; `None` without a jump.
     /// Rates may jump at declared breaks of a function and at samples of a controller.
-    ///
-    /// # Errors
-    /// Fails if the function of a drive has no finite value.
     pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
         let mut found = None;
         for (at, movement) in self.movements.iter().enumerate() {

@@ -194,9 +194,6 @@ fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
 
 impl System {
     /// Sets the velocities of all slaves across their masters to zero by the smallest change (Gauss's principle of least constraint).
-    ///
-    /// # Errors
-    /// Fails if the impulses at the sliders are not determined.
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
         self.apply_transverse_impact().map_err(|_| self.sliders.overdetermined())
     }
@@ -304,9 +301,6 @@ impl System {
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
     /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
-    ///
-    /// # Errors
-    /// Fails if the matrix is singular.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,

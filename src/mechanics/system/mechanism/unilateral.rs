@@ -91,9 +91,6 @@ impl System {
 
     /// Ends the flight of a slider, and of all sliders that land simultaneously. The length of the steps is `dt` [time].
     /// A slider that strikes its master bounces or stays in contact. A slider beyond an end of its master passes the axis without contact.
-    ///
-    /// # Errors
-    /// Fails if the impulses of the landing are undetermined.
     pub(crate) fn land(&mut self, slider: usize, dt: f64) -> Result<(), SystemError> {
         let mut striking = Vec::new();
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());

@@ -129,9 +129,6 @@ impl Scene {
     }
 
     /// Returns true if a slider that only pushes starts in flight, at a distance from its master.
-    ///
-    /// # Errors
-    /// Fails if the slave or the start position lies outside its beam.
     pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
         if slider.side.is_none() {
             return Ok(false);

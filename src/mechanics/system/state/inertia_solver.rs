@@ -25,9 +25,6 @@ impl InertiaSolver {
     }
 
     /// Factorises the inertia matrix. The callback `fill` adds its entries to a zero matrix.
-    ///
-    /// # Errors
-    /// Fails if the inertia matrix is singular.
     pub fn factorise(&mut self, fill: impl FnOnce(&mut BandedMatrix)) -> Result<(), LinearError> {
         self.is_factorised = false;
         self.inertia.clear();

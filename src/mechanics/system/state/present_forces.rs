@@ -84,9 +84,6 @@ impl Default for PresentForces {
 impl PresentForces {
     /// Computes the magnitudes of the contact forces.
     /// The callback `carried` returns the acceleration that the contact requires in each contact direction [length/time²].
-    ///
-    /// # Errors
-    /// Fails if the contact forces are not determined.
     pub fn solve(&mut self, carried: impl Fn(&(usize, Vec2)) -> f64) -> Result<(), LinearError> {
         let Self { accelerations, directions, responses, matrix, magnitudes, .. } = self;
         let count = directions.len();
