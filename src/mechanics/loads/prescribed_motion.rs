@@ -167,7 +167,7 @@ impl PrescribedMotion {
     /// Rejects a displacement that jumps or has an infinite rate just after the start, and a prescribed rate that jumps there.
     ///
     /// # Errors
-    /// Fails if the motion is rejected, the script function fails, or a value is not finite.
+    /// Fails for a rejected motion, if the script function fails, or if a value is not finite.
     pub(crate) fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),

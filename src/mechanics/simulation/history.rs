@@ -194,8 +194,8 @@ impl History {
     /// The gap of joints is not divided by a scale.
     ///
     /// The scale of the energy is the largest energy or work of all rows.
-    /// The scale of the momentum is the larger of `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`, and the exchanged impulses.
-    /// The scale of the angular momentum is the largest of `sqrt(2 m K)` times the length scale, the angular momenta, and the exchanged impulses.
+    /// The scale of the momentum is the larger of the exchanged impulses and `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`.
+    /// The scale of the angular momentum is the largest of the angular momenta, the exchanged angular impulses, and `sqrt(2 m K)` times a length.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);

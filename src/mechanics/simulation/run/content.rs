@@ -50,7 +50,8 @@ impl Simulation {
     /// Serialises the simulation and its name for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
-    /// Fails if a schedule is a script function, a sensor has no name from which it can be created, or the caller still has to trigger a release.
+    /// Fails if a schedule is a script function, or if a sensor cannot be created from its name.
+    /// Also fails if the caller still has to trigger a release.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {

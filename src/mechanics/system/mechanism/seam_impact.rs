@@ -27,7 +27,6 @@ const CORRECTIONS: usize = 40;
 const RIGHT: f64 = 1e-12;
 
 /// Range of accepted estimates of the derivative of the rotation angle with respect to its parameter.
-/// Estimates outside the range are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner of a track that a slider passes, with the directions before and after the corner [-].
