@@ -54,7 +54,7 @@ impl Invariant {
         }
     }
 
-    /// Description of the invariant in words and symbols.
+    /// Description of the invariant in words and symbols, such as `energy E - W + D`.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Energy => "energy E - W + D",

@@ -233,7 +233,7 @@ impl SpringLaw {
         }
     }
 
-    /// Description of the law for messages.
+    /// Description of the law for messages, such as `a table of 5 points`.
     pub fn describe(&self) -> String {
         match self {
             Self::Linear { stiffness, natural } => {

@@ -383,7 +383,7 @@ impl Scene {
         })
     }
 
-    /// Description of a station for messages.
+    /// Description of a station for messages, such as `the start of beam 'rod'`.
     pub fn describe(&self, station: &Station) -> String {
         if let BodyIndex::Rigid(body, point) = station.body {
             return self.describe_point(body, point);
