@@ -17,7 +17,6 @@ use crate::integrators::Interval;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Body;
 
-/// Damper between two points. Its force depends on the rate of their distance.
 #[derive(Debug, Clone)]
 pub struct PointDamper {
     name: String,
