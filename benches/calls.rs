@@ -75,7 +75,6 @@ fn compare(first: (&str, &str), second: (&str, &str)) -> [f64; 2] {
     least
 }
 
-/// Duration of an action.
 fn timed(action: impl FnOnce()) -> Duration {
     let begun = Instant::now();
     action();

@@ -13,11 +13,9 @@ use crate::simulation::{
 };
 use crate::system::{Scene, Sensor};
 
-/// Run of a study in a form that can be serialised.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Case {
     pub scene: Scene,
-    /// Integrator, step size and tolerance.
     pub settings: SimulationSettings,
     /// Observation times in increasing order [time]. The last observation time is the end of the run.
     pub stops: Vec<f64>,
@@ -56,7 +54,6 @@ impl Case {
         is_data.then(|| postcard::to_stdvec(&*case).ok()).flatten()
     }
 
-    /// Restores a case from the result of [`to_bytes`](Self::to_bytes); `None` for invalid data.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         postcard::from_bytes(bytes).ok()
     }
@@ -81,7 +78,7 @@ impl Case {
     }
 
     /// Returns true if no interval between observation times, schedule breaks and releases is longer than `dt`.
-    /// Every step of size `dt` then ends at such a time, and larger step sizes give the same run.
+    /// With the step size `dt` or a larger one, a run then takes a single step in each of these intervals.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

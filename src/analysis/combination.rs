@@ -19,11 +19,9 @@ impl ObservedScene {
     }
 }
 
-/// Scene with its meshes, an integrator and a step size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
     pub subject: usize,
-    /// Integrator and step size.
     pub settings: SimulationSettings,
 }
 
@@ -43,18 +41,16 @@ pub fn all_combinations(
     pairs.map(|(subject, settings)| Combination { subject, settings }).collect()
 }
 
-/// Index of the scene with the most spans. If several scenes have the same number of spans, the last scene is returned.
 pub fn finest_mesh(subjects: &[ObservedScene]) -> Option<usize> {
     (0..subjects.len()).max_by_key(|index| subjects[*index].spans())
 }
 
-/// Method of the highest order. If several methods have the same order, the first method is returned.
 pub fn highest_order(methods: &[Method]) -> Option<Method> {
     methods.iter().copied().rev().max_by_key(|method| method.entry().claims.order)
 }
 
 /// Step size of the reference run, as a fraction of the smallest step size in the study.
-/// With a method of second order, the error of the reference is a sixteenth of the error of the best run.
+/// With a method of second order, the error of the reference is a sixteenth of the error of the most accurate run.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

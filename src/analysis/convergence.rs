@@ -9,14 +9,12 @@ use crate::integrators::Method;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RefinedParameter {
     Step,
-    /// Mesh size, which is one divided by the number of spans.
     Mesh,
 }
 
-/// Smallest ratio of a significant error to the uncertainty of the reference.
+/// Smallest ratio of an error to the uncertainty of the reference at which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
-/// Errors of a quantity for one integrator and several sizes, from coarse to fine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
     pub method: Method,
@@ -28,12 +26,10 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Error at the step or mesh size with the index `rung`; `None` if the run failed.
     pub fn error(&self, rung: usize) -> Option<f64> {
         self.deviations.get(rung).copied().flatten().map(|of| of.error())
     }
 
-    /// Returns true if the error at the size `rung` can be used to compute an order, that is, if it is nonzero and significant.
     pub fn counts_for_order(&self, rung: usize) -> bool {
         let deviation = self.deviations.get(rung).copied().flatten();
         deviation.is_some_and(|of| {
@@ -75,20 +71,17 @@ pub struct Convergence {
     pub fixed: String,
     /// Times at which results are compared [time].
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub reference: ReferenceSolution,
-    /// Errors by integrator and quantity.
     pub ladders: Vec<Refinement>,
-    /// Failed runs, with size, integrator and reason.
     pub failures: Vec<(f64, Method, String)>,
 }
 
-/// Name of the combined error of the positions of all stations.
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several sizes.
+    /// Returns the errors of one integrator for several step or mesh sizes.
     /// The first returned element contains the error of all positions together, as a fraction of the length scale.
     /// Each further returned element contains the error of a single observable.
     pub fn ladders_of(
@@ -116,7 +109,6 @@ impl Convergence {
         std::iter::once(together).chain(each).collect()
     }
 
-    /// Names of the quantities in the study, without duplicates.
     pub fn quantities(&self) -> Vec<&str> {
         let mut names = Vec::new();
         for name in self.ladders.iter().map(|ladder| ladder.quantity.as_str()) {

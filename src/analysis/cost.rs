@@ -7,7 +7,6 @@ use super::{Case, CaseOutcome, RunLimits};
 use crate::integrators::Constraints;
 use crate::simulation::{Recording, Simulation};
 
-/// Case whose steps are timed, with the settings that affect the run time.
 #[derive(Debug, Clone)]
 pub struct CostCase {
     pub name: String,
@@ -27,7 +26,6 @@ pub struct StepCost {
     pub columns: usize,
     pub iterations: f64,
     pub factorisations: f64,
-    /// Average time of a step in the fastest run.
     pub shortest: Duration,
     pub median: Duration,
 }

@@ -3,11 +3,7 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParsedCsvError {
     #[error("line {line} is not a row of the table: {reason}")]
-    Row {
-        /// Line number, counted from 1.
-        line: u64,
-        reason: String,
-    },
+    Row { line: u64, reason: String },
     #[error("two columns have the name '{column}'; rename one of them")]
     Duplicate { column: String },
     #[error("it has no column '{column}'; its columns are {known}")]
@@ -15,33 +11,20 @@ pub enum ParsedCsvError {
     #[error(
         "line {line}, column '{column}', holds '{text}', which is not a finite number below 1e150"
     )]
-    Number {
-        column: String,
-        /// Line number, counted from 1.
-        line: u64,
-        text: String,
-    },
-    /// A column of sizes contains a negative number.
+    Number { column: String, line: u64, text: String },
     #[error("line {line}, column '{column}', holds '{text}', but an error must not be negative")]
-    Negative {
-        column: String,
-        /// Line number, counted from 1.
-        line: u64,
-        text: String,
-    },
+    Negative { column: String, line: u64, text: String },
 }
 
 /// Largest allowed magnitude of a number in a table. Squares of allowed numbers are finite.
 const LARGEST: f64 = 1e150;
 
-/// Largest number of characters of a cell in a message.
 const LONGEST_SHOWN: usize = 60;
 
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParsedCsv {
     columns: Vec<String>,
     separator: u8,
-    /// Cells of each row, with the line number of the row, counted from 1.
     rows: Vec<(u64, Vec<String>)>,
 }
 
@@ -100,29 +83,14 @@ impl ParsedCsv {
         self.columns.iter().any(|name| name == column)
     }
 
-    /// Texts of the cells in a row, in the order of the columns.
-    ///
-    /// # Panics
-    /// Panics if the row does not exist.
     pub fn texts(&self, row: usize) -> &[String] {
         &self.rows[row].1
     }
 
-    /// Line number of a row in the file, counted from 1.
-    ///
-    /// # Panics
-    /// Panics if the row does not exist.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
     }
 
-    /// Text of a cell.
-    ///
-    /// # Errors
-    /// Fails if the column does not exist.
-    ///
-    /// # Panics
-    /// Panics if the row does not exist.
     pub fn text(&self, row: usize, column: &str) -> Result<&str, ParsedCsvError> {
         let found = self.columns.iter().position(|name| name == column);
         let missing =
@@ -130,10 +98,6 @@ impl ParsedCsv {
         found.map(|index| self.rows[row].1[index].as_str()).ok_or_else(missing)
     }
 
-    /// Number in a cell.
-    ///
-    /// # Errors
-    /// Fails if the column does not exist, or if the cell is not a finite number with a finite square.
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
         // Unless cells are separated by commas, a comma in a number is the decimal separator.
@@ -150,10 +114,6 @@ impl ParsedCsv {
         })
     }
 
-    /// Error in a cell, which is a number that must not be negative.
-    ///
-    /// # Errors
-    /// Fails if the column does not exist, or if the cell is not a finite number or is negative.
     pub fn size(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let number = self.number(row, column)?;
         let (column, line) = (column.to_owned(), self.rows[row].0);
@@ -185,7 +145,6 @@ fn separator_of(text: &str) -> u8 {
     }
 }
 
-/// Returns true if every cell is empty or a dimension such as `mass·length/time`, and at least one cell is a dimension.
 fn is_line_of_units(cells: &[String]) -> bool {
     let is_factor = |factor: &str| {
         let name = factor.trim_end_matches(['²', '³']);

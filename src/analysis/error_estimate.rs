@@ -10,7 +10,6 @@ use crate::elementary::power;
 /// Largest distance of two runs that is attributed to rounding, relative to the scale of a quantity.
 const ROUNDING: f64 = 1e-10;
 
-/// Smallest and largest order in the search for the observed order.
 const ORDERS: (f64, f64) = (0.05, 12.0);
 
 /// Smallest observed order of a converging run, relative to the order of the method.
@@ -19,18 +18,17 @@ const SHARE_OF_ORDER: f64 = 0.7;
 /// Smallest observed order of a converging run if the order of the method is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
-/// Largest error at which an observed order is significant, relative to the scale of a quantity.
+/// Largest error at which a run may count as converged, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
 /// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest growth of the distance of two runs, after their last convergence, that does not count as chaos.
+/// Largest growth of the distance of two runs, from their last convergence to their end, for a motion that is not chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
-    /// The runs agree to rounding.
     Exact,
     /// The observed order is at least 0.7 times the order of the method, or at least 0.7 if this order is unknown, and the error is small.
     Converged,
@@ -44,7 +42,6 @@ pub enum ErrorVerdict {
 }
 
 impl ErrorVerdict {
-    /// Verdict in words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Exact => "exact",
@@ -55,7 +52,6 @@ impl ErrorVerdict {
     }
 }
 
-/// Estimated error of a quantity due to the discretisation in time or in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscretisationError {
     /// Errors at times of the run [time, dimension of the quantity].
@@ -88,7 +84,6 @@ impl DiscretisationError {
     }
 }
 
-/// A quantity on three levels of refinement, from fine to coarse. The third level is optional.
 #[derive(Debug, Clone, Copy)]
 pub struct RefinementLevels<'a> {
     pub sizes: [f64; 3],

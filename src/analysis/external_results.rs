@@ -5,11 +5,9 @@ use super::observable::Observable;
 use super::reference::{ReferenceError, ReferenceSolution};
 use crate::geometry::Vec2;
 
-/// Run of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExternalResult {
     pub program: String,
-    /// Name of a series of runs, for example the runs of one program with one integrator.
     pub series: String,
     pub setting: String,
     /// Run time [s].
@@ -27,13 +25,11 @@ pub enum ExternalResultError {
     Sheet(#[from] ParsedCsvError),
     #[error(transparent)]
     ReferenceMismatch(#[from] ReferenceError),
-    /// The positions of a run were measured at a time that the study does not use.
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
         row: usize,
         /// Time of the measurement [time].
         measured: f64,
-        /// Times of the study.
         requested: Vec<String>,
     },
 }
@@ -94,7 +90,6 @@ fn position(sheet: &ParsedCsv, row: usize, of: &Observable) -> Result<Vec2, Pars
     Ok(Vec2::new(x?, y?))
 }
 
-/// Machines on which the runs were measured, without duplicates.
 pub fn machines(external_results: &[ExternalResult]) -> Vec<&str> {
     let mut machines = Vec::new();
     for external_result in

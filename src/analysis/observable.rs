@@ -6,10 +6,8 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::simulation::{History, Simulation};
 
-/// Named quantity of a simulation at one time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Observable {
-    /// Name of the station or column, unique among observables of the same type.
     pub name: String,
     pub kind: ObservableKind,
 }
@@ -20,8 +18,10 @@ pub enum ObservableKind {
     Position(Station),
     /// Angle of the section at a station [rad].
     Angle(Station),
-    /// Present value of a history column, multiplied by a factor.
-    Column { column: String, factor: f64 },
+    Column {
+        column: String,
+        factor: f64,
+    },
 }
 
 /// Symbols that stand for history columns in tables of reference solutions.
@@ -34,13 +34,11 @@ pub const SYMBOLS: [(&str, &str); 6] = [
     ("Lz", "angular_momentum"),
 ];
 
-/// Returns true if a column of the history describes the motion.
 pub fn is_of_the_motion(column: &str) -> bool {
     History::COLUMNS.iter().all(|own| own.name != column || own.is_of_motion)
 }
 
 impl Observable {
-    /// Observables of a station: its position, and its angle unless it is a point mass.
     pub fn of_station(name: &str, station: Station) -> impl Iterator<Item = Self> {
         let angle = station.turns().then_some(ObservableKind::Angle(station));
         let kinds = std::iter::once(ObservableKind::Position(station)).chain(angle);
@@ -62,7 +60,6 @@ impl Observable {
         matches!(self.kind, ObservableKind::Position(_))
     }
 
-    /// Description, such as `position of tip`, `angle of tip` or `kinetic`.
     pub fn describe(&self) -> String {
         match &self.kind {
             ObservableKind::Position(_) => format!("position of {}", self.name),

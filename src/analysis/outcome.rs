@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum CaseOutcome {
     Finished,
-    /// The run could not start or could not continue.
     Failed {
         /// End of the last successful step [time].
         time: f64,
@@ -16,7 +15,6 @@ pub enum CaseOutcome {
         time: f64,
         limit: String,
     },
-    /// The run panicked because of a bug in the program.
     Panicked {
         message: String,
     },

@@ -8,11 +8,9 @@ use super::run_result::RunResult;
 use super::timing::Timing;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Combination of mesh, integrator and step size, with its results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrecisionRow {
     pub mesh: String,
-    /// Integrator and step size.
     pub settings: SimulationSettings,
     pub result: RunResult,
     /// Run time; `None` if the run failed.
@@ -62,11 +60,10 @@ pub struct Precision {
     pub name: String,
     /// Times at which results are compared [time]. Runs end at the last of these times.
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub observables: Vec<Observable>,
     pub reference: ReferenceSolution,
-    /// All combinations, including those whose runs failed.
     pub rows: Vec<PrecisionRow>,
     pub external_results: Vec<ExternalResult>,
 }
@@ -105,7 +102,6 @@ impl Precision {
         confirmed.min_by(|a, b| a.cost_and_error().0.total_cmp(&b.cost_and_error().0))
     }
 
-    /// Names of the other programs, without duplicates.
     pub fn program_names(&self) -> Vec<&str> {
         let mut peers = Vec::new();
         for peer in

@@ -19,7 +19,6 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Returns true if the distance of the result from the reference exceeds the estimated error of the reference.
     pub fn is_resolved(&self) -> bool {
         self.distance > self.estimated_error
     }
@@ -57,14 +56,12 @@ pub enum ReferenceError {
     Sheet(#[from] ParsedCsvError),
     #[error("it has no rows")]
     Empty,
-    /// The reference has no row for a time of the study.
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
         /// Missing time [time].
         time: f64,
         nearest: Vec<String>,
     },
-    /// The reference has two different rows for a time of the study.
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     DuplicateTime {
         /// Duplicate time [time].
@@ -87,7 +84,6 @@ struct KnownValue {
     estimated_error: f64,
 }
 
-/// Reference of a study: values of its observables at the times of the study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceSolution {
     pub source: String,
@@ -231,7 +227,6 @@ impl ReferenceSolution {
         self
     }
 
-    /// Returns true if the reference contains the observable with this index.
     pub fn knows(&self, observable: usize) -> bool {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }

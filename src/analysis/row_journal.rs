@@ -17,7 +17,6 @@ const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RowEntry {
-    /// First entry: identification of the sweep.
     Sweep {
         fingerprint: u64,
         rows: u64,
@@ -30,7 +29,6 @@ pub enum RowEntry {
     Failed(u64, String),
 }
 
-/// Journal of a sweep, opened for appending entries.
 #[derive(Debug)]
 pub struct RowJournal {
     file: BufWriter<File>,
@@ -62,9 +60,6 @@ pub fn read_rows<E: From<io::Error>>(
 
 impl RowJournal {
     /// Opens a journal to append entries after its first `whole` bytes. A missing file is created.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::open_or_create)?;
         let file = folder.append(&name)?;
@@ -73,9 +68,6 @@ impl RowJournal {
     }
 
     /// Appends an entry. Returns its length [bytes].
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn write(&mut self, entry: &RowEntry) -> io::Result<u64> {
         let payload = postcard::to_stdvec(entry).map_err(io::Error::other)?;
         let length = u32::try_from(payload.len()).map_err(io::Error::other)?;
@@ -86,10 +78,6 @@ impl RowJournal {
         Ok(8 + u64::from(length))
     }
 
-    /// Writes the buffer to the file, unless the last write was very recent.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn flush_periodically(&mut self) -> io::Result<()> {
         if self.flushed.elapsed() > DELAY {
             self.flush()?;
@@ -97,20 +85,12 @@ impl RowJournal {
         Ok(())
     }
 
-    /// Writes the buffer to the file.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn flush(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
         self.file.flush()
     }
 }
 
-/// Removes a journal if it exists.
-///
-/// # Errors
-/// Fails if the file cannot be removed.
 pub fn remove_rows(path: &Path) -> io::Result<()> {
     match place(path, Folder::find).and_then(|(folder, name)| folder.remove(&name)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

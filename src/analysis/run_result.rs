@@ -26,7 +26,6 @@ pub struct RunResult {
 }
 
 impl RunResult {
-    /// Runs a case and evaluates its observables at every observation time.
     pub fn of(
         case: &Case,
         observables: &[Observable],

@@ -12,7 +12,7 @@ use crate::system::Scene;
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
     /// Largest increase of the energy (minus the work of loads) over any earlier value, as a fraction of the largest energy.
-    /// Increases of the energy before the last break of a schedule are ignored. NaN if the run did not start or an energy is NaN.
+    /// Rows before the last break of a schedule are ignored if the run continues after it. NaN if the run did not start or an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
     pub mean_iterations: f64,

@@ -12,22 +12,15 @@ pub struct SweptParameter {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum SweptValues {
-    /// List of levels. A level may be a number or a label.
-    Levels {
-        labels: Vec<String>,
-        numbers: Option<Vec<f64>>,
-        choice: Choice,
-    },
+    Levels { labels: Vec<String>, numbers: Option<Vec<f64>>, choice: Choice },
     Numbers(Vec<f64>),
 }
 
-/// Rule that assigns the levels of a parameter to rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
     /// Full grid. Each level applies to the given number of consecutive rows, followed by the next level.
     /// In a full grid, the sequence of levels is repeated until the last row.
     Grid(usize),
-    /// Level index for each row.
     Drawn(Vec<u32>),
 }
 
@@ -59,20 +52,16 @@ impl SweptValues {
         }
     }
 
-    /// Value of the parameter in a row as text: a number formatted by `write`, or a label.
     pub fn in_words(&self, row: usize, write: impl Fn(f64) -> String) -> String {
         let label = || self.label(row).unwrap_or_default().to_owned();
         self.number(row).map_or_else(label, write)
     }
 }
 
-/// Arrangement of the rows of a sweep in the parameter space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLayout {
     Grid,
-    /// Points that are independent or form a low-discrepancy sequence.
     Points,
-    /// Saltelli blocks, from which Sobol' indices are computed.
     Saltelli,
 }
 
@@ -83,7 +72,6 @@ pub struct SweepDesign {
     pub arrangement: RowLayout,
 }
 
-/// Results of a sweep: a column of numbers for each result, and the reasons of failed rows.
 #[derive(Clone, Debug, Default)]
 pub struct SweepResults {
     pub names: Vec<String>,
@@ -149,7 +137,6 @@ impl SweepResults {
         Some(&self.reasons.texts[*number as usize])
     }
 
-    /// Indices of the failed rows, with the reasons.
     pub fn failures(&self) -> impl ExactSizeIterator<Item = (usize, &str)> {
         let FailureReasons { texts, of_rows, .. } = &self.reasons;
         of_rows.iter().map(|(row, number)| (*row as usize, texts[*number as usize].as_str()))

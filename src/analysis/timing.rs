@@ -17,7 +17,7 @@ pub struct Timing {
     pub repeats: usize,
 }
 
-/// Largest total run time of a case that still allows another run of the case.
+/// Total run time of the repetitions of a case after which the case is not run again.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux. The system updates this time when the thread pauses, and otherwise only at ticks of the scheduler.

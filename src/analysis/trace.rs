@@ -7,7 +7,6 @@ use crate::simulation::Simulation;
 /// Largest difference of two times that count as equal, as a fraction of the length of a run.
 const SAME_TIME: f64 = 1e-9;
 
-/// Quantity whose values are recorded during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TracedQuantity {
     pub name: String,
@@ -19,7 +18,6 @@ pub struct TracedQuantity {
 pub enum TraceSource {
     /// Position of a station in all recorded configurations [length].
     Position(Station),
-    /// Column of the history that contains present values.
     Column,
     /// Column of the history that contains means over the last step, such as contact forces.
     StepMean,
@@ -30,7 +28,7 @@ pub enum TraceSource {
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals from the start, from which means over different steps can be computed.
+    /// True if the values are integrals over time from the start. The mean over a step follows from the difference of two integrals.
     is_integral: bool,
 }
 
@@ -81,7 +79,6 @@ impl Trace {
         }
     }
 
-    /// Largest distance of a value from the first value.
     pub fn range(&self) -> f64 {
         let first = self.values.first().copied().unwrap_or_default();
         self.values.iter().map(|value| (value - first).norm()).fold(0.0, f64::max)

@@ -10,7 +10,7 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::{HAS_THREADS, cores};
 
-/// Interval of the periodic calls of `heed`.
+/// Interval at which `heed` is called without a result.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all processor cores. Cases whose loads call script functions run last, on the calling thread.

@@ -29,7 +29,7 @@ use crate::script::state::settings::{RunMode, RunSettings};
 
 const INTERVAL: Duration = Duration::from_millis(5);
 const START: Duration = Duration::from_secs(2);
-/// Maximum length of the message in a verdict [characters], for which the line of the verdict fits into the buffer of the pipe.
+/// Maximum length of the message in a verdict [characters]. The line of the verdict then fits into the buffer of the pipe.
 const LONGEST_MESSAGE: usize = 4000;
 /// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
@@ -218,7 +218,6 @@ pub(super) fn judge_one(
     process::exit(0)
 }
 
-/// Sets system limits for this process, in addition to the limits that the program checks.
 #[cfg(unix)]
 fn confine(limits: &Limits) -> nix::Result<()> {
     use nix::sys::resource::{Resource, getrlimit, setrlimit};

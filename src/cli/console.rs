@@ -29,7 +29,6 @@ fn record_write_error(written: io::Result<()>) {
     }
 }
 
-/// Returns true if some output could not be written for a reason other than a closed pipe.
 pub(super) fn is_output_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }

@@ -25,7 +25,6 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Runs `withy repl`. It evaluates the given file, if any, and then opens a session.
 pub fn open(options: &ReplOptions) -> Exit {
     panics::silence();
     if is_interactive(&options.session) {

@@ -60,8 +60,6 @@ fn prepare(options: &ViewOptions) -> Result<ViewRun, Diagnostic> {
     Ok(ViewRun { program, out, page, _scratch: scratch })
 }
 
-/// Script lines that write a page of all different simulations in the top-level variables, including simulations in arrays.
-/// If no variable contains a simulation, the page shows the latest simulation of the script.
 fn showing_all(program: &Program, page: &str) -> String {
     let mut names: Vec<String> = Vec::new();
     for (name, _) in ScriptOutline::of(&Source::from(&*program.text)).top_level {

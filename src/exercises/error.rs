@@ -19,7 +19,6 @@ pub enum ExerciseError {
         "cannot use this terminal: {0}; 'withy learn watch | cat' prints the same as plain lines"
     )]
     Terminal(io::Error),
-    /// A temporary folder for the output of attempts could not be created.
     #[error(
         "cannot create a folder for the output of attempts: {0}; set TMPDIR to a writable folder"
     )]

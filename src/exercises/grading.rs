@@ -12,12 +12,9 @@ use super::submissions::Submission;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     Passed,
-    /// The attempt runs, but some checks of the judge fail.
     WrongResult,
-    /// The attempt fails with an error, or its file is not a text file.
     Error,
     Stopped,
-    /// The file of the attempt is equal to the start file of the exercise.
     Unchanged,
     Missing,
 }
@@ -78,11 +75,8 @@ impl StudentReport {
     }
 }
 
-/// Work needed to determine the mark of an attempt.
 pub enum GradingTask {
-    /// No work: the mark and its message are known without judging.
     Known(Mark, String),
-    /// The mark is unknown: the attempt in the given file must be judged.
     Judge(PathBuf),
 }
 

@@ -7,7 +7,6 @@
 //! //! hint: The second one says more.
 //! ```
 
-/// Parsed header of a judge's script.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Judge {
     pub needs: Vec<Need>,

@@ -87,9 +87,6 @@ impl KnownMarks {
 
 impl MarksFile {
     /// Appends a mark and flushes the file to disk. Without a fingerprint, the next run judges the attempt again.
-    ///
-    /// # Errors
-    /// Fails if writing fails.
     pub fn append(
         &mut self,
         submission: &Submission,

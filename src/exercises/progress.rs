@@ -27,9 +27,6 @@ pub struct StudentProgress {
 
 impl StudentProgress {
     /// Reads the progress from a student's folder. The progress is empty if there is no progress file.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be read or is damaged.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
         let text = match read_text(&path, LARGEST) {

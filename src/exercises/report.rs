@@ -20,7 +20,6 @@ pub struct AttemptReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AttemptOutcome {
     Passed,
-    /// The attempt runs, but some checks of the judge failed. The variant contains the messages of the failed checks.
     WrongResult(Vec<String>),
     Error(AttemptError),
     Stopped(AttemptError),
@@ -39,7 +38,6 @@ pub struct AttemptError {
 pub struct ScriptPosition {
     pub file: String,
     pub line: usize,
-    /// Text of the source line, or an excerpt around the error.
     pub text: String,
     /// Index of the first character of the error in `text`, counted from 0.
     pub at: usize,

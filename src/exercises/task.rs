@@ -7,9 +7,7 @@ pub const TO_DO: &str = "To do:";
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Paragraph {
-    /// Text that may be wrapped.
     Words(String),
-    /// Preformatted lines, for example a formula or a table.
     Set(Vec<String>),
 }
 

@@ -13,7 +13,6 @@ use crate::sandbox_fs::read_file;
 
 pub const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Contents of all attempts of a student at the last check.
 pub struct Watcher<'a> {
     workbook: &'a Workbook,
     files: Vec<Seen>,
@@ -26,7 +25,6 @@ struct Seen {
 }
 
 impl<'a> Watcher<'a> {
-    /// Reads all attempts of a workbook. [`changed`](Self::changed) compares later contents of the files with these contents.
     pub fn new(workbook: &'a Workbook) -> Self {
         let look = |exercise| Seen { content: content(workbook, exercise), was_missing: false };
         Self { workbook, files: EXERCISES.iter().map(look).collect() }

@@ -19,15 +19,9 @@ pub struct Workbook {
     folder: PathBuf,
 }
 
-/// A hint, or the solution if all hints were given.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Advice {
-    Hint {
-        text: String,
-        number: usize,
-        count: usize,
-    },
-    /// The model solution. It is given when all hints have been given.
+    Hint { text: String, number: usize, count: usize },
     Solution(&'static str),
 }
 
@@ -46,9 +40,6 @@ impl Workbook {
     }
 
     /// Creates the folder and the missing start files. Returns the number of files written.
-    ///
-    /// # Errors
-    /// Fails if the folder or a file cannot be written.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -69,40 +60,25 @@ impl Workbook {
         self.folder.join(exercise.track).join(format!("{}.rhai", exercise.name))
     }
 
-    /// Returns true if the file of the exercise differs from its start file.
     pub fn is_begun(&self, exercise: &Exercise) -> bool {
         read_file(&self.file(exercise), LARGEST).is_ok_and(|text| text != exercise.start.as_bytes())
     }
 
-    /// Returns the progress of the student.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or is damaged.
     pub fn progress(&self) -> Result<StudentProgress, ExerciseError> {
         StudentProgress::read(&self.folder)
     }
 
     /// Returns the first exercise that has not been passed; `None` if all exercises have been passed.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or is damaged.
     pub fn next(&self) -> Result<Option<&'static Exercise>, ExerciseError> {
         let progress = self.progress()?;
         Ok(EXERCISES.iter().find(|exercise| !progress.has_passed(exercise)))
     }
 
-    /// Records the result of an attempt at an exercise.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or written.
     pub fn record(&self, exercise: &Exercise, passed: bool) -> Result<(), ExerciseError> {
         self.change(|progress| progress.record(exercise, passed))
     }
 
     /// Returns the next hint of an exercise, and records that it was given.
-    ///
-    /// # Errors
-    /// Fails if the progress file cannot be read or written.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;
@@ -139,7 +115,6 @@ impl Workbook {
     }
 }
 
-/// Returns the first unused name among `name.old`, `name.old2` and so on.
 fn free_name(file: &Path) -> PathBuf {
     let numbered = |number: usize| match number {
         1 => file.with_extension("old"),

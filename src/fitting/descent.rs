@@ -13,7 +13,6 @@ const RESTARTS: usize = 4;
 /// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
 
-/// Objective and constraints of a design, with their derivatives with respect to all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopedRating {
     pub rating: Rating,
@@ -136,9 +135,6 @@ impl<E> Descent<'_, '_, E> {
 impl Design {
     /// Minimises like [`solve`](Self::solve), with derivatives, by SLSQP (D. Kraft, 1988).
     /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
-    ///
-    /// # Errors
-    /// Returns the first error of `rate_with_slopes` or `rate`.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,

@@ -8,7 +8,7 @@ use super::SearchRange;
 
 /// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Largest violation of a satisfied constraint. Constraints are scaled to order one.
+/// Largest violation at which a constraint counts as satisfied. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
 /// Largest magnitude of an unbounded parameter in the search, as a multiple of its size. A parameter near this limit counts as diverged.
 const FARTHEST: f64 = 1e15;
@@ -59,7 +59,6 @@ struct DesignSearch<E> {
 }
 
 impl Rating {
-    /// Largest violation of a constraint; zero if all constraints are satisfied.
     pub fn largest_violation(&self) -> f64 {
         let missed = self.constraints.iter().map(|value| (-value).max(0.0));
         missed.fold(0.0, f64::max)
@@ -85,9 +84,6 @@ impl Design {
     ///
     /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned.
     /// If a run fails, `rate` must return `None`, and the search avoids this design. If all runs fail, the result is `None`.
-    ///
-    /// # Errors
-    /// Returns the first error of `rate`.
     pub fn solve<E>(
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,

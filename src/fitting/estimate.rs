@@ -4,7 +4,6 @@ use nalgebra::DMatrix;
 
 use super::student_quantile;
 
-/// Uncertainty of the parameters of a fit, computed from the scatter of the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Standard deviation of a weighted residual: `√(S/f)` with the sum of squares `S` and the degrees of freedom `f`.

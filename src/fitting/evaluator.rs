@@ -11,7 +11,6 @@ pub struct CountedEvaluator<'a, 'e, E> {
     slopes: &'a mut Slopes<'e, E>,
     ranges: &'a [SearchRange],
     pub runs: usize,
-    /// Number of calls that returned derivatives.
     pub gradient_runs: usize,
     /// Reason why derivatives are computed by finite differences; `None` while they are requested from the function.
     pub differences: Option<String>,
@@ -33,9 +32,6 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
 
     /// Returns the values at a point, with derivatives if the function provides them.
     /// The derivatives of the first call are checked against finite differences.
-    ///
-    /// # Errors
-    /// Returns an error of the evaluated function.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {

@@ -15,7 +15,6 @@ const ROUNDING: f64 = 1e-7;
 pub const REJECTED_DERIVATIVES: &str =
     "the derivatives of the runs differ from finite differences of their results";
 
-/// Two test points, one on each side of `x`. A test point beyond a bound is moved to the bound.
 pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();

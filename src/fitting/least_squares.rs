@@ -18,7 +18,6 @@ const ORTHOGONAL: f64 = 1e-7;
 const NOTHING: f64 = 1e-6;
 /// Sum of squares that is attributed to rounding, as a fraction of its initial value.
 const ROUNDING: f64 = 1e-26;
-/// Initial, smallest and largest damping.
 const DAMPING: (f64, f64, f64) = (1e-3, 1e-14, 1e12);
 
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +32,6 @@ pub enum TerminationReason {
     Settled,
     /// No step reduces the sum of squares, although the derivatives predict a reduction. The cause is noise of the runs or a discontinuity.
     Stalled,
-    /// The maximum number of iterations was reached.
     Unfinished,
 }
 

@@ -14,7 +14,6 @@ impl SearchRange {
         self.clip(self.start)
     }
 
-    /// Value within the bounds that is nearest to `x`.
     pub fn clip(self, x: f64) -> f64 {
         x.max(self.low).min(self.high)
     }

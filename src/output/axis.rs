@@ -3,7 +3,6 @@
 use super::number::{format_number, significant};
 use crate::elementary::{log10, power, whole_power};
 
-/// Rule that converts numbers to positions along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum AxisScale {
     /// Linear: equal differences of numbers have equal lengths on the axis.
@@ -19,7 +18,7 @@ pub const DEFAULT_FLOOR: f64 = 1e-18;
 /// Magnitude to which numbers are limited, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// Width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
+/// Largest width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -173,7 +172,6 @@ impl PlotAxis {
     }
 }
 
-/// Power of ten by which all labels of an axis are divided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor(i32);
 
@@ -218,7 +216,6 @@ fn typeset(x: f64, decimals: usize) -> String {
     format!("{x:.decimals$}").replace('-', "−")
 }
 
-/// Formats a number for a picture with the given number of significant digits, as in `−0.25` or `4.09 × 10⁻⁵`.
 pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     let text = significant(x, digits);
     let plain = |text: &str| text.replace('-', "−");
@@ -231,7 +228,6 @@ pub(super) fn typeset_number(x: f64, digits: usize) -> String {
     }
 }
 
-/// Formats a power of ten, as in `10⁻¹²`.
 pub(super) fn power_of_ten(power: f64) -> String {
     let digits = format_number(power);
     let raised = digits.chars().map(|c| match c.to_digit(10) {

@@ -21,7 +21,6 @@ struct Bar {
     text: String,
 }
 
-/// Chart of horizontal bars, one below the other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BarChart {
     title: String,
@@ -31,12 +30,10 @@ pub struct BarChart {
 }
 
 impl BarChart {
-    /// Creates a bar chart without bars. `label` names the quantity that the bars show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
 
-    /// Adds a bar of length `value` at the bottom. `text` is written after the bar.
     pub fn bar(mut self, name: impl Into<String>, value: f64, text: impl Into<String>) -> Self {
         self.bars.push(Bar { name: name.into(), value, text: text.into() });
         self

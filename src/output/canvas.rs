@@ -14,15 +14,12 @@ const FAR: f64 = 20_000.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     pub left: f64,
-    /// Upper side of the box, where y is smallest.
     pub top: f64,
     pub right: f64,
-    /// Lower side of the box, where y is largest.
     pub bottom: f64,
 }
 
 impl Area {
-    /// Intersection of two areas.
     pub fn within(&self, other: &Self) -> Self {
         Self {
             left: self.left.clamp(other.left, other.right),
@@ -46,26 +43,19 @@ impl Area {
     }
 }
 
-/// Alignment of a text with respect to its anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Align {
-    /// The text begins at the anchor.
     Start,
-    /// The text is centred on the anchor.
     Middle,
-    /// The text ends at the anchor.
     End,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TextDirection {
-    /// The text runs from left to right.
     Level,
-    /// The text runs from bottom to top, like the label of a vertical axis.
     Upwards,
 }
 
-/// Text in a picture, on a single line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub text: String,
@@ -79,7 +69,6 @@ pub struct Text {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// Polyline with round ends and corners.
     Line {
         points: Vec<Point>,
         /// Width of the line [pixels].
@@ -92,7 +81,6 @@ pub enum Shape {
         radius: f64,
         colour: Colour,
     },
-    /// Filled box with sides along the axes.
     Fill {
         area: Area,
         colour: Colour,
@@ -100,7 +88,6 @@ pub enum Shape {
     Text(Text),
 }
 
-/// Picture under construction: its shapes, from back to front.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Canvas {
     shapes: Vec<Shape>,
@@ -137,7 +124,6 @@ impl Canvas {
         self.write(text, anchor, size, align, TextDirection::Level, colour);
     }
 
-    /// Writes a text that runs from bottom to top. `anchor` is a point on the baseline of the text.
     pub fn text_upwards(
         &mut self,
         text: &str,

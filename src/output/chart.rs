@@ -21,23 +21,18 @@ const NOTE: f64 = 12.0;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesColour {
-    /// Next colour of the palette.
     #[default]
     Next,
     /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
-    /// Black, for series that summarise all other series.
     Black,
 }
 
-/// Visual weight of a series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SeriesEmphasis {
-    /// Line of normal width.
     #[default]
     Full,
     Thin,
-    /// Thin and pale line in the background.
     Pale,
 }
 
@@ -49,7 +44,6 @@ pub struct Series {
     /// Line style of the series. If `None`, the line is continuous.
     /// After each complete use of the palette, the chart then selects the next line style.
     pub stroke: Option<Stroke>,
-    /// Shape of the markers, if the line style has markers.
     pub marker: Marker,
     pub ink: SeriesColour,
     pub weight: SeriesEmphasis,
@@ -87,7 +81,6 @@ impl Series {
     }
 }
 
-/// Line chart: series over common axes, with a title, labels and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineChart {
     title: String,
@@ -175,7 +168,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // If the curve of the first chart is equal, it is visible in the gaps of a dashed line.
+                // An equal curve of the first chart remains visible in the gaps of a dashed line.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })
@@ -188,7 +181,6 @@ impl LineChart {
         self
     }
 
-    /// Adds thin lines above and below a series, at the given distances from its points.
     pub fn add_band(&mut self, index: usize, distances: &[f64]) {
         for sign in [1.0, -1.0] {
             let points = self.series[index].points.iter().zip(distances);

@@ -1,6 +1,5 @@
 //! Colours for white paper. They can be distinguished by colour-blind readers and in black-and-white prints.
 
-/// Opaque colour: red, green and blue from 0 to 255.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
@@ -38,7 +37,6 @@ const RAMP: [Colour; 9] = [
 /// Number of different hues for series. Additional series repeat the hues.
 pub const HUE_COUNT: usize = HUES.len();
 
-/// Hue of the series or beam with an index. The hues repeat after [`HUE_COUNT`].
 pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }

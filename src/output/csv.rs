@@ -18,7 +18,6 @@ impl CsvTable {
         Self::default()
     }
 
-    /// Adds a comment to the table. Each line of the text becomes a comment line.
     pub fn comment(mut self, text: impl Into<String>) -> Self {
         self.comments.push(text.into());
         self
@@ -29,7 +28,7 @@ impl CsvTable {
         self
     }
 
-    /// Keeps every n-th row and the last row, so that about `numbers` values remain. A comment line contains n.
+    /// Keeps every n-th row and the last row, so that about `numbers` values remain. The number n is stated in a comment line.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
@@ -46,7 +45,6 @@ impl CsvTable {
         self
     }
 
-    /// Text of the CSV file. Fails if the columns have different lengths.
     pub fn to_text(&self) -> Result<String, OutputError> {
         self.common_length()?;
         let mut bytes = Vec::new();

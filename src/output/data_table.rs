@@ -27,7 +27,6 @@ pub enum DataValues {
     Texts(Vec<Option<String>>),
 }
 
-/// Header lines above the rows of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableHeading {
     Names,

@@ -2,15 +2,12 @@
 
 use std::{io, path::PathBuf};
 
-/// Error for a table or picture that could not be written. Every message contains the file, the reason and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     #[error("cannot create the folder '{}' for '{}': {source}; choose a writable folder", folder.display(), path.display())]
     Folder { folder: PathBuf, path: PathBuf, source: io::Error },
-    /// The file could not be written. An older file with the same name is unchanged.
     #[error("cannot write '{}': {source}; check that the folder is writable and the disk has space", path.display())]
     Write { path: PathBuf, source: io::Error },
-    /// The path contains no file name, or it is the path of a folder.
     #[error("cannot write '{}': this is not a file name; give one such as 'results/energy.csv'", path.display())]
     NotAFile { path: PathBuf },
     #[error("picture '{}': the file extension is {ending}; use '.svg' (vector graphics) or '.png' (pixels)", path.display())]

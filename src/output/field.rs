@@ -21,7 +21,6 @@ const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
 const DIGITS: usize = 4;
 
-/// Picture of beams, with nonnegative values along them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldPicture {
     title: String,
@@ -32,7 +31,6 @@ pub struct FieldPicture {
 }
 
 impl FieldPicture {
-    /// Creates a picture without beams. `label` names the quantity that the colours show.
     pub fn new(title: impl Into<String>, label: impl Into<String>) -> Self {
         Self { title: title.into(), label: label.into(), ..Self::default() }
     }
@@ -42,7 +40,6 @@ impl FieldPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over the beams, and obstacles below them.
     pub fn outline(mut self, outline: MechanismOutline) -> Self {
         self.outline = outline;
         self
@@ -136,7 +133,7 @@ impl FieldPicture {
     }
 }
 
-/// Directions in which the number of the largest value may be written, seen from the mark of the value. The preferred direction comes first.
+/// Directions from the mark of the largest value to its label. The first direction in which the label has room is used.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

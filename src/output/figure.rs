@@ -6,17 +6,13 @@ use super::{OutputError, canvas::Canvas, png, svg};
 
 const SIDES: std::ops::RangeInclusive<f64> = 100.0..=8000.0;
 
-/// File format of a picture, selected by the file extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PictureKind {
-    /// Vector graphics, `.svg`.
     Svg,
-    /// Pixel graphics, `.png`.
     Png,
 }
 
 impl PictureKind {
-    /// File format for the extension of `path`.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
@@ -56,7 +52,6 @@ impl Figure {
         svg::paint(&self.canvas, self.width, self.height)
     }
 
-    /// Bytes of the PNG file of the picture.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         png::paint(&self.canvas, self.width, self.height)
     }
@@ -65,7 +60,6 @@ impl Figure {
         png::pixels(&self.canvas, self.width, self.height)
     }
 
-    /// Writes the picture to the file `path` atomically. The extension `.svg` or `.png` selects the format.
     #[cfg(test)]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), OutputError> {
         let path = path.as_ref();

@@ -71,7 +71,6 @@ pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     lines
 }
 
-/// Glyphs of `text` at `size` pixels per em, for conversion to pixels.
 pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let scale = PxScale::from((f64::from(face.height_unscaled()) * per_unit(face, size)) as f32);

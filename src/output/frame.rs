@@ -24,13 +24,9 @@ const TICK_EVERY: (f64, f64) = (85.0, 50.0);
 /// Space between the border of a panel and its plot [pixels].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Margins {
-    /// Space to the left of the plot [pixels].
     pub left: f64,
-    /// Space above the plot [pixels].
     pub top: f64,
-    /// Space to the right of the plot [pixels].
     pub right: f64,
-    /// Space below the plot [pixels].
     pub bottom: f64,
 }
 
@@ -53,7 +49,6 @@ impl Margins {
     }
 }
 
-/// Frame of a panel: everything around the data.
 #[derive(Clone, Debug, Default)]
 pub struct Frame {
     pub title: String,
@@ -62,7 +57,6 @@ pub struct Frame {
     pub y_label: String,
     pub x: PlotAxis,
     pub y: PlotAxis,
-    /// Entries of the legend; empty if no legend is needed.
     pub legend: Vec<LegendEntry>,
 }
 
@@ -89,7 +83,6 @@ impl Frame {
         }
     }
 
-    /// Margins for a panel with a colour bar of width `bar` on the right. The bar reduces the width of the plot and of the legend.
     pub fn margins_beside(&self, bar: f64, width: f64, height: f64) -> Margins {
         let alone = self.margins(width, height).right;
         let right = alone.max(bar);
@@ -232,7 +225,6 @@ impl FittedText {
         1.25 * self.size
     }
 
-    /// Height of the text, including some white space below it; zero without text.
     fn height(&self, paper: f64) -> f64 {
         match self.lines.len() {
             0 => 0.0,

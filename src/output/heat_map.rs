@@ -22,7 +22,7 @@ const GAP: (f64, f64) = (7.0, 10.0);
 const CELL: (f64, f64) = (104.0, 52.0);
 const CELL_IN_COLUMNS: (f64, f64) = (76.0, 50.0);
 const WIDEST_CELL: f64 = 200.0;
-/// White space around a text in a cell, and around the name of a column.
+/// White space around a text in a cell, and around the name of a column [pixels].
 const AROUND_TEXT: f64 = 8.0;
 const AROUND_NAME: f64 = 5.0;
 const LINE: f64 = 14.0;
@@ -34,7 +34,6 @@ pub struct HeatCell {
     pub text: String,
 }
 
-/// Heat map: cells in named rows and columns, with a legend of the colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     title: String,

@@ -16,7 +16,6 @@ const EQUAL_RATIOS: f64 = 1e-6;
 /// Largest number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
 const MOST_CELLS: usize = 160;
 
-/// Axis of a level map: its label, and the centres of its cells in increasing order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
     pub label: String,
@@ -68,7 +67,6 @@ impl LevelAxis {
         self.ends_by(self.scale())
     }
 
-    /// Arithmetic means of neighbouring centres, extrapolated at both ends.
     pub fn ends_halfway(&self) -> Vec<f64> {
         self.ends_by(AxisScale::Linear)
     }

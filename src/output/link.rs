@@ -9,12 +9,11 @@ const LEAD: (f64, f64) = (8.0, 0.15);
 /// Preferred length of a coil of a spring [pixels].
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
-/// Half width of a spring and of the cylinder of a damper.
+/// Half width of a spring and of the cylinder of a damper [pixels].
 const BREADTH: f64 = 5.0;
 /// Largest half length of a cylinder [pixels], and its largest half length as a fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
-/// Line from one point to another, for a spring or damper.
 pub struct Link {
     from: Point,
     along: Point,
@@ -52,7 +51,6 @@ impl Link {
         vec![begin.into_iter().chain(zigzag).chain(end).map(|at| self.at(at)).collect()]
     }
 
-    /// Piston in a cylinder that is open at one end.
     pub fn damper(&self) -> Vec<Vec<Point>> {
         let (middle, half) = (0.5 * self.length, CYLINDER.0.min(CYLINDER.1 * self.length));
         let (bottom, rim) = (middle - half, middle + half);

@@ -10,12 +10,9 @@ pub enum Marker {
     #[default]
     Disc,
     Square,
-    /// Outline of a square that stands on a corner.
     Diamond,
     Triangle,
-    /// Outline of a circle.
     Ring,
-    /// Two crossed strokes, like an x.
     Cross,
 }
 
@@ -23,7 +20,6 @@ impl Marker {
     const ALL: [Self; 6] =
         [Self::Disc, Self::Square, Self::Diamond, Self::Triangle, Self::Ring, Self::Cross];
 
-    /// Marker of the series with the given index. After the last shape, the shapes are repeated.
     pub fn of_index(index: usize) -> Self {
         Self::ALL[index % Self::ALL.len()]
     }

@@ -14,7 +14,6 @@ const OUTLINE: f64 = 1.6;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     pub bodies: Vec<Vec<Point>>,
-    /// Supports, joints, sliders, springs, loads and obstacles.
     pub symbols: Vec<PlacedSymbol>,
 }
 

@@ -24,7 +24,6 @@ pub struct MotionFrame {
     pub time: f64,
     /// Centre line of each beam in the snapshot. The order of the beams is the same in all snapshots.
     pub lines: Vec<Vec<Point>>,
-    /// Points that are marked by dots: knots, nodes, joints.
     pub marks: Vec<Point>,
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
@@ -48,7 +47,6 @@ impl MotionPicture {
         Self { title: title.into(), time_label: "t".into(), ..Self::default() }
     }
 
-    /// Sets the label of the bar that shows the times. The default is `t`.
     pub fn time_label(mut self, label: impl Into<String>) -> Self {
         self.time_label = label.into();
         self
@@ -71,13 +69,11 @@ impl MotionPicture {
         self
     }
 
-    /// Adds the path of a station.
     pub fn trace(mut self, name: impl Into<String>, points: Vec<Point>) -> Self {
         self.traces.push((name.into(), points));
         self
     }
 
-    /// Draws symbols of supports, joints, sliders and loads over all snapshots, and obstacles below them.
     pub fn symbols(mut self, symbols: impl IntoIterator<Item = PlacedSymbol>) -> Self {
         self.symbols.extend(symbols);
         self
@@ -94,7 +90,6 @@ impl MotionPicture {
         self
     }
 
-    /// Page of several motion pictures side by side with the same axes, for example to compare integrators.
     pub fn side_by_side(pictures: impl IntoIterator<Item = MotionPicture>) -> Page {
         let pictures: Vec<MotionPicture> = pictures.into_iter().collect();
         let limits = Self::shared_limits(&pictures);
@@ -157,8 +152,6 @@ impl MotionPicture {
         self.snapshots.iter().map(|snapshot| snapshot.lines.len()).max().unwrap_or(0)
     }
 
-    /// Paths are dashed and have colours that no beam has.
-    /// In a picture with a single beam, paths are vermilion, which differs from the colours of the snapshots.
     fn trace_style(&self, index: usize) -> (Colour, Stroke) {
         let first = if self.beam_count() > 1 { self.beam_count() } else { 1 };
         (hue(first + index), if index < HUE_COUNT { Stroke::Dashed } else { Stroke::Dotted })
@@ -168,7 +161,6 @@ impl MotionPicture {
         if self.beam_count() > 1 { tint(hue(index), part) } else { ramp(part) }
     }
 
-    /// If there are more beams than hues, beams with the same hue have different line styles.
     fn stroke(&self, index: usize) -> Stroke {
         if self.beam_count() > 1 {
             Stroke::of_palette_pass(index / HUE_COUNT)

@@ -12,7 +12,6 @@ const MAGIC: &[u8; 8] = b"\x93NUMPY\x01\x00";
 /// Alignment of the data [bytes].
 const ALIGNMENT: usize = 64;
 
-/// Named arrays, which `numpy.load` can read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArchive {
     /// Arrays. Their names must be distinct.

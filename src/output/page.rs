@@ -29,10 +29,8 @@ pub trait Panel {
     /// Space around the plot, for a panel of the given size [pixels].
     fn margins(&self, width: f64, height: f64) -> Margins;
 
-    /// Draws the panel in `area`. The argument `plot` is the area of its plot.
     fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area);
 
-    /// Panel as a separate picture.
     fn figure(&self) -> Result<Figure, OutputError> {
         self.figure_of(self.size())
     }
@@ -45,7 +43,6 @@ pub trait Panel {
         Figure::new(canvas, (width, height))
     }
 
-    /// Writes the panel as a separate picture to a `.svg` or `.png` file.
     #[cfg(test)]
     fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), OutputError>
     where
@@ -70,12 +67,10 @@ pub struct Page {
 }
 
 impl Page {
-    /// Creates an empty page. Its panels are arranged one below the other.
     pub fn column() -> Self {
         Self::grid(1)
     }
 
-    /// Creates an empty page on which panels are next to each other.
     pub fn row() -> Self {
         Self::grid(usize::MAX)
     }

@@ -12,7 +12,6 @@ const LEAST_WIDTH: f64 = 300.0;
 /// White space around the data, as a fraction of the size of the data.
 const MARGIN: f64 = 0.05;
 
-/// Ends of the axes that the user has set.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisLimits {
     pub x: Option<(f64, f64)>,

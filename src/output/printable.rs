@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-/// Replacement for characters that must not be written to a terminal.
 const REPLACEMENT: char = '\u{fffd}';
 
 /// Replaces control characters (such as the start of an escape sequence), bidirectional characters and characters of zero width.

@@ -3,17 +3,14 @@
 use super::OutputError;
 use super::csv::{comment_line, csv_cell};
 
-/// Table of texts with named columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvRecords {
-    /// Comment lines above the table, each written after a `#`.
     pub comments: Vec<String>,
     pub names: Vec<String>,
     pub rows: Vec<Vec<String>>,
 }
 
 impl CsvRecords {
-    /// Text of the CSV file. Fails if the length of a row differs from that of the header.
     pub fn to_text(&self) -> Result<String, OutputError> {
         let comments = self.comments.iter().flat_map(|comment| comment.lines());
         let mut bytes: Vec<u8> =

@@ -2,8 +2,6 @@
 
 use super::*;
 
-/// Writes the picture as an SVG file and as a PNG file.
-/// Checks that the SVG description contains the labels, and that the PNG has the stated size, a white background and other pixels.
 fn show(name: &str, panel: &impl Panel, labels: &[&str]) {
     let vanishing = tempfile::tempdir().unwrap();
     let folder =

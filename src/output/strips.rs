@@ -75,7 +75,6 @@ impl StripPicture {
         self
     }
 
-    /// Draws rigid bodies, supports, joints, sliders and loads over the diagrams, and obstacles below them.
     pub fn outline(mut self, outline: MechanismOutline) -> Self {
         self.outline = outline;
         self

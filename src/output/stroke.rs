@@ -6,13 +6,11 @@ use super::{
     curve,
 };
 
-/// Line style, which distinguishes series of the same colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Stroke {
     #[default]
     Solid,
     Dashed,
-    /// Very short dashes.
     Dotted,
     /// Continuous line with a marker at every point, for few measured or computed points.
     Marked,
@@ -25,7 +23,6 @@ impl Stroke {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
 
-    /// Returns true if every point has a marker.
     pub fn has_marks(self) -> bool {
         matches!(self, Stroke::Marked | Stroke::MarkersOnly)
     }

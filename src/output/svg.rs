@@ -43,7 +43,6 @@ fn opening(grid: (u32, u32)) -> String {
 
 const END: &str = "</svg>";
 
-/// Start of the document: size in pixels, line style, title, and a description that contains all texts of the drawing.
 fn head(canvas: &Canvas, width: u32, height: u32, grid: (u32, u32)) -> String {
     let texts: Vec<String> = canvas.shapes().iter().filter_map(text_of).collect();
     let title = texts.first().cloned().unwrap_or_default();

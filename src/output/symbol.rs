@@ -16,12 +16,11 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space around a symbol, so that the symbol is not cut off.
+/// White space around a symbol, so that the symbol is not cut off [pixels].
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
-    /// Support that fixes the position.
     Hinge,
     /// Support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
     Clamp,
@@ -31,18 +30,12 @@ pub enum Symbol {
     Guided,
     /// Support that fixes the angle and no component of the position.
     HeldAngle,
-    /// Prescribed rotation of a section as a function of time.
     Motor,
-    /// Prescribed displacement along a direction as a function of time.
     Carriage,
-    /// Revolute joint between beams.
     Joint,
     RigidJoint,
-    /// Point that slides along a beam.
     Slider,
-    /// Force along its direction.
     Force,
-    /// Part of a force that is distributed along a beam.
     LineForce,
     /// Moment. It is counter-clockwise if its direction points to the right, and clockwise if its direction points to the left.
     Moment,
@@ -52,7 +45,6 @@ pub enum Symbol {
     Damper,
     /// Segment of a tendon, from the point of the symbol to the end of the direction vector.
     Tendon,
-    /// Rotational spring at a section.
     TorsionSpring,
     /// Straight boundary of the ground through the point of the symbol. The direction of the symbol is the outer normal.
     Wall,
@@ -61,13 +53,11 @@ pub enum Symbol {
 }
 
 impl Symbol {
-    /// Returns true for supports, joints and sliders.
     pub fn is_constraint(self) -> bool {
         use Symbol::{Clamp, Guided, HeldAngle, Hinge, Joint, RigidJoint, Roller, Slider};
         matches!(self, Hinge | Clamp | Roller | Guided | HeldAngle | Joint | RigidJoint | Slider)
     }
 
-    /// Returns true for walls and discs, which are drawn below the bodies.
     pub fn is_obstacle(self) -> bool {
         matches!(self, Self::Wall | Self::Disc)
     }
@@ -97,7 +87,6 @@ impl Symbol {
     }
 }
 
-/// Symbol at a point, in data units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedSymbol {
     pub symbol: Symbol,
@@ -143,7 +132,6 @@ impl PlacedSymbol {
         View::of(points.chain(ends).chain(obstacles), limits).with_room(about, ROOM, limits)
     }
 
-    /// Draws a symbol that is not an obstacle.
     pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, plot: &Area) {
         if let Some(end) = self.end() {
             let link = Link::between(frame.place(plot, self.at), frame.place(plot, end));

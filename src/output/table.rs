@@ -52,7 +52,6 @@ impl From<i64> for Cell {
     }
 }
 
-/// Table of rows below a header. [`Display`](fmt::Display) formats it.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     title: String,
@@ -87,7 +86,6 @@ impl TextTable {
         cells.chain(heads).max().unwrap_or(0)
     }
 
-    /// Returns true if a column contains a number. The head of such a column is also aligned to the right.
     fn is_numeric(&self, column: usize) -> bool {
         self.rows.iter().any(|row| matches!(row.get(column), Some(Cell::Number(_))))
     }

@@ -13,12 +13,10 @@ use super::{OutputError, Point};
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
-/// Bodies in a frame, and fields of values at their points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
     /// Bodies. In the file, the cell field `body` contains the index of the body of each cell.
     pub cells: Vec<VtkCell>,
-    /// Fields with values at the points of all cells, in the order of the points.
     pub fields: Vec<VtkField>,
 }
 
@@ -57,10 +55,6 @@ impl VtkField {
 }
 
 impl VtkGrid {
-    /// Text of a `.vtu` file, which contains an unstructured grid in one piece.
-    ///
-    /// # Errors
-    /// Fails if a field does not have one value for each point.
     pub fn to_vtu(&self) -> Result<String, OutputError> {
         let points: Vec<Point> = self.cells.iter().flat_map(|cell| cell.points.clone()).collect();
         if let Some(field) = self.fields.iter().find(|field| field.length() != points.len()) {
@@ -120,7 +114,6 @@ impl VtkGrid {
     }
 }
 
-/// Text of a `.pvd` file, which contains times and file names of the frames.
 pub fn vtk_collection(frames: &[(f64, String)]) -> String {
     let mut text = heading("frames and their times", "Collection", "");
     text += "<Collection>\n";

@@ -13,7 +13,6 @@ pub fn columns(text: &str) -> usize {
     text.chars().map(columns_of).sum()
 }
 
-/// Longest beginning of a text with at most `most` columns.
 pub fn beginning(text: &str, most: usize) -> &str {
     let mut taken = 0;
     let beyond = text.char_indices().find(|(_, letter)| {
@@ -32,7 +31,6 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
     }
 }
 
-/// Text with blanks added at the end, so that it has `width` columns.
 pub fn padded(text: &str, width: usize) -> String {
     // Formatting in Rust would count characters instead of columns, and is limited to a width of 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))

@@ -21,7 +21,6 @@ const CHECK_FAILED: u8 = 1;
 /// Maximum depth of nested calls. The stack of a WebAssembly module in Chromium is sufficient for 80 nested calls.
 const DEPTH: usize = 64;
 
-/// Columns of help pages.
 const HELP_WIDTH: usize = 72;
 
 /// Limits of a run in the browser. No thread supervises a limit of memory, and the web page ends runs that take too long.
@@ -29,7 +28,6 @@ pub(super) fn limits() -> Limits {
     Limits { memory: None, depth: DEPTH, ..Limits::default() }
 }
 
-/// Runs a script like `withy run`. The files are written to the current folder.
 pub(super) fn run(file: &Path) -> ExitCode {
     let settings = RunSettings {
         out: PathBuf::new(),
@@ -73,7 +71,6 @@ fn without_options(hint: &str) -> Option<String> {
     (!parts.is_empty()).then(|| parts.join("; "))
 }
 
-/// Checks a script like `withy check`, and prints its errors as a JSON array.
 pub(super) fn check(file: &Path) -> ExitCode {
     let settings = RunSettings { limits: limits(), ..RunSettings::silent(RunMode::DryRun) };
     let found = match start(file, settings) {
@@ -86,7 +83,6 @@ pub(super) fn check(file: &Path) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Prints the help page of a name like `withy docs`, as a JSON text.
 pub(super) fn help(name: &str) -> ExitCode {
     match lookup::page(&language(), name) {
         Ok(page) => {

@@ -14,7 +14,6 @@ use crate::repl::editor::hints::hint;
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::Program;
 
-/// Prints completions at byte `offset` of a script and the hint at this position, as at the prompt. The output is a JSON object.
 pub(super) fn complete_at(file: &Path, offset: usize) -> ExitCode {
     match completions(file, offset) {
         Ok(found) => {

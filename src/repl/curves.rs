@@ -25,7 +25,6 @@ impl CurveAbscissa {
         }
     }
 
-    /// Description of the horizontal axis for messages.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -39,7 +38,6 @@ impl CurveAbscissa {
 pub struct PlotCurve {
     pub name: String,
     pub over: CurveAbscissa,
-    /// Dimension of the values, if it is known.
     pub dimension: Option<&'static str>,
     pub points: Vec<Point>,
 }
@@ -50,15 +48,12 @@ impl PlotCurve {
     }
 }
 
-/// Interpretation of a script value as points of one or more curves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlotShape {
-    /// All points of a curve, and the type of its horizontal axis.
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
     /// Plane vector. Its two components are points of two separate curves.
     Vector(Vec2),
-    /// Value that cannot be drawn. The text of the variant contains the reason.
     None(String),
 }
 

@@ -69,7 +69,6 @@ pub fn help_at(program: &Program, offset: usize, limits: Limits) -> Option<(Rang
     Some((target.place.clone(), help?))
 }
 
-/// Calls `work` with a session that has evaluated `text`, which is a part of `program`.
 fn after_statements<T: Send>(
     program: &Program,
     text: &str,
@@ -116,14 +115,12 @@ fn statements(text: &str) -> Vec<&str> {
     found
 }
 
-/// Name on which help is requested.
 struct HelpTarget {
     place: Range<usize>,
     /// Start of the path that ends with the name, as in `sim.history` or `sections::pipe` [bytes].
     path: usize,
     /// End of the value before the dot [bytes].
     owner: Option<usize>,
-    /// True for a key of a map.
     is_key: bool,
 }
 
@@ -153,7 +150,6 @@ impl HelpTarget {
         &text[self.place.clone()]
     }
 
-    /// Names under which help may exist. The most precise name comes first.
     fn names(&self, text: &str, shell: &Shell) -> Vec<String> {
         let word = self.word(text);
         let path: String = text[self.path..self.place.end].split_whitespace().collect();

@@ -9,7 +9,7 @@ use crate::script::handles::simulation::SimulationHandle;
 /// Largest nesting depth of arrays and maps that is searched for shared values, simulations and scenes.
 const DEEPEST: usize = 8;
 
-/// Recorded state of simulations, scenes, shared values and files. It is not restored when the variables are restored.
+/// Record of the state of simulations, scenes, shared values and files. Later changes of this state are detected, but not undone.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,

@@ -108,7 +108,6 @@ enum PlaybackStep {
 
 enum PlaybackError {
     Moves,
-    /// The evaluation was interrupted, or the run could not be repeated in the copy.
     Refused(ScriptError),
     Another(String),
     NoPoint(String),

@@ -31,7 +31,6 @@ pub struct SimulationPositions {
     steps: usize,
 }
 
-/// Successful inputs of a session, in their order.
 #[derive(Clone, Debug, Default)]
 pub struct SessionRecord {
     entries: Vec<RecordedInput>,
@@ -60,7 +59,7 @@ impl SessionRecord {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // The saved script repeats the movement, and the repeated call may fail again. Therefore the script catches its error.
+                // The saved script repeats the advance or rewind, which may fail again. Therefore the script catches its error.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
@@ -133,7 +132,6 @@ impl SessionRecord {
         self.entries.iter().map(RecordedInput::source)
     }
 
-    /// Returns true if an input returned early. The script does not repeat such inputs.
     pub fn has_returned(&self) -> bool {
         self.entries.iter().any(|entry| matches!(entry, RecordedInput::EarlyReturn(_)))
     }
@@ -149,7 +147,6 @@ impl RecordedInput {
     }
 }
 
-/// Positions of the simulations in variables and of the last used simulation, without duplicates.
 pub fn simulation_positions(
     scope: &Scope,
     latest: Option<SimulationHandle>,

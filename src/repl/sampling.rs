@@ -12,7 +12,7 @@ use super::session::Rounds;
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Total run time after which an evaluation is not repeated again.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Total run time during which the evaluation is always repeated.
+/// Total run time below which the evaluation is repeated, whatever the error of the median.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;

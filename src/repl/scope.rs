@@ -21,7 +21,6 @@ pub fn visible(scope: &Scope<'static>) -> Option<Scope<'static>> {
     Some(visible)
 }
 
-/// Constants that were added to a scope after its first `known` variables, in the order of their definition.
 pub fn constants_after(
     scope: &Scope,
     known: usize,

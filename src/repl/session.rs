@@ -194,7 +194,7 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records an input that succeeded and was evaluated by other code.
+    /// Records the call of a command that succeeded. The session does not record commands itself.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
@@ -292,7 +292,7 @@ impl Session {
         self.engine.catalog()
     }
 
-    /// State shared by all calls of the session.
+    /// State that all native calls of the session share.
     pub fn context(&self) -> &Context {
         self.engine.context()
     }

@@ -327,7 +327,7 @@ impl Shell {
         self.name_of_latest().map(|name| format!("{name}.{call};"))
     }
 
-    /// Calls a method of the last used simulation, like a typed call.
+    /// Evaluates a method call of the last used simulation as if the user had typed it.
     pub fn call_latest(&mut self, call: &str) -> CommandOutcome {
         match self.input_for_latest(call) {
             Ok(input) => {

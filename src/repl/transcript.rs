@@ -1,4 +1,4 @@
-//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains it.
+//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains the error.
 //! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
 
 use std::sync::Arc;
@@ -7,7 +7,6 @@ use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
-/// Source name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
 /// Largest number of lines that the engine can count. In a longer session, counting starts again at line 1.
@@ -27,7 +26,6 @@ pub struct Transcript {
 }
 
 impl Transcript {
-    /// Creates an empty transcript. Imported files are searched for in `folder`.
     pub fn new(folder: std::path::PathBuf) -> Self {
         Self { pieces: Vec::new(), lines: 0, folder }
     }
@@ -53,7 +51,6 @@ impl Transcript {
         Program { folder: self.folder.clone(), ..Program::named(PROMPT, text) }
     }
 
-    /// Marks the last input as failed. The declarations of failed inputs are ignored.
     pub fn mark_last_failed(&mut self) {
         if let Some(last) = self.pieces.last_mut() {
             last.is_valid = false;

@@ -5,7 +5,6 @@ use crate::elementary::{exp, ln};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Distribution {
-    /// Uniform distribution between `from` and `to`.
     Uniform {
         from: f64,
         to: f64,

@@ -69,8 +69,9 @@ pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<Varian
 /// Returns the first-order index of one parameter from results at arbitrary independent points. `values` contains the parameter at these points.
 ///
 /// The points are sorted by the parameter and divided into groups.
-/// The index is the variance of the means of the groups, minus the contribution of the scatter within the groups.
-/// The number of groups is the cube root of the number of points, but at least three. Results that are not finite are omitted.
+/// The index is a fraction of the total variance: the variance of the group means, minus the contribution of the scatter within groups.
+/// The number of groups is the cube root of the number of points, rounded down, but at least three.
+/// Results that are not finite are omitted.
 /// Returns `None` if fewer than 30 points remain or the result is constant.
 pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());

@@ -64,7 +64,6 @@ impl Dir {
     }
 }
 
-/// Opens a file for reading at a path given by the user.
 pub fn open_file(path: &Path) -> io::Result<fs::File> {
     fs::File::open(path)
 }

@@ -21,9 +21,6 @@ pub struct FolderEntry {
 impl Folder {
     /// Returns the files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target.
     /// An entry that cannot be inspected is omitted.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be read.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
         let entry = |name: OsString| {
             let about = self.0.metadata(&name).ok()?;

@@ -130,18 +130,11 @@ impl Folder {
         found.is_ok_and(|(folder, name)| folder.0.metadata(name).is_ok())
     }
 
-    /// Returns true if no other program has locked this regular file below the folder.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist or cannot be opened.
     pub fn is_unlocked(&self, name: &Path) -> io::Result<bool> {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
     /// Creates a new file for writing. Missing parent folders are also created.
-    ///
-    /// # Errors
-    /// Fails if a file of this name exists or the file cannot be created.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.0.create_file(name)
@@ -159,18 +152,11 @@ impl Folder {
     }
 
     /// Renames a file in this folder. An existing file with the new name is replaced.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be renamed.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name.as_os_str(), new.as_os_str())?;
         self.sync()
     }
 
-    /// Removes a file or a link in this folder.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be removed.
     pub fn remove(&self, name: &Path) -> io::Result<()> {
         self.0.remove_file(name.as_os_str())
     }

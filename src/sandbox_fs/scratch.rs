@@ -25,9 +25,6 @@ pub struct Scratch {
 
 impl Scratch {
     /// Creates a temporary folder, and removes the folders of processes that were killed.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
@@ -48,10 +45,6 @@ impl Scratch {
         self.folder.path()
     }
 
-    /// Creates a new folder inside this folder.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created.
     pub fn part(&self) -> io::Result<TempDir> {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }

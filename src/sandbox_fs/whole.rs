@@ -96,7 +96,6 @@ impl Folder {
         }
     }
 
-    /// Removes temporary files beside `name` that were left by killed programs.
     pub fn remove_abandoned(&self, name: &Path) {
         let Ok((folder, _)) = self.parent_of(name, Self::enter) else { return };
         for entry in folder.entries().unwrap_or_default() {
@@ -113,9 +112,6 @@ impl Folder {
     }
 
     /// Renames a file below this folder to the first unused name. `free` returns the possible new names in turn. Returns the new name.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be renamed.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
@@ -135,10 +131,6 @@ impl Folder {
         Err(io::Error::new(ErrorKind::AlreadyExists, "no unused file name was found for the copy"))
     }
 
-    /// Renames a file that was kept under the name `kept` back to its original name `name`, unless this name is in use.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be renamed.
     pub fn restore_name(&self, kept: &Path, name: &Path) -> io::Result<()> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         let (_, kept) = self.parent_of(kept, Self::enter)?;

@@ -11,7 +11,6 @@ use super::Folder;
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
-/// Number of bytes read at a time for the computation of a checksum.
 const PIECE: usize = 1 << 16;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,10 +21,6 @@ pub struct FileChecksum {
 }
 
 impl FileChecksum {
-    /// Computes the checksum and the length of a content.
-    ///
-    /// # Errors
-    /// Fails if the content cannot be read.
     pub fn of(mut content: impl Read) -> io::Result<Self> {
         let (mut hasher, mut length, mut piece) = (crc32fast::Hasher::new(), 0, vec![0; PIECE]);
         loop {
@@ -119,9 +114,6 @@ impl WrittenFiles {
     }
 
     /// Records the content of a file. The caller must do this before the file gets its final name. The record is written to disk immediately.
-    ///
-    /// # Errors
-    /// Fails if the record cannot be written.
     pub fn record(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
         if name.contains(['\n', '\r']) || is_last {

@@ -12,7 +12,6 @@ use withy::system::{
     Anchor, PointMass, RigidBodyDefinition, Scene, SpringKind, SpringLaw, StartMotion,
 };
 
-/// Rigid body at rest with the points a, b, c, ….
 pub fn add_body(
     scene: &mut Scene,
     position: Vec2,

@@ -5,10 +5,8 @@ use std::path::Path;
 
 use withy::script::packages::TABLES;
 
-/// Source of the mutations.
 pub struct Corpus {
     snippets: Vec<String>,
-    /// Distinct tokens of the snippets.
     words: Vec<String>,
 }
 
@@ -265,7 +263,6 @@ fn extreme_number(tokens: &mut [String], dice: &mut Dice) {
     }
 }
 
-/// Random Unicode characters, or invalid UTF-8.
 fn noise(dice: &mut Dice) -> String {
     let length = dice.below(80);
     if dice.below(2) == 0 {
@@ -277,7 +274,6 @@ fn noise(dice: &mut Dice) -> String {
     (0..length).map(|_| letter(dice)).collect()
 }
 
-/// Nested brackets, balanced or not.
 fn nested(dice: &mut Dice) -> String {
     let (open, close) = *dice.pick(&[
         ("(", ")"),
@@ -342,12 +338,10 @@ impl Dice {
         mixed ^ (mixed >> 31)
     }
 
-    /// Integer below `end`, or 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.next() % end.max(1) as u64) as usize
     }
 
-    /// Random element of a slice.
     pub fn pick<'a, T>(&mut self, from: &'a [T]) -> &'a T {
         &from[self.below(from.len())]
     }

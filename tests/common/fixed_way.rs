@@ -18,7 +18,6 @@ pub struct FixedWay<'a> {
     /// Initial guess of the next solve, from the last solution.
     mean_rates: Vec<f64>,
     contact: Vec<f64>,
-    /// Residual of the sliding equation.
     left: f64,
     scratch: BorderedMatrix,
 }

@@ -101,7 +101,6 @@ pub fn assert_energy_never_grows(label: &str, history: &History) {
     }
 }
 
-/// Positions of the ends of the first beam.
 pub fn ends(simulation: &Simulation) -> [Vec2; 2] {
     let points = simulation.model().control_points().next().unwrap();
     [points[0], points[points.len() - 1]]

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
 
-/// Output of a script or a session, or messages to the user.
 #[derive(Clone, Default)]
 pub struct Notepad(Arc<Mutex<Vec<u8>>>);
 

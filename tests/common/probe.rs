@@ -8,7 +8,6 @@ use withy::system::System;
 
 pub const STEP: Interval = Interval::between(0.3, 0.35);
 
-/// Kind of motion that an unknown describes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unknown {
     X(Vec2),

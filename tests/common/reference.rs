@@ -6,7 +6,6 @@ use super::{at, ends};
 use withy::geometry::Vec2;
 use withy::simulation::Simulation;
 
-/// Table of numbers with named columns.
 pub struct Table {
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
@@ -32,7 +31,6 @@ impl Table {
         Self { columns, rows: lines.map(row).collect() }
     }
 
-    /// Value of a column at a time.
     pub fn at(&self, time: f64, column: &str) -> f64 {
         let row = self.rows.iter().find(|row| (row[0] - time).abs() < 1e-9).unwrap();
         row[self.columns.iter().position(|name| name == column).unwrap()]
@@ -44,7 +42,6 @@ impl Table {
         times.take_while(|time| *time < end + 1e-9).collect()
     }
 
-    /// Positions of the ends of the beam.
     pub fn ends(&self, time: f64) -> [Vec2; 2] {
         let point = |x: &str, y: &str| at(self.at(time, x), self.at(time, y));
         [point("x0", "y0"), point("xL", "yL")]

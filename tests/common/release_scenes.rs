@@ -11,7 +11,6 @@ use withy::joints::{
 use withy::loads::{PrescribedMotion, Schedule};
 use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw};
 
-/// Releases an object at a time.
 pub fn release(scene: &mut Scene, hold: Releasable, time: f64) {
     scene.add_release(Release { object: hold, trigger: Trigger::Time(time) }).unwrap();
 }
@@ -93,7 +92,6 @@ pub fn bead(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// All scenes with releases.
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
     vec![chain(mesh), bracket(mesh), bead(mesh)]
 }

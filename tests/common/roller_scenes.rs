@@ -10,7 +10,6 @@ use withy::joints::{JointKind, Partner, Releasable};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw, StationVelocity};
 
-/// Unit vector at an angle to the first axis.
 pub fn unit(angle: f64) -> Vec2 {
     at(angle.cos(), angle.sin())
 }

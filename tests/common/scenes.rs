@@ -286,7 +286,6 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Prescribes the motion of components of a station.
 pub fn drive(scene: &mut Scene, station: Station, given: &[(Component, PrescribedMotion)]) {
     let mut motions = [None, None, None];
     for (component, motion) in given {

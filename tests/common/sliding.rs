@@ -52,7 +52,6 @@ pub const STIFF: Section = Section {
     rotary_inertia: 1e-2,
 };
 
-/// Particle with a start velocity.
 pub fn moving_particle(scene: &mut Scene, position: Vec2, velocity: Vec2, mass: f64) -> Station {
     let station = particle(scene, position, mass);
     scene.velocities.push(StationVelocity { station, velocity, spin: None });

@@ -20,12 +20,10 @@ pub fn section(stiffness: f64, bending: f64) -> Section {
     }
 }
 
-/// Stations at the ends of a beam.
 pub fn ends(scene: &mut Scene, beam: usize) -> [Station; 2] {
     [scene.station(beam, 0.0).unwrap(), end_of(scene, beam)]
 }
 
-/// Connects stations to the ground.
 pub fn hold(scene: &mut Scene, kind: JointKind, stations: &[Station]) {
     stations.iter().for_each(|at| scene.join(kind, *at, Partner::Ground).unwrap());
 }

@@ -52,7 +52,6 @@ impl Temper {
     }
 }
 
-/// Random draws of the parameters of a scene.
 struct Draw(Random);
 
 impl Draw {
@@ -171,7 +170,6 @@ fn chain(scene: &mut Scene, draw: &mut Draw) {
     }
 }
 
-/// Adds a particle on a beam with a speed relative to the beam.
 fn bead(scene: &mut Scene, master: usize, temper: Temper, draw: &mut Draw) {
     let axis = &scene.beams[master].axis;
     let along = draw.between((0.05, 0.95));

@@ -26,7 +26,6 @@ fn adaptive(tolerance: f64) -> StepSize {
     StepControl::to(tolerance).into()
 }
 
-/// Length of the beam.
 const LENGTH: f64 = 10.0;
 
 /// Distance of the ends from their exact positions, relative to the length of the beam.

@@ -128,7 +128,6 @@ fn with_right_checksum(mut file: Vec<u8>) -> Vec<u8> {
     file
 }
 
-/// Stops a run that takes too long.
 struct Patience(usize);
 
 impl Monitor for Patience {

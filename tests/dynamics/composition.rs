@@ -26,7 +26,6 @@ fn under_way(scene: &Scene, method: Method, steps: u32) -> (System, Box<dyn Inte
     (model, integrator)
 }
 
-/// Energies, work, momenta and impulses.
 fn numbers(measures: &Measures) -> [f64; 9] {
     [
         measures.energy.kinetic,

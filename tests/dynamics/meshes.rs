@@ -12,7 +12,6 @@ use withy::simulation::Simulation;
 use withy::system::System;
 use withy::vibration::Modes;
 
-/// Lengths of the spans.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Spans {
     Equal,

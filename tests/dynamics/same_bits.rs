@@ -100,7 +100,7 @@ fn at_rest(scene: Scene, loading: Loading) -> u64 {
     hash(&rest.path().points())
 }
 
-/// The deep arch of `statics.rs`, clamped at one end and hinged at the other, loaded up to its buckling load.
+/// The deep arch of `tests/statics/equilibria.rs`, clamped at one end and hinged at the other, loaded up to its buckling load.
 fn deep_arch() -> u64 {
     let lean = 17.5_f64.to_radians();
     let axis = Curve::arc(Vec2::zeros(), 100.0, -lean, PI + lean).unwrap();

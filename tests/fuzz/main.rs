@@ -36,9 +36,7 @@ use withy::script::state::limits::Limits;
 use withy::script::state::settings::{RunMode, RunSettings};
 
 const SEEDS: u64 = 100_000;
-/// Number of inputs in a short run.
 const SEEDS_IN_SHORT: u64 = 10_000;
-/// Number of inputs for each engine.
 const BATCH: u64 = 200;
 const WORKERS: usize = 2;
 const TIME: Duration = Duration::from_millis(200);

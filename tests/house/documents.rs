@@ -12,13 +12,11 @@ use withy::script::packages::language;
 use withy::script::source::program::Program;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Fenced block and the line of its document where it starts.
 struct Block {
     line: usize,
     text: String,
 }
 
-/// Fenced blocks of a language.
 fn blocks(text: &str, language: &str) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut current: Option<Block> = None;

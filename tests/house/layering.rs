@@ -125,7 +125,6 @@ fn first_names(rest: &str) -> Vec<String> {
     names
 }
 
-/// Text of a file without its unit tests.
 pub fn without_tests<'t>(path: &Path, text: &'t str) -> &'t str {
     match path.file_stem().is_some_and(|name| name == "tests") {
         true => "",

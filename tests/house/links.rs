@@ -45,7 +45,6 @@ fn headings(text: &str) -> Vec<String> {
     lines.map(|line| line.trim_start_matches('#').trim().to_owned()).collect()
 }
 
-/// Targets of the links of a text.
 fn links(text: &str) -> Vec<String> {
     let prose = prose(text).join("\n");
     let targets = prose.split("](").skip(1).filter_map(|rest| rest.split_once(')'));

@@ -297,7 +297,6 @@ fn signatures_show_optional_parameters() {
     assert_eq!(signature("length").as_deref(), Some("spring.length"));
 }
 
-/// Reporter of a finished run.
 struct Work;
 
 impl Reporter for Work {

@@ -29,7 +29,7 @@ fn try_within(exercise: &Exercise, text: &str, limits: Limits) -> AttemptVerdict
     judge(exercise, &attempt, settings)
 }
 
-/// What an attempt is told; nothing when it passes.
+/// Messages of the judge for an attempt; empty if the attempt passes.
 fn messages(exercise: &Exercise, text: &str) -> String {
     match try_within(exercise, text, Limits::default()) {
         AttemptVerdict::Passed => String::new(),
@@ -74,7 +74,7 @@ fn every_solution_passes_with_resolved_steps() {
         let program = Program::named("solution", exercise.solution);
         run(&program, &language(), settings);
         let notes = notes.take();
-        // These exercises take long steps and compare what does not depend on the phase of vibration.
+        // These exercises take long steps and compare only quantities that do not depend on the phase of vibration.
         let is_long = LONG_STEPS.contains(&exercise.id().as_str());
         let is_silent = |line: &str| !line.contains("note: simulation");
         let is_allowed = |line: &str| is_long && line.contains("shifted the phase");
@@ -163,7 +163,7 @@ fn alternative_solutions_pass() {
     }
 }
 
-/// The scripts below a folder, by their path in it.
+/// Scripts below a folder, by their relative paths.
 fn scripts(folder: &Path) -> BTreeSet<String> {
     fn collect(folder: &Path, inside: &str, found: &mut BTreeSet<String>) {
         for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
@@ -280,7 +280,7 @@ fn cheats_do_not_pass() {
     assert_eq!(met.len(), EXERCISES.len(), "every exercise has cheats: {met:?}");
 }
 
-/// Bodies of functions that are no formulas.
+/// Wrong bodies of a function that an exercise requires. The judge must reject them with a message.
 const NO_FORMULAS: &[&str] = &[
     "()",
     "\"passed\"",
@@ -315,7 +315,7 @@ fn function_that_is_not_a_formula_does_not_pass() {
             let start = format!("let {} = |", need.name);
             let (_, rest) = exercise.solution.split_once(&start).unwrap();
             let (parameters, _) = rest.split_once('|').unwrap();
-            // What the judge does not need is left out: it takes time.
+            // Variables that the judge does not need are left out, because computing them takes time.
             let base = if needs.len() == 1 { "" } else { exercise.solution };
             let attempt = |parameters: &str, body: &str| {
                 let text = format!(
@@ -334,7 +334,7 @@ fn function_that_is_not_a_formula_does_not_pass() {
     }
 }
 
-/// Names of the attempt that the judge uses as well do no harm.
+/// An attempt may use the same names as the judge.
 #[test]
 fn names_of_attempts_and_judges_do_not_conflict() {
     let names = "let percent = \"x\"; let how = (); let change = 3; fn drift(history, what) { 1 }";

@@ -41,12 +41,10 @@ fn ran(text: &str) -> (TempDir, String) {
     (folder, message.take())
 }
 
-/// Value of an attribute of a tag.
 fn attribute<'t>(tag: &'t str, name: &str) -> &'t str {
     tag.split_once(&format!(" {name}=\"")).unwrap().1.split_once('"').unwrap().0
 }
 
-/// Decodes base64.
 fn decoded(letters: &str) -> Vec<u8> {
     let code = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',

@@ -16,7 +16,6 @@ use withy::repl::shell::{CommandOutcome, ReplyTarget, Shell};
 use withy::script::packages::language;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-/// Shell with its output and its messages.
 struct Prompt {
     shell: Shell,
     printed: Notepad,

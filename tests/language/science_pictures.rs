@@ -24,13 +24,11 @@ fn picture(script: &str) -> String {
     fs::read_to_string(out.path().join("it.svg")).unwrap()
 }
 
-/// Words in the description of a picture.
 fn words(svg: &str) -> Vec<&str> {
     let text = svg.split_once("<desc>").unwrap().1.split_once("</desc>").unwrap().0;
     text.split(" | ").collect()
 }
 
-/// Error message of a script.
 fn refusal(script: &str) -> String {
     let settings = RunSettings::silent(RunMode::Run);
     let outcome = run(&Program::named("picture", &format!("{ROD}{script}")), &language(), settings);

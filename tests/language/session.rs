@@ -22,7 +22,6 @@ fn session_with_snapshots() -> Session {
     Session::new(language(), settings).unwrap()
 }
 
-/// Value of an input as text.
 fn value(session: &mut Session, input: &str) -> String {
     match session.eval(input) {
         Reply::Value(value) => value.to_string(),

@@ -48,7 +48,6 @@ fn written_in(scene: &str, script: &str, file: &str) -> (String, Vec<u8>) {
     (printed.take(), fs::read(out.path().join(file)).unwrap_or_default())
 }
 
-/// Error message of a script that fails.
 fn refused(script: &str) -> String {
     let program = Program::named("viewer", &format!("{SCENE}sim.run_to(0.1);\n{script}"));
     match run(&program, &language(), RunSettings::silent(RunMode::Run)).ending {
@@ -57,7 +56,6 @@ fn refused(script: &str) -> String {
     }
 }
 
-/// Data of a page.
 fn data(page: &[u8]) -> Value {
     let page = String::from_utf8(page.to_vec()).unwrap();
     let (_, rest) = page.split_once("id=\"data\">").unwrap();

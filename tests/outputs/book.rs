@@ -7,11 +7,9 @@ use std::path::Path;
 
 use crate::fingerprint::fingerprint;
 
-/// Outputs by name.
 #[derive(Default)]
 pub struct Book(BTreeMap<String, Vec<u8>>);
 
-/// Checksums and names.
 const PINNED: &str = "tests/outputs/pinned.txt";
 
 /// Longest text that is recorded as a snapshot [bytes].
@@ -24,7 +22,6 @@ const GENERATED: [&str; 2] = ["pages/help", "pages/definitions"];
 const DATA: [&str; 6] = [".svg", ".csv", ".vtu", ".pvd", ".html", ".json"];
 
 impl Book {
-    /// Records an output under a unique name.
     pub fn keep(&mut self, name: impl Into<String>, output: impl Into<Vec<u8>>) {
         let name = name.into();
         assert!(self.0.insert(name.clone(), output.into()).is_none(), "'{name}' is kept twice");
@@ -81,7 +78,6 @@ impl Book {
         });
     }
 
-    /// Fails if an output differs from the recorded one.
     pub fn compare(&self) {
         if let Ok(folder) = std::env::var("WITHY_OUTPUTS") {
             self.write_to(Path::new(&folder));

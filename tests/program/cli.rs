@@ -11,7 +11,6 @@ fn withy() -> Command {
     Command::new(env!("CARGO_BIN_EXE_withy"))
 }
 
-/// Folder with a script.
 fn script(text: &str) -> (TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("script.rhai");

@@ -25,7 +25,6 @@ fn the_grammar_of_the_repository_is_that_of_the_language() {
     assert!(kept == text, "{GRAMMAR} is old: withy docs --grammar > {GRAMMAR}");
 }
 
-/// Scripts below a folder.
 fn scripts(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

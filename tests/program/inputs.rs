@@ -14,7 +14,6 @@ fn doubled(load) { load * input(\"factor\", 2) }
 print(`${name}: ${doubled(load)}, ${parts::spans}`);
 ";
 
-/// Folder with the given files.
 fn folder(files: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -34,7 +33,6 @@ fn withy(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// Output of a run with these settings.
 fn run(folder: &Path, settings: &[&str]) -> (i32, String, String) {
     let settings = settings.iter().flat_map(|setting| ["--set", setting]);
     let arguments: Vec<&str> = ["run", "boom.rhai"].into_iter().chain(settings).collect();

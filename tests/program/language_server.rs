@@ -19,7 +19,6 @@ struct Client {
     early: Vec<Value>,
 }
 
-/// Text of a message with its header.
 fn framed(text: &str) -> String {
     format!("Content-Length: {}\r\n\r\n{text}", text.len())
 }
@@ -118,7 +117,6 @@ impl Client {
         );
     }
 
-    /// Diagnostics of a version of a document.
     fn diagnostics(&mut self, file: &str, version: i32) -> Vec<Value> {
         let uri = self.uri(file);
         let mut early = std::mem::take(&mut self.early).into_iter();

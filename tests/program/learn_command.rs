@@ -204,7 +204,6 @@ fn unknown_names_and_damaged_progress_are_reported() {
     assert!(text.contains("is damaged") && text.contains("not yet: beams/change_one"), "{text}");
 }
 
-/// Lines of the output of a process, as they arrive.
 fn lines(output: impl std::io::Read + Send + 'static) -> Receiver<String> {
     let (send, receive) = channel();
     thread::spawn(move || {

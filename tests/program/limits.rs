@@ -10,7 +10,6 @@ use tempfile::TempDir;
 /// Time limit of a run: much shorter than the endless inputs, and sufficient with ten times as many processes as cores.
 const TIME_LIMIT: Duration = Duration::from_secs(120);
 
-/// Scene that can be started.
 const SCENE: &str = "let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });
 let scene = new_scene(\"a\");
 let rod = scene.beam(#{ name: \"rod\", axis: line([0, 0], [10, 0]), basis: bspline(4), section: s, spin: 1 });

@@ -198,7 +198,6 @@ fn start_sized(folder: &Path, variables: &[(&str, &str)]) -> PtySession {
     session
 }
 
-/// Sends a key.
 fn press(session: &mut PtySession, key: &str) {
     session.send(key).unwrap();
     session.flush().unwrap();

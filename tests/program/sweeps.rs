@@ -47,7 +47,6 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// Table that a run has written.
 fn table(file: &Path, out: &str) -> Vec<u8> {
     fs::read(file.with_file_name(out).join("flights.csv")).unwrap()
 }

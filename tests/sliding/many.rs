@@ -11,7 +11,6 @@ use withy::system::{MasterEnd, MasterLimit, Scene, System};
 
 const DT: f64 = 0.01;
 
-/// Model after some steps.
 fn moved(scene: &Scene) -> System {
     let mut model = System::assemble(scene).unwrap();
     let mut integrator = Method::EnergyMomentum.build(&mut model, Tolerance::default());

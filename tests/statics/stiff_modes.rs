@@ -351,7 +351,6 @@ fn a_stiff_column_loses_its_stiffness_at_eulers_load() {
     }
 }
 
-/// Pseudorandom numbers.
 struct Random(u64);
 
 impl Random {

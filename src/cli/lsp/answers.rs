@@ -14,7 +14,6 @@ use crate::repl::editor::completion::complete;
 use crate::repl::editor::definition::{Definition, definition, exported};
 use crate::repl::editor::hints::{CallHint, call_hint};
 
-/// Position in an open document.
 pub struct Place<'d> {
     pub uri: &'d Uri,
     pub document: &'d Document,
@@ -28,7 +27,7 @@ impl Place<'_> {
     }
 }
 
-/// Candidates for the word at a place. A typed colon asks for candidates only as a part of `::`.
+/// Candidates for the word at a place. After a typed colon, candidates are returned only if the colon completes `::`.
 pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionResponse> {
     if trigger == Some(":") && !at.before().ends_with("::") {
         return None;
@@ -36,7 +35,7 @@ pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionRe
     let names = at.document.names(at.uri, at.offset)?;
     let (start, candidates) = complete(&at.document.text, at.offset, &names);
     let range = positions::range(&at.document.text, start..at.offset);
-    // Indentation is the task of the editor.
+    // Candidates that insert only blanks are omitted, because the editor indents lines.
     let words = candidates.into_iter().filter(|known| !known.replacement.trim().is_empty());
     Some(words.map(|known| item(known, range)).collect::<Vec<_>>().into())
 }
@@ -59,7 +58,6 @@ fn item(candidate: Candidate, range: lsp::Range) -> lsp::CompletionItem {
     }
 }
 
-/// Help on the name at a place.
 pub fn hover(at: &Place, format: lsp::MarkupKind) -> Option<lsp::Hover> {
     let (name, help) = help_at(&at.document.program(at.uri), at.offset, limits())?;
     let value = match format {
@@ -72,7 +70,6 @@ pub fn hover(at: &Place, format: lsp::MarkupKind) -> Option<lsp::Hover> {
     })
 }
 
-/// Signature of the call around a place, or the keys of its options.
 pub fn signature_help(at: &Place) -> Option<lsp::SignatureHelp> {
     let names = at.document.names(at.uri, at.offset)?;
     let CallHint { label, current, about } = call_hint(at.before(), &names)?;
@@ -91,7 +88,6 @@ pub fn signature_help(at: &Place) -> Option<lsp::SignatureHelp> {
     Some(lsp::SignatureHelp { signatures: vec![signature], active_signature, active_parameter })
 }
 
-/// Definitions of the name at a place.
 pub fn definitions(at: &Place, documents: &Documents) -> Option<lsp::DefinitionResponse> {
     let text = &at.document.text;
     let located = |uri: &Uri, text: &str, places: Vec<Range<usize>>| -> Vec<lsp::Location> {

@@ -41,7 +41,7 @@ pub fn start(uri: &Uri, document: &mut Document) {
             return;
         }
         let found = check(&program, &stopped);
-        // The next message is not written between the test and the answer.
+        // While stdout is locked, no other message can be written between the test of `stopped` and the result.
         let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
             let notes = pitfalls(&program.text).into_iter();
@@ -55,7 +55,6 @@ pub fn stop(document: &Document) {
     document.check.store(true, Ordering::Relaxed);
 }
 
-/// Shows the diagnostics of a document in the editor.
 pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {
     let method = lsp::PublishDiagnosticsNotification::METHOD.as_str();
     let shown = lsp::PublishDiagnosticsParams { uri, version, diagnostics };
@@ -129,7 +128,6 @@ fn related(at: &Location) -> Option<lsp::DiagnosticRelatedInformation> {
     Some(lsp::DiagnosticRelatedInformation { location, message: "the error is here".into() })
 }
 
-/// Text of a line, counted from 1, without its indentation.
 fn line_range(text: &str, line: usize) -> lsp::Range {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let line = text[start..].lines().next().unwrap_or_default();

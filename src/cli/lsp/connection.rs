@@ -35,7 +35,6 @@ pub fn send(message: impl Into<Message>) {
     let _ = message.into().write(&mut stdout().lock());
 }
 
-/// Reports a message without a readable number, for which the library has no type.
 fn refuse(why: &str) {
     let error = json!({ "code": ErrorCode::ParseError as i32, "message": why });
     let text = json!({ "jsonrpc": "2.0", "id": null, "error": error }).to_string();

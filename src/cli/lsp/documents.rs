@@ -19,10 +19,9 @@ use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::limits::Limits;
 
-/// Largest run time of the statements before a position for an answer to a request.
+/// Time limit for evaluating the statements before the cursor when a request is answered.
 const LONGEST_ANSWER: Duration = Duration::from_secs(1);
 
-/// Limits of an evaluation for an answer to a request.
 pub fn limits() -> Limits {
     Limits { time: Some(LONGEST_ANSWER), ..Limits::default() }
 }
@@ -30,9 +29,8 @@ pub fn limits() -> Limits {
 pub struct Document {
     pub version: i32,
     pub text: String,
-    /// Stops the check of this version.
     pub check: Arc<AtomicBool>,
-    /// Names at the start of the line of the last request, with the text before it.
+    /// Text before the line of the last request, and the names that are known after this text.
     names: RefCell<Option<(String, CompletionContext)>>,
 }
 
@@ -43,7 +41,6 @@ impl Document {
         Self { version, text, check: Arc::default(), names: RefCell::default() }
     }
 
-    /// Applies a change of the client.
     pub fn change(&mut self, change: lsp::TextDocumentContentChangeEvent) {
         use lsp::TextDocumentContentChangeEvent as Change;
         match change {
@@ -56,17 +53,15 @@ impl Document {
         }
     }
 
-    /// Text of the document as a script.
     pub fn program(&self, uri: &Uri) -> Program {
         Program::from_text(&uris::path(uri), &self.text)
     }
 
-    /// Forgets names of imported files, which may have changed.
     pub fn forget_names(&mut self) {
         self.names.take();
     }
 
-    /// Names that are known at the start of the line of byte `offset`.
+    /// Names that are known at the start of the line that contains byte `offset`.
     pub fn names(&self, uri: &Uri, offset: usize) -> Option<CompletionContext> {
         let start = self.text[..offset].rfind('\n').map_or(0, |end| end + 1);
         let before = &self.text[..start];
@@ -84,7 +79,7 @@ impl Document {
 pub struct Documents(pub HashMap<Uri, Document>);
 
 impl Documents {
-    /// URI and text of the script that an import of `path` in a script reads.
+    /// URI and text of the script that a script in `folder` imports by `path`.
     /// A module of the standard library is written to a file, so that the editor can open it.
     pub fn imported(&self, folder: &Path, path: &str) -> Option<(Uri, String)> {
         if let Some(module) = library::find(path) {

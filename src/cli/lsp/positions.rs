@@ -16,7 +16,6 @@ fn line_starts(text: &str) -> impl Iterator<Item = usize> {
     iter::once(0).chain(ends.map(|(at, _)| at + 1))
 }
 
-/// Position of a byte of a text.
 pub fn position(text: &str, offset: usize) -> lsp::Position {
     let offset = text.floor_char_boundary(offset);
     let starts = line_starts(text).take_while(|start| *start <= offset);
@@ -25,7 +24,6 @@ pub fn position(text: &str, offset: usize) -> lsp::Position {
     lsp::Position { line: line as u32, character: character as u32 }
 }
 
-/// Positions of a part of a text.
 pub fn range(text: &str, part: Range<usize>) -> lsp::Range {
     lsp::Range { start: position(text, part.start), end: position(text, part.end) }
 }

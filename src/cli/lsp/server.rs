@@ -18,7 +18,6 @@ use crate::cli::Exit;
 use crate::cli::console::print_error;
 use crate::panics;
 
-/// Runs the language server until the client ends it or closes stdin.
 pub fn lsp() -> Exit {
     panics::silence();
     if stdin().is_terminal() {
@@ -58,7 +57,6 @@ enum Phase {
 struct Server {
     phase: Phase,
     documents: Documents,
-    /// True if the client shows Markdown.
     shows_markdown: bool,
 }
 

@@ -12,7 +12,6 @@ pub fn path(uri: &Uri) -> PathBuf {
     if is_of_drive { name[1..].into() } else { name.into() }
 }
 
-/// URI of a file.
 pub fn uri(path: &Path) -> Option<Uri> {
     let name = absolute(path).ok()?.to_str()?.replace('\\', "/");
     let mut text = String::from("file://");

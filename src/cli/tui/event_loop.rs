@@ -23,10 +23,6 @@ use crate::panics::caught;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Watches the attempts of a student until the user quits or `stop` is set. An attempt is judged each time its file is saved.
-///
-/// # Errors
-/// Fails if the folder or the terminal cannot be used. The terminal is restored before the function returns.
 pub(in crate::cli) fn watch(
     workbook: &Workbook,
     limits: &LimitOptions,

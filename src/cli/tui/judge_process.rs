@@ -34,10 +34,6 @@ pub struct JudgeProcess {
 }
 
 impl JudgeProcess {
-    /// Starts a process that judges the attempt in the student's folder.
-    ///
-    /// # Errors
-    /// Fails if the process cannot be started.
     pub fn begin(exercise: &Exercise, options: &LimitOptions) -> io::Result<Self> {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
@@ -136,7 +132,6 @@ fn stopped(stop: Stop, printed: CapturedOutput) -> AttemptReport {
     AttemptReport { outcome: AttemptOutcome::Stopped(why), printed }
 }
 
-/// Judges an attempt in this process and prints the report. The process was started for this purpose only.
 pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions) -> Exit {
     exit_with_parent();
     let output = CaptureWriter::default();

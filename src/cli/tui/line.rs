@@ -7,7 +7,6 @@ use textwrap::{Options, WordSplitter};
 
 use crate::output::{Colours, columns_of, printable_line};
 
-/// ANSI codes for the style of a text segment.
 pub type LineStyle = Cow<'static, str>;
 
 pub const PLAIN: LineStyle = Cow::Borrowed("");
@@ -69,7 +68,6 @@ impl ScreenLine {
         Self::from_characters(&characters[..kept]).and("…", FAINT)
     }
 
-    /// Wraps a line of code at a width of `columns`, after a blank if possible.
     pub fn wrapped(self, columns: usize) -> Vec<Self> {
         let characters = self.characters();
         let margin = characters.iter().take_while(|(character, _)| !character.is_alphanumeric());

@@ -1,4 +1,4 @@
-//! Converts the result of an attempt to lines.
+//! Converts the result of an attempt to lines of the screen.
 
 use super::line::{BAD, FAINT, GOOD, HEADING, PLAIN, ScreenLine, WARNING, labelled, paragraph};
 use super::state::TuiState;
@@ -80,7 +80,6 @@ fn error_lines(state: &TuiState, why: &AttemptError, columns: usize) -> Vec<Scre
 
 const TAB: usize = 4;
 
-/// Returns a source line and a line of marks below the location of an error. A long source line is cut around the location.
 fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     let mut text = String::new();
     let (mut at, mut length) = (0, 0);
@@ -103,7 +102,6 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     vec![line, ScreenLine::of("      │ ", FAINT).and(&mark, BAD).cut(columns)]
 }
 
-/// Returns the text after the first `columns` columns. If the cut divides a wide character, a blank replaces the visible half.
 fn text_from_column(text: &str, columns: usize) -> String {
     let (mut left_out, mut rest) = (0, text.chars());
     while left_out < columns {

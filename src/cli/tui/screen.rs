@@ -2,7 +2,7 @@
 //!
 //! The top of the screen shows the title of the exercise, a bar of passed exercises, and the file to edit.
 //! The middle shows the task, the result and the hints, and scrolls if it is longer than the screen.
-//! The bottom shows a notice after a key, and the available keys.
+//! The bottom shows a notice about the last pressed key, and the available keys.
 
 use super::line::{
     FAINT, GOOD, HEADING, LineStyle, PLAIN, STRONG, ScreenLine, WARNING, labelled, paragraph,
@@ -35,7 +35,6 @@ impl PageLayout {
 /// Maximum width of text, because wider text is harder to read [columns].
 const WIDEST: usize = 100;
 
-/// Returns the lines that show the state on a screen of the given size. `solution` contains the lines of the model solution.
 pub fn screen(
     state: &TuiState,
     (columns, rows): (usize, usize),

@@ -22,7 +22,6 @@ pub struct TuiState {
     pub page: ScreenPage,
     pub top: ScrollPosition,
     pub notice: Option<String>,
-    /// Question that waits for a confirmation by pressing the same key again.
     pub confirmation: Option<Confirmation>,
     /// Exercise number that the user is typing in the list; 0 without input.
     pub typed: usize,
@@ -37,7 +36,6 @@ pub enum ScreenPage {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScrollPosition {
-    /// The page is scrolled so that this section is visible.
     Part(TaskSection),
     Line(usize),
 }
@@ -51,9 +49,7 @@ pub enum TaskSection {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confirmation {
-    /// The user leaves an exercise that has not been passed.
     Skip,
-    /// The user requests the solution after all hints were given.
     Solution,
 }
 

@@ -36,10 +36,6 @@ pub struct RawTerminal {
 }
 
 impl RawTerminal {
-    /// Switches the terminal to the alternate screen and raw mode.
-    ///
-    /// # Errors
-    /// Fails if the terminal does not support the alternate screen or raw mode.
     pub fn enter() -> io::Result<Self> {
         enter_raw_mode()?;
         let style = TerminalStyle::of_environment(|name| std::env::var(name).ok());
@@ -53,9 +49,6 @@ impl RawTerminal {
     }
 
     /// Draws all lines in one write. Nothing is written if the screen has not changed.
-    ///
-    /// # Errors
-    /// Fails if writing to the terminal fails.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
@@ -84,9 +77,6 @@ impl RawTerminal {
 
     /// Waits for the next key, at most for `timeout`.
     /// Returns `None` if no key was pressed during this time, or if another event arrived, for example a change of the window size.
-    ///
-    /// # Errors
-    /// Fails if reading from the terminal fails.
     pub fn key(&self, timeout: Duration) -> io::Result<Option<Key>> {
         if !event::poll(timeout)? {
             return Ok(None);

@@ -25,7 +25,6 @@ pub struct Relaxation {
 }
 
 impl Relaxation {
-    /// Description of allowed relaxation times.
     pub(crate) const ALLOWED: &'static str = "zero or a positive finite number [time]";
 
     /// Checks that all relaxation times are finite and not negative.
@@ -48,9 +47,9 @@ pub struct RateCollocation {
     /// Fraction of the step at which the directions of forces are evaluated [-].
     /// Positions and rotations are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
-    /// Factor by which the change of a quantity in the step is multiplied in the formula for its rate [1/time].
+    /// Factor by which the change in a step is multiplied in the formula for the rate of the step [1/time].
     pub by_change: f64,
-    /// Factor by which the rate of a quantity in the previous step is multiplied in the formula for its rate [-].
+    /// Factor by which the rate of the previous step is multiplied in the formula for the rate of a step [-].
     pub by_last: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
@@ -151,7 +150,6 @@ impl Dashpots {
         }
     }
 
-    /// Prepares a static increment, in which the dashpots exert no forces.
     pub(crate) fn rest_without_damping(&mut self) {
         for span in &mut self.spans {
             span.forces.iter_mut().for_each(ForceDashpot::rest_without_damping);

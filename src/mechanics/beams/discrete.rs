@@ -21,7 +21,6 @@ use super::{
 };
 use crate::geometry::Vec2;
 
-/// Beam on a basis that has `N` nonzero functions per span.
 #[derive(Debug, Clone)]
 struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
     /// Section at all points of a uniform beam; for a tapered beam the mean section.

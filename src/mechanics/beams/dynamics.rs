@@ -48,7 +48,7 @@ impl ForceSummary {
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
 /// Dynamics of a beam, particle or rigid body.
-/// The implementing type contains reference quantities, the state at the start of a step, and the present iterate of the step.
+/// The implementing type stores the undeformed body, its state at the start of a step, and the present iterate of the step.
 ///
 /// Increments, rates and forces are given for all control points.
 pub trait BodyDynamics: Send + Sync {
@@ -103,7 +103,7 @@ pub trait BodyDynamics: Send + Sync {
     /// Updates the section forces after an iteration has corrected the increments.
     fn correct_section_forces(&mut self, correction: &[Movement]);
 
-    /// Ends a step with the given increments. The end of the step becomes the start of the next step.
+    /// Ends a step with the given increments.
     fn advance(&mut self, moved: &[Movement], rotations: RotationIncrement);
 
     /// Adds `factor · M · rates` to the forces on control points, with the inertia matrix `M` of the body.

@@ -294,7 +294,6 @@ impl<const N: usize> ForcePoints<N> {
         self.apply_weights(part, weight, (collocated_gradient.get(part), force), resultant);
     }
 
-    /// Corrects the section forces after a correction of the increments (docs/theory.md, section 11).
     #[inline(always)]
     pub(super) fn correct_section_forces<V: Simd>(
         &mut self,

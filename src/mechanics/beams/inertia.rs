@@ -12,7 +12,6 @@ use super::sections::MassIntegral;
 /// Number of control points whose rows are processed together. The rows stay in the cache while all diagonals are processed.
 const ROWS_PER_PASS: usize = 16;
 
-/// Inertia matrix of a beam with `N` nonzero basis functions per span, for displacements and rotations.
 #[derive(Debug, Clone)]
 pub(super) struct InertiaMatrix<const N: usize, I> {
     gram: Vec<[I; N]>,

@@ -13,7 +13,7 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Largest kink length that counts as a rounding error, as a fraction of the length of a span.
+/// Largest magnitude of a negative kink length that is attributed to rounding, as a fraction of the length of the span.
 const ROUNDING: f64 = 1e-11;
 
 /// Part of the kink under a point force that the mesh does not represent.
@@ -31,7 +31,7 @@ pub struct MissedKink {
 /// The displacement that is missing on the mesh is the kink length times the force, divided by the shear stiffness.
 ///
 /// The kink length is a polynomial of twice the degree of the basis on each span, and zero at knots where the basis is only C⁰.
-/// Returns `None` if the kink length is not positive at a point where the basis is smooth.
+/// Returns `None` if the kink length is negative somewhere, by more than rounding.
 /// The kink length may be negative if the mesh has fewer quadrature points than the patch rule.
 ///
 /// # Errors

@@ -70,7 +70,7 @@ impl Mesh {
         Ok(Self::new(Basis::BSpline(KnotVector::uniform(spans, degree, continuity)?)))
     }
 
-    /// Creates a mesh of cubic C² splines whose number of spans is chosen from the scene.
+    /// Creates a mesh of cubic C² splines with `spans` spans. The scene may change this number according to its forces and sliders.
     ///
     /// # Errors
     /// Fails if the number of spans is out of range.
@@ -124,7 +124,7 @@ impl Mesh {
         Ok(Self { basis, quadrature: self.quadrature, is_automatic: false })
     }
 
-    /// Returns true if the number of spans is chosen from the scene.
+    /// Returns true if the scene chooses the number of spans according to its forces and sliders.
     pub fn is_automatic(&self) -> bool {
         self.is_automatic
     }
@@ -226,7 +226,6 @@ impl Mesh {
         b.first < a.first + self.basis.degree()
     }
 
-    /// Quadrature points and weights for the strain `Γ` on each span of a smooth run.
     fn force_rules(&self, run: &[Span]) -> Result<RunRule, BeamError> {
         match self.quadrature {
             Quadrature::Patch => {

@@ -8,7 +8,6 @@ use super::Rotation;
 use super::simd::{LaneChunk, Lanes, Number, Vector};
 use crate::geometry::Vec2;
 
-/// Type with two components in the plane.
 pub trait Planar<T> {
     fn of(x: T, y: T) -> Self;
 
@@ -168,7 +167,6 @@ impl Rotation<Lanes> {
 }
 
 impl Default for Rotation<Lanes> {
-    /// Placeholder value; every lane is set before use.
     fn default() -> Self {
         Self { cos: Lanes::default(), sin: Lanes::default() }
     }

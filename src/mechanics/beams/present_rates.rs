@@ -38,11 +38,10 @@ impl RateMismatch {
 /// Factor by which each step multiplies the squared errors that have been summed over all earlier steps.
 const KEPT: f64 = 0.8;
 
-/// Largest ratio of the error `off` to the error `apart` (before squaring) for which the steps count as resolving the rate.
+/// Largest ratio of the errors `off` and `apart`, which are stored squared, for which the steps count as resolving the rate.
 /// The ratio of the errors is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
-/// Weighted sums of the errors of the dashpot rates in the recent steps, from which the steps are judged to resolve the rates or not.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RateResolution {
     mismatches: [RateMismatch; 3],

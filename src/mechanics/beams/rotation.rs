@@ -13,7 +13,6 @@ pub enum RotationIncrement {
     Angle,
 }
 
-/// Rotation by the angle `Δθ(Δω)` of an increment, with its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Turn<T> {
     cos: T,
@@ -83,7 +82,8 @@ impl RotationIncrement {
     }
 }
 
-/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space. The type also stores means of two rotations, which are not rotations.
+/// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space.
+/// The type also stores the mean of two rotations, for which `c² + s²` is less than 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation<T = f64> {
     /// Cosine `c` of the angle, or a mean of two cosines.

@@ -164,7 +164,6 @@ impl Solid {
         std::mem::discriminant(&self.shape) == std::mem::discriminant(&other.shape)
     }
 
-    /// Interpolates all dimensions and constants linearly between two solids with the same type of shape.
     pub(super) fn mixed(&self, other: &Self, fraction: f64) -> Self {
         let mix = |a: f64, b: f64| a + fraction * (b - a);
         let shape = match (self.shape, other.shape) {

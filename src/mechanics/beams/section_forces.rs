@@ -102,7 +102,6 @@ impl SectionPlace {
     }
 }
 
-/// Weights of a quadrature point for the strain `Γ` in the section forces at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ForceShare {
     pub(super) span: usize,
@@ -112,7 +111,6 @@ pub(super) struct ForceShare {
     pub(super) of_couple: f64,
 }
 
-/// Weight of a quadrature point for the curvature `κ` in the bending moment at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct MomentShare {
     pub(super) span: usize,

@@ -9,10 +9,8 @@ use pulp::{Simd, bytemuck};
 
 use crate::elementary::sin_cos;
 
-/// Number of lanes, which is the number of values in common vector instructions.
 pub(super) const LANES: usize = 4;
 
-/// Values of one quantity at consecutive points, one in each lane.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(32))]
 pub(super) struct Lanes([f64; LANES]);
@@ -78,7 +76,6 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Value of the same type as `self` with the given number in all lanes.
     fn same(self, number: f64) -> Self;
 
     fn abs(self) -> Self;

@@ -40,7 +40,6 @@ pub(super) struct SpanPartition {
 }
 
 impl SpanPartition {
-    /// Returns a partition into at most `most` parts, each of which is large enough to justify a thread.
     pub(super) fn worthwhile<const N: usize, S: Sections>(
         groups: &[SpanGroup<N, S>],
         most: usize,
@@ -71,7 +70,6 @@ impl SpanPartition {
         !self.cuts.is_empty() && spans >= SMALLEST_LIGHT_PART * self.count()
     }
 
-    /// Applies an operation to each span independently. The parts of the beam are processed concurrently.
     pub(super) fn each<const N: usize, S: Sections>(
         &self,
         groups: &mut [SpanGroup<N, S>],

@@ -16,7 +16,6 @@ use super::simd::{LANES, LaneChunk};
 use super::span_stiffness::SpanStiffness;
 use crate::geometry::Vec2;
 
-/// Number of spans whose points are arranged in lanes together.
 pub(super) const SPANS_AT_ONCE: usize = 16;
 
 #[derive(Debug, Clone)]
@@ -32,7 +31,6 @@ pub(super) struct SpanOfPoints<const N: usize> {
     pub(super) moment_points: Vec<(MomentPoint<N>, Section)>,
 }
 
-/// Quadrature points of at most [`SPANS_AT_ONCE`] consecutive spans, arranged in vector lanes. A span has `N` nonzero basis functions.
 #[derive(Debug, Clone)]
 pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) spans: Vec<SpanPlace>,
@@ -41,7 +39,6 @@ pub(super) struct SpanGroup<const N: usize, S = Uniform> {
     pub(super) sections: S,
 }
 
-/// Increments of `N` consecutive control points, starting with control point `first`.
 #[inline(always)]
 pub(super) fn window<const N: usize>(movements: &[Movement], first: usize) -> &[Movement; N] {
     movements[first..]
@@ -246,7 +243,6 @@ impl<const N: usize, S: Sections> SpanGroup<N, S> {
         }
     }
 
-    /// Appends the section normals at the quadrature points for the strain `Γ`, span by span.
     pub(super) fn write_normals(&self, normals: &mut Vec<Vec2>) {
         let count = self.spans[self.spans.len() - 1].force_points.end;
         normals.extend((0..count).map(|index| self.force_point(index).normal()));

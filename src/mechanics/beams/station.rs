@@ -125,7 +125,6 @@ impl BodyPoint {
         (self.first..).zip(self.shape().iter().copied())
     }
 
-    /// Control point whose basis function is largest at the station. At a break of the mesh, this control point coincides with the station.
     pub(crate) fn nearest_control_point(&self) -> usize {
         self.weights()
             .max_by(|(_, a), (_, b)| a.total_cmp(b))

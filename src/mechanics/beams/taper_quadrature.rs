@@ -18,7 +18,7 @@ pub struct TaperQuadrature {
 }
 
 impl TaperQuadrature {
-    /// Largest quadrature error of a mesh that is not too coarse for the taper [-].
+    /// Smallest quadrature error of a mesh that counts as too coarse for the taper [-].
     pub const TOLERANCE: f64 = 5e-3;
 
     /// Computes the quadrature errors for the sections of a beam.

@@ -241,7 +241,6 @@ impl ContactPath {
         }
     }
 
-    /// Sets all rows for a path within one span, by Taylor series about the end of the path.
     fn set_in_span<const WIDTH: usize>(
         &mut self,
         interval: PathInterval,

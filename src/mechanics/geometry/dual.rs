@@ -24,7 +24,7 @@ impl<const SLOPES: usize> Dual<SLOPES> {
         Self { value, slopes: [0.0; SLOPES] }
     }
 
-    /// Variable with the given index: its derivative with respect to itself is one.
+    /// Dual number of the variable with the index `at`: its derivative with respect to this variable is one.
     /// If the index is not below `SLOPES`, all stored derivatives are zero.
     pub fn variable(value: f64, at: usize) -> Self {
         let mut variable = Self::constant(value);
@@ -109,7 +109,6 @@ impl<const SLOPES: usize> DualVector<SLOPES> {
         Self { x: Dual::constant(value.x), y: Dual::constant(value.y) }
     }
 
-    /// Vector whose components are the variables with the indices `first` and `first + 1`.
     pub fn variable(value: Vec2, first: usize) -> Self {
         Self { x: Dual::variable(value.x, first), y: Dual::variable(value.y, first + 1) }
     }

@@ -190,7 +190,6 @@ impl KnotVector {
                 .all(|(own, others)| (own - others).abs() <= SHORTEST_SPAN)
     }
 
-    /// Knots mapped to `[0, 1]`.
     fn normalised(&self) -> impl Iterator<Item = f64> {
         let (start, end) = self.domain();
         self.knots.iter().map(move |knot| (knot - start) / (end - start))
@@ -271,7 +270,6 @@ pub(super) fn check_span_lengths(
     }
 }
 
-/// Checks that a parameter lies in `[start, end]` and is not NaN.
 pub(super) fn check_inside(xi: f64, start: f64, end: f64) -> Result<(), GeometryError> {
     if (start..=end).contains(&xi) {
         Ok(())

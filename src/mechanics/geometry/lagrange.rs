@@ -119,7 +119,6 @@ impl LagrangeBasis {
         Self::new(self.degree, breaks)
     }
 
-    /// Polynomials of the element `span` at any `xi`, with all derivatives.
     pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         let mut basis = BasisValues::zeros(span.first, self.degree);
         self.fill(span, xi, basis.rows_mut());

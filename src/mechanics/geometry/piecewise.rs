@@ -76,7 +76,6 @@ impl PiecewisePolynomial {
         middles.map(|(span, (middle, _))| self.in_span(span, *middle)[0]).fold(0.0, larger)
     }
 
-    /// Values of the function along a path within one span, computed by Horner's scheme.
     #[inline]
     pub(super) fn between(&self, span: usize, from: f64, to: f64) -> FunctionOnPath {
         let (middle, half) = self.spans[span];
@@ -97,7 +96,6 @@ impl PiecewisePolynomial {
         on
     }
 
-    /// Value, first and second derivative of the polynomial of a span with respect to ξ, which may lie outside the span.
     #[inline]
     pub(crate) fn in_span(&self, span: usize, xi: f64) -> [f64; 3] {
         let (middle, half) = self.spans[span];

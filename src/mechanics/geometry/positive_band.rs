@@ -3,14 +3,12 @@
 /// Smallest ratio of a pivot to its diagonal entry for which a matrix counts as nonsingular [-].
 const ROUNDING: f64 = 1e-11;
 
-/// Symmetric positive definite band matrix, for example the matrix of scalar products of splines. Entries outside the band are zero.
 #[derive(Debug, Clone)]
 pub struct PositiveBand {
     /// Rows of the upper triangle: row `i` contains the entries `(i, i), (i, i + 1), …`.
     rows: Vec<Vec<f64>>,
 }
 
-/// Factors `L D Lᵀ` of a [`PositiveBand`], with a unit diagonal of `L`.
 #[derive(Debug, Clone)]
 pub struct PositiveFactors {
     /// Columns of the factors: column `i` contains `D_i` and the entries `(i + 1, i), (i + 2, i), …` of `L`.
@@ -23,7 +21,6 @@ impl PositiveBand {
         Self { rows: vec![vec![0.0; half_bandwidth + 1]; size] }
     }
 
-    /// Number of rows.
     pub fn size(&self) -> usize {
         self.rows.len()
     }
@@ -62,7 +59,6 @@ impl PositiveBand {
 }
 
 impl PositiveFactors {
-    /// Replaces the right-hand side `x` by the solution.
     pub fn solve(&self, x: &mut [f64]) {
         for (at, column) in self.columns.iter().enumerate() {
             let (done, rest) = x.split_at_mut(at + 1);

@@ -25,9 +25,6 @@ pub struct Reproduction<'a> {
 
 impl LowerSplines {
     /// Creates the space for consecutive spans that are joined at least C¹.
-    ///
-    /// # Errors
-    /// Fails if there is no Gauss rule for the degree.
     pub fn of(basis: &Basis, run: &[Span]) -> Result<Self, GeometryError> {
         let count = lower_count(basis, run).unwrap_or(0);
         let mut splines =
@@ -80,9 +77,6 @@ impl LowerSplines {
     }
 
     /// Reproducing kernel of the space at the parameter `xi` on a span of the run.
-    ///
-    /// # Errors
-    /// Fails if there is no Gauss rule for the degree.
     pub fn at(&self, span: &Span, xi: f64) -> Result<Reproduction<'_>, GeometryError> {
         let mut here = vec![0.0; self.count];
         let values = self.basis.evaluate_in(span, xi);

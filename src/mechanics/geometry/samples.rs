@@ -36,7 +36,6 @@ pub fn bases() -> impl Strategy<Value = Basis> {
     ]
 }
 
-/// Spline curves with control points in the square `[-1, 1]²`.
 pub fn spline_curves() -> impl Strategy<Value = SplineCurve> {
     knot_vectors().prop_flat_map(|knots| {
         let points = prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), knots.functions());

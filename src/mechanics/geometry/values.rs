@@ -32,7 +32,6 @@ impl BasisValues {
         values
     }
 
-    /// Derivatives of the basis functions with respect to ξ, of order 0 to `degree`, one row for each order.
     pub(super) fn rows_mut(&mut self) -> &mut [FunctionRow] {
         &mut self.rows[..=self.degree]
     }
@@ -104,7 +103,6 @@ impl<const WIDTH: usize> LowDerivatives<WIDTH> {
         &self.rows[order][..=self.degree]
     }
 
-    /// Point of a curve, and its first and second derivative.
     pub fn combine(&self, points: &[Vec2]) -> [Vec2; 3] {
         [0, 1, 2].map(|order| combine(order, self.derivatives(order), &points[self.first..]))
     }

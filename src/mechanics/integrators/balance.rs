@@ -17,10 +17,10 @@ const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BalanceCoefficients {
-    /// Factor of the inertia in the balance of the step [-].
+    /// Factor by which inertia forces are multiplied in the balance of the step [-].
     pub(super) inertia: f64,
     pub(super) stage: Stage,
-    /// Factor of the forces in the balance of the step [-].
+    /// Factor by which the forces of the stage are multiplied in the balance of the step [-].
     pub(super) weight: f64,
     pub(super) prescribed: BalancedAt,
 }
@@ -108,14 +108,12 @@ impl Equations for StepBalance<'_> {
     }
 }
 
-/// Equations of a step with preallocated vectors and the Newton solver.
 #[derive(Debug, Clone)]
 pub(super) struct StepSolver {
     newton: Newton,
     free_increments: Vec<f64>,
     unknowns: Vec<f64>,
     increments: Vec<f64>,
-    /// Part of the residual that is constant in the iteration of a step.
     constant_residual: Vec<f64>,
     rates: Vec<f64>,
     residual: Vec<f64>,
@@ -165,7 +163,6 @@ impl StepSolver {
         self.balances_rates = true;
     }
 
-    /// Adds `share` times the forces of a stage, evaluated at zero increments, to the balance of the step.
     pub(super) fn carry(&mut self, mechanism: &mut dyn Mechanism, stage: Stage, share: f64) {
         self.increments.fill(0.0);
         mechanism.add_forces(stage, &self.increments, share, &mut self.constant_residual);

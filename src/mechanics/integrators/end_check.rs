@@ -3,8 +3,6 @@
 use super::{Integrator, Interval, Mechanism, StepError};
 use crate::newton::NewtonReport;
 
-/// Integrator that rejects a step if the state at its end violates a condition of the constraints.
-/// The conditions of the constraints depend on the present forces, which are known only after the step. A rejected step is undone.
 pub(super) struct EndCheck {
     integrator: Box<dyn Integrator>,
 }
@@ -29,9 +27,6 @@ impl Integrator for EndCheck {
 }
 
 /// Checks the state at the end of a step. If the check fails, the mechanism returns to its saved state.
-///
-/// # Errors
-/// Fails if the state violates a condition of the constraints.
 pub(super) fn accept_end(
     mechanism: &mut dyn Mechanism,
     interval: Interval,

@@ -4,7 +4,7 @@ use super::balance::{BalanceCoefficients, StepSolver};
 use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
-/// Energy–momentum method in which the section forces belong to a strain later than the middle of the step.
+/// Energy–momentum method whose section forces follow from the strain at a time after the middle of the step.
 /// The method damps high frequencies, and conserves linear and angular momentum to rounding for any step size.
 /// Each step dissipates energy. The method is of first order (docs/theory.md, section 8.2).
 /// A dissipation parameter of zero gives the energy–momentum method, which is of second order.

@@ -26,7 +26,6 @@ impl ExternalError {
     }
 }
 
-/// Two external errors are equal if their messages are equal.
 impl PartialEq for ExternalError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()

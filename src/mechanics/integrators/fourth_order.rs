@@ -57,7 +57,6 @@ impl Integrator for FourthOrder {
     }
 }
 
-/// Takes the substeps of a step. If a substep fails, the mechanism is restored to the start of the step.
 pub(super) fn in_parts(
     mechanism: &mut dyn Mechanism,
     interval: Interval,

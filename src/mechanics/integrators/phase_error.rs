@@ -42,7 +42,8 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Phase of the vibration `q̈ = -ω² q` in one step of generalized-α, from the roots of its recurrence without rounding of the accelerations.
+    /// Phase per step of generalized-α for the vibration `q̈ = -ω² q` with `ω Δt = angle` [rad].
+    /// The phase is measured by the zero crossings of a simulation.
     fn turn_of_generalized_alpha(rho: f64, angle: f64) -> f64 {
         let (inertia, forces) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let (gamma, beta) = (0.5 - inertia + forces, 0.25 * (1.0 - inertia + forces).powi(2));

@@ -14,7 +14,6 @@ pub struct PrescribedKinematics {
     pub accelerations: [Vec<f64>; 2],
 }
 
-/// Prescribed acceleration that the balance of a step uses: the mean over the step, or the value at a fraction of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BalancedAt {
     Mean,

@@ -31,7 +31,7 @@ pub struct SharedFactorWork {
     /// Statistics of the leader, which do not depend on the companions.
     pub leader: NewtonReport,
     /// Statistics of all companions together, or the error of a companion that failed.
-    /// An iteration of a companion is an additional factorisation.
+    /// Each Newton iteration of a companion needs an additional factorisation.
     /// A companion needs iterations if the factors of the leader do not reduce its error sufficiently.
     pub companions: Result<NewtonReport, StepError>,
 }

@@ -128,7 +128,6 @@ enum MotionLine {
 }
 
 impl MotionLine {
-    /// Line along a vector of any nonzero length; `None` for a zero vector.
     fn along(direction: Vec2) -> Option<Self> {
         match (direction.x == 0.0, direction.y == 0.0) {
             (true, true) => None,
@@ -180,7 +179,6 @@ impl JointKind {
         }
     }
 
-    /// Returns true if joints of this type tie rotations, so that they transmit moments.
     pub(crate) fn ties_rotation(self) -> bool {
         self.components().contains(&Component::Rotation)
     }

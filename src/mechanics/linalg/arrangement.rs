@@ -49,8 +49,6 @@ impl Arrangement {
         self.ends.len()
     }
 
-    /// Updates the profile of the matrix.
-    /// The elimination order is computed again if the blocks or the [`DistantBlocks`] couple other unknowns than in the last call.
     pub(super) fn fit(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.touched.clear();
         for block in blocks.iter().filter(|block| block.can_delay_unknowns()) {
@@ -87,7 +85,6 @@ impl Arrangement {
         of_band.enumerate().for_each(|(next, position)| *position = next);
     }
 
-    /// Replaces the order by an order with a small bandwidth. Couplings of unknowns by blocks are included in the bandwidth.
     fn use_level_order(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         self.use_natural_order();
         let position = |&at: &usize| Some(self.position[at]).filter(|&place| place != UNTOUCHED);
@@ -106,8 +103,6 @@ impl Arrangement {
         }
     }
 
-    /// Numbers the unknowns and computes the profile.
-    /// The delayed unknowns of a block follow the last unknown of the band that is coupled to the block.
     fn number(&mut self, blocks: &[Block], distant: &DistantBlocks) {
         let delaying = |block: &&Block| block.can_delay_unknowns() && !block.touched.is_empty();
         self.delayed_after.fill(0);

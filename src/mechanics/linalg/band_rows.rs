@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Consecutive rows of a [`BandedMatrix`](super::BandedMatrix), for adding entries.
 #[derive(Debug)]
 pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
@@ -15,7 +14,6 @@ pub struct BandRows<'a> {
     pub(super) half_bandwidth: usize,
 }
 
-/// Single row of a banded matrix, for adding entries.
 pub struct BandRow<'a> {
     entries: &'a mut [f64],
     row: usize,
@@ -41,7 +39,6 @@ impl BandRows<'_> {
         BandRows { rows: self.rows.clone(), entries: self.entries, ..*self }
     }
 
-    /// Splits the view into the rows before `row` and the remaining rows.
     pub fn split_at(self, row: usize) -> (Self, Self) {
         let Self { rows, entries, stride, centre, half_bandwidth } = self;
         let (before, behind) = entries.split_at_mut((row - rows.start) * stride);
@@ -72,7 +69,6 @@ impl BandRows<'_> {
         BandRow { entries, row, centre: self.centre, half_bandwidth: self.half_bandwidth }
     }
 
-    /// Adds `values` to the entries of `row`, starting at `first_column`.
     #[inline]
     pub fn add_to_row(&mut self, row: usize, first_column: usize, values: &[f64]) {
         let at = self.offset(row, first_column);

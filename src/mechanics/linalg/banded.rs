@@ -49,9 +49,6 @@ impl BandedMatrix {
         self.distant.clear();
     }
 
-    /// Adds a dense block of entries, row by row, for unknowns at any distance from each other.
-    ///
-    /// A matrix with such blocks can be factorised with a local border or by joint elimination only.
     pub(crate) fn add_block(&mut self, unknowns: &[usize], entries: impl Iterator<Item = f64>) {
         self.distant.add(unknowns, entries);
     }
@@ -104,12 +101,10 @@ impl BandedMatrix {
         &mut self.storage
     }
 
-    /// Computes row sizes from the diagonal entries. The pivot search compares rows of different units by their row sizes.
     pub(crate) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }
 
-    /// Sets the squared row sizes. The pivot search compares rows of different units by their row sizes.
     pub(super) fn set_row_sizes(&mut self, sizes: impl Iterator<Item = f64>) {
         self.storage.sizes.iter_mut().zip(sizes).for_each(|(size, given)| *size = given);
     }

@@ -21,7 +21,6 @@ const LARGEST_FILL: f64 = 100.0;
 /// Placeholder index for a band unknown that is not coupled to a block.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
-/// Elimination of all blocks in the border of a band. An error contains the index of the failed block.
 pub(super) struct BlockElimination<'a> {
     pub(super) blocks: &'a mut [Block],
     pub(super) band: &'a BandedMatrix,
@@ -55,7 +54,6 @@ pub(super) struct Block {
     /// Couplings of the block with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
-    /// Unknowns of the band that are coupled to the block, except its own unknowns.
     pub(super) touched: Vec<usize>,
     front: Vec<f64>,
     /// Buffer for a pivot row, divided into vectors of `LANES` entries. The entries up to the pivot are zero.
@@ -194,7 +192,6 @@ impl Block {
         Ok(())
     }
 
-    /// Finds the coupled unknowns of the band, and fills the dense matrix of the block.
     #[inline(always)]
     fn gather(&mut self, band: &BandedMatrix, places: &mut [usize]) {
         let (own, candidates) = (self.own.len(), self.candidates());

@@ -14,7 +14,8 @@ pub enum Pairing {
 /// Number of block exchanges without progress after which pairs are exchanged one by one.
 const MOST_BLOCK_EXCHANGES: usize = 3;
 
-/// Largest magnitude of a negative unknown or response that counts as zero, as a fraction of the largest value.
+/// Largest magnitude of a negative unknown or response that counts as zero [-].
+/// Unknowns are compared with the largest unknown, and responses with the largest entry of `q`.
 const NOTHING: f64 = 1e-13;
 
 /// Solves a linear complementarity problem for the unknowns `z` with the responses `w = A z + q`.

@@ -1,9 +1,7 @@
 //! Dense blocks of entries that may lie outside the band, for couplings that change during a simulation.
 
-/// Sum of small dense matrices. Each matrix couples a few unknowns of a band, at any distance from each other.
 #[derive(Debug, Clone, Default)]
 pub(super) struct DistantBlocks {
-    /// Unknowns of all blocks, one block after the other.
     unknowns: Vec<usize>,
     /// End of the unknowns of each block in the list `unknowns`.
     ends: Vec<usize>,
@@ -21,7 +19,6 @@ impl DistantBlocks {
         self.ends.is_empty()
     }
 
-    /// Adds a block with the given unknowns. The number of entries is the square of the number of unknowns.
     pub(super) fn add(&mut self, unknowns: &[usize], entries: impl Iterator<Item = f64>) {
         self.unknowns.extend(unknowns);
         self.ends.push(self.unknowns.len());

@@ -31,7 +31,6 @@ impl DoubleDouble {
         Self::renormalised(sum, lost + (self.low + other.low))
     }
 
-    /// Product `self · factor` with a factor of 16 digits.
     #[inline(always)]
     pub(super) fn times(self, factor: f64) -> Self {
         let Self { high, low } = Self::product(self.high, factor);
@@ -72,7 +71,6 @@ pub(super) struct DoubleDoublesMut<'a> {
     pub(super) low: &'a mut [f64],
 }
 
-/// Subtracts `factor` times a row from another row. The numbers of both rows have 32 digits.
 #[inline(always)]
 pub(super) fn subtract_multiple<S: Simd>(
     simd: S,
@@ -110,7 +108,6 @@ pub(super) fn subtract_multiple<S: Simd>(
     }
 }
 
-/// Adds `factor` times a row with 16 digits to a row with 32 digits.
 #[inline(always)]
 pub(super) fn add_multiple<S: Simd>(
     simd: S,

@@ -148,7 +148,6 @@ fn eliminate_in_profile<S: Simd>(
 pub(super) struct PanelFactors {
     pub(super) factors: [[f64; PANEL]; PANEL],
     pub(super) inverses: [f64; PANEL],
-    /// True if no multiplier is large and all entries are finite.
     pub(super) is_stable: bool,
 }
 

@@ -25,7 +25,6 @@ struct BorderStrip {
     first_row: Option<usize>,
 }
 
-/// Border of dense columns `B` and rows `C` with their common corner `D`.
 #[derive(Debug, Clone)]
 pub struct FullBorder {
     width: usize,

@@ -10,7 +10,6 @@ const SCALINGS: usize = 4;
 
 type MatrixEntry = (usize, usize, f64);
 
-/// Square sparse matrix with its order of elimination and a border of dense rows and columns.
 #[derive(Debug, Clone)]
 pub(super) struct JointElimination {
     size: usize,
@@ -58,9 +57,6 @@ impl JointElimination {
     }
 
     /// Factorises the matrix with the given entries. Values for the same row and column are added up.
-    ///
-    /// # Errors
-    /// Fails if a column has no nonzero finite pivot.
     pub(super) fn factorise(
         &mut self,
         entries: &[MatrixEntry],

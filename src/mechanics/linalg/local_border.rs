@@ -92,7 +92,6 @@ impl LocalBorder {
         }
     }
 
-    /// Eliminates the blocks, then the band together with the Schur complements of the blocks.
     pub(super) fn factorise(&mut self, band: &BandedMatrix) -> Result<LocalLu<'_>, LinearError> {
         let size = band.size() + self.width();
         let Self { blocks, places, .. } = self;
@@ -115,7 +114,6 @@ impl LocalBorder {
         Ok(LocalLu { blocks, arrangement, factors, right, own, all })
     }
 
-    /// Copies the band and its distant blocks to the matrix, in the order of the arrangement.
     fn copy(&mut self, band: &BandedMatrix) {
         let Arrangement { position, run_ends: runs_to, .. } = &self.arrangement;
         for (row, &place) in position.iter().enumerate().filter(|(_, place)| **place != UNTOUCHED) {

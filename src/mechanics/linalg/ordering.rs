@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 
-/// Numbering of unknowns that are coupled within groups.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Ordering {
     /// New number of each unknown: `position[old]`.

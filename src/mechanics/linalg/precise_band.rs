@@ -29,7 +29,6 @@ impl PreciseBand {
         Self { size, half_bandwidth, high: vec![0.0; count], low: vec![0.0; count] }
     }
 
-    /// Number of rows.
     pub fn size(&self) -> usize {
         self.size
     }
@@ -91,9 +90,6 @@ impl PreciseBand {
     }
 
     /// Factorises the sum of this matrix and `shift` times the matrix `other`.
-    ///
-    /// # Errors
-    /// Fails if a pivot is zero or not finite.
     pub fn factorise(
         &self,
         shift: f64,

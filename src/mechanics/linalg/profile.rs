@@ -57,7 +57,6 @@ impl ProfileMatrix {
         self.storage.rows[at..at + values.len()].copy_from_slice(values);
     }
 
-    /// Computes row sizes from the diagonal entries. The pivot search compares rows of different units by their row sizes.
     pub(super) fn weigh_rows(&mut self) {
         self.storage.weigh_rows();
     }

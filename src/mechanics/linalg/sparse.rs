@@ -4,7 +4,6 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::strips::VectorStrip;
 
-/// Symmetric matrix in compressed row storage.
 #[derive(Debug, Clone)]
 pub struct SymmetricSparse {
     /// Index of the first entry of each row, followed by the total number of entries.
@@ -61,7 +60,6 @@ impl SymmetricSparse {
         values.truncate(kept);
     }
 
-    /// Number of rows.
     pub fn size(&self) -> usize {
         self.starts.len() - 1
     }

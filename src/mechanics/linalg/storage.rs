@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Largest size of the row of a constraint, as a multiple of its second largest squared scaled entry [-].
-/// With the largest size, the elimination loses at most half of the digits.
+/// Upper limit of the squared size of a constraint row, as a multiple of the second largest squared scaled entry of the row [-].
+/// At this limit, the elimination loses at most half of the digits.
 /// Corrections with the same factors recover the lost digits.
 const LARGEST_RATIO: f64 = 1e8;
 
@@ -22,10 +22,7 @@ pub(super) struct Storage {
     pub(super) rows: Vec<f64>,
     pub(super) pivots: Vec<usize>,
     pub(super) last_columns: Vec<usize>,
-    /// Multipliers of the rows below a panel, stored until the panel is accepted.
     pub(super) multipliers: Vec<[f64; PANEL]>,
-    /// Squared sizes of the rows, which are all equal by default. The choice of pivots divides the entries of a row by the size of the row.
-    /// A row exchange also exchanges the row sizes.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -67,7 +64,6 @@ impl Storage {
         storage
     }
 
-    /// Sets the storage to zero and changes its size. Memory is allocated only if the size exceeds all earlier sizes.
     pub(super) fn remake(&mut self, size: usize, half_bandwidth: usize) {
         (self.size, self.reach) = (size, half_bandwidth.max(SMALLEST_HALF_BANDWIDTH));
         self.pivots.resize(size, 0);
@@ -114,10 +110,9 @@ impl Storage {
     }
 
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
-    /// Rows of constraints have no diagonal entry. Their size is the largest scaled entry.
-    /// If one scaled entry is far above all others, the diagonal entry of its column is negligible and would be an inaccurate pivot.
-    /// Sizes of rows of constraints are limited, so that the row of the constraint becomes the pivot row.
-    /// Rows that are coupled only to constraints are treated like rows of constraints.
+    /// The row of a constraint has no diagonal entry. Its size is its largest scaled entry, limited by [`LARGEST_RATIO`].
+    /// Without the limit, a column with a negligible diagonal entry would use this inaccurate entry as pivot.
+    /// A row that is coupled only to constraints is treated like the row of a constraint.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;

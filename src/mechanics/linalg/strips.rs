@@ -2,7 +2,6 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Number of vectors in a strip.
 pub const STRIP_WIDTH: usize = 4;
 
 /// Four interleaved vectors: the entries `i` of all four vectors are followed by the entries `i + 1`.

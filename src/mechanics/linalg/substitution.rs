@@ -45,7 +45,6 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-/// Backward substitution in the eliminated rows. The unknowns of later rows are known.
 pub(super) struct Backward<'a> {
     pub(super) factors: Factors<'a>,
     pub(super) x: &'a mut [f64],
@@ -216,7 +215,6 @@ fn substitute_row(factors: &Factors<'_>, reach: usize, x: &mut [f64], row: usize
     };
 }
 
-/// First unknown of a row, computed from the known unknowns after it.
 #[inline(always)]
 fn back_substitute(row: &[f64], x: &[f64]) -> f64 {
     let known = row[1..].iter().zip(&x[1..]).rev();

@@ -9,7 +9,6 @@ use super::precise_band::{MARGIN, PreciseBand};
 use super::strips::VectorStrip;
 use super::{LinearError, SymmetricSparse};
 
-/// Properties of a symmetric matrix, computed from the pivots of `L D Lᵀ` without row exchanges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivots {
     /// Number of negative pivots, equal to the number of negative eigenvalues (Sylvester's law of inertia; Golub & Van Loan, 4th ed., section 4.4).
@@ -19,7 +18,6 @@ pub struct Pivots {
     pub growth: f64,
 }
 
-/// Factors `L D Lᵀ` of a symmetric band matrix.
 #[derive(Debug, Clone)]
 pub struct SymmetricFactors {
     size: usize,
@@ -45,7 +43,6 @@ impl SymmetricFactors {
         self.pivots
     }
 
-    /// Multipliers below the diagonal in a column of `L`, and the inverse of its pivot.
     pub fn column(&self, column: usize) -> (&[f64], f64) {
         (&self.multipliers[column * self.reach..][..self.reach], self.inverse_pivots[column])
     }

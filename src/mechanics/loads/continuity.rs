@@ -48,9 +48,6 @@ impl Jump {
 
 /// Jump or infinite rate of a schedule just after t = 0.
 /// Returns `None` if the schedule is smooth, has no script function, or if the values are too close for a decision.
-///
-/// # Errors
-/// Fails if the script function fails or a value is not finite.
 pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadError> {
     if !may_jump(schedule) {
         return Ok(None);

@@ -17,7 +17,6 @@ impl FunctionError {
     }
 }
 
-/// Two function errors are equal if their messages are equal.
 impl PartialEq for FunctionError {
     fn eq(&self, other: &Self) -> bool {
         self.0.to_string() == other.0.to_string()

@@ -47,7 +47,7 @@ pub enum LoadKind {
 }
 
 impl LoadKind {
-    /// Magnitude of the load at a schedule factor of 1 [force, force·length, force/length].
+    /// Magnitude of the force, or moment with its sign, at a schedule factor of 1 [force, force·length, force/length].
     pub fn magnitude(&self) -> f64 {
         match self {
             Self::Force { force, .. } | Self::Line { force, .. } => force.norm(),

@@ -1,4 +1,4 @@
-//! Multiples of a time that are exact decimal numbers if possible.
+//! Multiples of a time, rounded once if the time is the inverse of a whole number.
 
 /// Largest relative difference for which a time counts as the inverse of a whole number.
 const WHOLE: f64 = 1e-15;

@@ -57,7 +57,7 @@ const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 2
 /// Largest jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
-/// Largest rounding error of a rate, as a multiple of the rounding error of the values divided by the step length.
+/// Factor in the bound of the rounding error of a rate: the rounding error of the values of the motion is multiplied by it.
 const ROUNDINGS: f64 = 1e3;
 
 /// Ratio of consecutive time spans in the computation of initial derivatives. The first time span is one unit of time.
@@ -126,7 +126,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // A jump of the rate within the step is a kink of the motion. The rate at the end then replaces the rate at the start.
+                // If the rate jumps within the step, the motion has a kink, and the rate at the end of the step replaces the rate at its start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {
@@ -143,9 +143,6 @@ impl PrescribedMotion {
 
     /// Jump of the rate at the start of a step [length/time, rad/time]; `None` if the rate is continuous.
     /// The jump is computed at declared breaks and for controllers. `before` is the rate at the end of the last step.
-    ///
-    /// # Errors
-    /// Fails if the script function fails or a value is not finite.
     pub(crate) fn jump_of_rate(
         &self,
         start: f64,
@@ -167,10 +164,10 @@ impl PrescribedMotion {
         Ok(Some(after - before).filter(|jump| jump.abs() > negligible))
     }
 
-    /// Rejects a motion whose displacement or prescribed rate jumps just after the start.
+    /// Rejects a displacement that jumps or has an infinite rate just after the start, and a prescribed rate that jumps there.
     ///
     /// # Errors
-    /// Fails if there is a jump, the script function fails, or a value is not finite.
+    /// Fails for a rejected motion, if the script function fails, or if a value is not finite.
     pub(crate) fn check_start(&self) -> Result<(), LoadError> {
         match jump_at_start(self.schedule())? {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),

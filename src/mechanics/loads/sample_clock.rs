@@ -71,7 +71,6 @@ impl SampleClock {
         self.last_by(time - self.delay, slack)
     }
 
-    /// Returns true if the command of a sample starts to act at the given time.
     pub(crate) fn is_active_at(&self, time: f64) -> bool {
         self.sample_at(time - self.delay, SAME * self.period).is_some()
     }

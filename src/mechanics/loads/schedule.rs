@@ -218,7 +218,7 @@ impl Schedule {
         Ok(Self::Combined { operation, parts: Rc::new((a, b)), size })
     }
 
-    /// Number of script functions in the schedule. The method [`value`](Self::value) calls each script function once.
+    /// Number of script functions and controllers in the schedule. The method [`value`](Self::value) evaluates each of them once.
     pub fn functions(&self) -> usize {
         match self {
             Self::Function { .. } | Self::Sampled(_) | Self::DigitalController { .. } => 1,
@@ -236,7 +236,6 @@ impl Schedule {
         }
     }
 
-    /// Returns true if the schedule contains a controller that is sampled at every step.
     pub(crate) fn is_sampled_every_step(&self) -> bool {
         match self {
             Self::Sampled(_) => true,

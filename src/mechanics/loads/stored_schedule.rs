@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize, Serializer};
 use super::schedule::MOST_PARTS;
 use super::{LoadError, Operation, Schedule};
 
-/// Term of a stored schedule: an elementary schedule, or an operation on two preceding operands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum StoredTerm {
     Constant(f64),

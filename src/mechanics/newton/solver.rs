@@ -95,7 +95,6 @@ pub struct Newton {
     tolerance: Tolerance,
     tangent: BorderedMatrix,
     correction: Vec<f64>,
-    /// Residual norms after each iteration with its corrections.
     history: Vec<ResidualNorms>,
 }
 
@@ -186,9 +185,6 @@ impl Newton {
     /// Solves the equations almost to rounding error with the factorised tangent of similar equations.
     /// The iteration starts from the solution of the similar equations.
     /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`solve`](Self::solve).
     pub(crate) fn solve_with_shared_factors(
         &mut self,
         equations: &mut impl Equations,

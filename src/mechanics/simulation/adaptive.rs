@@ -18,7 +18,6 @@ const LARGEST: f64 = 1e6;
 /// Smallest step, as a multiple of the rounding error of the present time.
 const ROUNDINGS: f64 = 64.0;
 
-/// Constant data of the step selection in a run.
 pub(super) struct Adaptive {
     pub(super) controller: StepController,
     pub(super) doubling: StepDoubling,

@@ -67,7 +67,6 @@ impl<'a> Axes<'a> {
 }
 
 impl AxisStation {
-    /// Creates a station from values of the basis functions and the initial control points [length].
     fn new(values: BasisValues, degree: usize, drawn: &[Vec2]) -> Self {
         let drawn_slope = values.combine(1, drawn);
         let mut station = Self { values, degree, drawn_slope, drawn_curvature: 0.0 };

@@ -4,7 +4,6 @@ use super::TimeGrid;
 use super::controller::StepSizeState;
 use super::step_retry::StepRetry;
 
-/// Time grid of a run, with the progress within the present step and the present run.
 #[derive(Debug, Clone)]
 pub(super) struct StepClock {
     pub(super) grid: TimeGrid,

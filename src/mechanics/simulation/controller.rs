@@ -33,7 +33,6 @@ pub(super) struct StepController {
     pub(super) largest: f64,
 }
 
-/// Size of the next step, and state of the PI controller. It is part of the state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct StepSizeState {
     /// Size of the next step if no event shortens it [time].
@@ -44,7 +43,6 @@ pub(super) struct StepSizeState {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TriedStep {
-    /// Duration of the step [time].
     pub(super) duration: f64,
     /// Error of the step as a fraction of the allowed error [-].
     pub(super) error: f64,
@@ -100,12 +98,10 @@ impl StepController {
         self.shorten(state, trial.duration, self.room(error).clamp(LEAST_GROWTH, most));
     }
 
-    /// Updates the controller after a step of the given duration [time] whose equations could not be solved.
     pub(super) fn fail(&self, state: &mut StepSizeState, duration: f64) {
         self.shorten(state, duration, SECOND_REJECTION_FACTOR);
     }
 
-    /// Ratio of the step size with the allowed error to the size of the last step, reduced by a safety margin.
     fn room(&self, error: f64) -> f64 {
         SAFETY * power(error, -1.0 / self.order)
     }

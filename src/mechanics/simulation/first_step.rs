@@ -32,7 +32,6 @@ pub(super) fn length_of(scene: &Scene) -> f64 {
     scene.size().or_else(of_particles).unwrap_or(1.0)
 }
 
-/// Largest start speed of particles and rigid bodies [length/time].
 fn start_speed(scene: &Scene) -> f64 {
     let nodes = scene.velocities.iter().map(|start| start.velocity);
     let bodies = scene.rigid_bodies.iter().map(|body| body.motion.velocity);

@@ -54,7 +54,7 @@ impl Invariant {
         }
     }
 
-    /// Description of the invariant in words and symbols.
+    /// Description of the invariant in words and symbols, such as `energy E - W + D`.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Energy => "energy E - W + D",
@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Data for the smallest scales by which the drifts of invariants are divided.
+/// Properties of a scene that determine lower bounds of the scales by which drifts of invariants are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
@@ -191,11 +191,11 @@ impl History {
     }
 
     /// Difference of an invariant from its value in the first row, divided by a scale.
-    /// The scale of a drift is the largest energy, momentum or angular momentum of all rows.
     /// The gap of joints is not divided by a scale.
     ///
-    /// If all bodies have zero momentum, the scale of momenta is at least `sqrt(2 m K)`, with the mass `m` and the kinetic energy `K`.
-    /// The scale of momenta is also at least the sum of the magnitudes of all exchanged impulses.
+    /// The scale of the energy is the largest energy or work of all rows.
+    /// The scale of the momentum is the larger of the exchanged impulses and `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`.
+    /// The scale of the angular momentum is the largest of the angular momenta, the exchanged angular impulses, and `sqrt(2 m K)` times a length.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return Vec::new() };
         let scale = self.scale(invariant, &first);

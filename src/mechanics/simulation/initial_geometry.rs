@@ -5,7 +5,6 @@ use std::cell::OnceCell;
 use super::{Outline, Warning};
 use crate::system::SystemError;
 
-/// Properties of the initial configuration: outlines of the beams, lowest period of vibration, and warnings. Outlines and period are cached.
 #[derive(Debug, Default)]
 pub(super) struct InitialGeometry {
     outlines: OnceCell<Vec<Outline>>,

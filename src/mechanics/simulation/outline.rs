@@ -122,7 +122,7 @@ impl Outline {
         breaks.windows(2).flat_map(within).chain(breaks.last().copied()).collect()
     }
 
-    /// Number of outline points per station of the axis. A span has two stations, a straight span has one station.
+    /// Number of outline points per station of the axis. A span has two stations, or one station for degree 1.
     pub fn places_a_station(degree: usize) -> usize {
         pieces(degree).div_ceil(2)
     }

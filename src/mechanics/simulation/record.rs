@@ -14,16 +14,11 @@ pub(super) struct RunRecord {
     pub(super) trajectory: Trajectory,
     pub(super) recording: Recording,
     pub(super) permanent_rows: usize,
-    /// Sensors of the columns that follow the standard columns.
     pub(super) sensors: Vec<Sensor>,
     reader: SensorReader,
 }
 
 impl RunRecord {
-    /// Creates a record whose first row is the start of a scene.
-    ///
-    /// # Errors
-    /// Fails if a sensor cannot be located, or if two columns have the same name.
     pub(super) fn new(scene: &Scene, model: &mut System) -> Result<Self, SystemError> {
         let sensors = scene.history_sensors();
         let columns = sensors.iter().map(|sensor| ExtraColumn {
@@ -47,10 +42,6 @@ impl RunRecord {
         Ok(record)
     }
 
-    /// Locates the sensors again, after a release or after a rewind to a time before a release.
-    ///
-    /// # Errors
-    /// Fails if a sensor can no longer be located.
     pub(super) fn relocate_sensors(
         &mut self,
         scene: &Scene,

@@ -91,7 +91,6 @@ impl Resampling {
         Some((plan, taken))
     }
 
-    /// Discards a paused step. Returns true if a step was paused.
     pub(super) fn abandon(&mut self) -> bool {
         self.half_step.take().is_some()
     }

@@ -375,7 +375,6 @@ impl Simulation {
     }
 }
 
-/// Checks the parameter of a method, and that the method supports all objects of the scene.
 fn check_method(scene: &Scene, method: Method) -> Result<(), SimulationError> {
     method.check()?;
     let name = method.entry().name;

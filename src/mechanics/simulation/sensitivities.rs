@@ -89,10 +89,6 @@ impl Sensitivities {
         })
     }
 
-    /// Takes a step of the main run and of its perturbed runs.
-    ///
-    /// # Errors
-    /// Fails if the step of the main run fails.
     pub(super) fn step(
         &mut self,
         model: &mut System,
@@ -137,9 +133,6 @@ impl Sensitivities {
     /// Applies a release of the main run to the perturbed runs.
     /// Positions and rates are continuous at the release, and the time of the release does not depend on parameters.
     /// A release changes only the numbering of the derivatives of the state.
-    ///
-    /// # Errors
-    /// Fails if a perturbed scene cannot be built again, although it was built before.
     pub(super) fn release(
         &mut self,
         release: usize,
@@ -188,7 +181,6 @@ impl Sensitivities {
         }
     }
 
-    /// Stops the computation of derivatives. If it has already been stopped, the earlier reason is kept.
     pub(super) fn disable(&mut self, reason: DerivativeError) {
         let _: &mut DerivativeError = self.end_reason.get_or_insert(reason);
     }
@@ -207,10 +199,6 @@ impl Sensitivities {
             .map(|perturbation| (perturbation.name.as_str(), perturbation.distance))
     }
 
-    /// Perturbed run for a parameter.
-    ///
-    /// # Errors
-    /// Fails if the run has no derivatives.
     pub(super) fn perturbed(
         &self,
         parameter: usize,

@@ -33,7 +33,6 @@ impl Snapshot {
     }
 }
 
-/// Snapshots of a simulation: the first snapshot, and as many recent snapshots as the memory limit allows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Snapshots {
     /// Memory limit [bytes].
@@ -91,7 +90,6 @@ impl Snapshots {
         Some(if oldest == first + 1 { first } else { oldest })
     }
 
-    /// Snapshot after a number of steps; `None` if this snapshot is not stored.
     pub(super) fn find(&self, steps: usize) -> Option<&Snapshot> {
         if let Some(first) = self.first.as_ref().filter(|first| first.steps() == steps) {
             return Some(first);

@@ -1,7 +1,7 @@
 //! Frequency spectrum of a column over time.
 //!
 //! The mean is subtracted, and the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB).
-//! Then, zeros are appended.
+//! Zeros are appended to the weighted rows before the Fourier transform.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
 //! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
 //! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
@@ -15,7 +15,7 @@ use crate::system::rounded;
 /// Largest relative difference of two row spacings that count as equal.
 const EVEN: f64 = 1e-6;
 
-/// Smallest number of rows to which the window function is applied.
+/// Smallest number of rows of a column whose spectrum is computed.
 const FEWEST: usize = 16;
 
 /// Smallest ratio of the length with appended zeros to the original length of the column.

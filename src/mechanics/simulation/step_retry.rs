@@ -62,7 +62,6 @@ impl StepRetry {
         self.covered == PARTS
     }
 
-    /// Returns the remaining part of the step; `None` if the step is completed.
     pub(super) fn remaining(self) -> Option<Self> {
         (!self.is_done()).then_some(self)
     }

@@ -15,7 +15,6 @@ impl Stepper {
         Self { integrator, sensitivities: None }
     }
 
-    /// Takes one step over an interval, and computes the derivatives of the step if they are enabled.
     pub(super) fn step(
         &mut self,
         model: &mut System,

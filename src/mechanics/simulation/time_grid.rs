@@ -121,12 +121,10 @@ impl TimeGrid {
         self.mark_reached(now);
     }
 
-    /// Records that a time is reached. The next search for an end time starts at this time.
     pub(crate) fn mark_reached(&mut self, now: f64) {
         self.passed = self.points_up_to(now, self.passed);
     }
 
-    /// Number of grid times up to `now`, at least `least`.
     fn points_up_to(&self, now: f64, least: u64) -> u64 {
         // The search for the number of grid times starts slightly below the result.
         let near = (((now - self.start) / self.dt) as u64).saturating_sub(2).min(MOST_POINTS);

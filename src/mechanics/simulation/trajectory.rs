@@ -71,7 +71,6 @@ impl Trajectory {
         &self.numbers
     }
 
-    /// Returns a trajectory with the given configurations; `None` if the data are inconsistent.
     pub(super) fn with_configurations(
         &self,
         offered: usize,

@@ -19,10 +19,9 @@ const REPEAT_FACTOR: f64 = 2.0;
 /// Factor by which the warning recommends to reduce the step size if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
-/// Smallest number of steps per period for which no warning is given.
+/// Number of steps per period of a vibration with the step size that a warning recommends.
 const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
-/// Cause of rate changes within a step, other than a vibration.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
     /// Name of a damper, a damped material, or a drag element.
@@ -173,7 +172,7 @@ pub enum Warning {
         dt: f64,
         /// Energy returned in the backward substep [energy].
         returned: f64,
-        /// Energy dissipated in the whole step [energy]; negative if the energy of the motion grew.
+        /// Energy dissipated in the whole step [energy]; negative if dampers added energy.
         dissipated: f64,
     },
     /// Prescribed motion with a kink within a step.

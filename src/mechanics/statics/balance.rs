@@ -6,7 +6,6 @@ use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, ResidualNorms};
 use crate::system::{StaticForces, System, UnknownKind};
 
-/// Static forces of a model, and the scale of their residual.
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
     /// Length by which moments are divided for the scale of forces, if the loads consist of moments only [length].
@@ -32,8 +31,6 @@ impl Balance<'_> {
     }
 }
 
-/// Equations of equilibrium for a given load factor.
-/// A positive rate gives a pseudo-transient step with a viscous damping proportional to the mass.
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,

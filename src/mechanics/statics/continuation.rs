@@ -58,9 +58,8 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step has nearly the same direction as this step.
-    /// If the directions differ, the next step may have reached another branch of the path, for example near the buckling load of a column.
-    /// Smaller steps are needed if the next step has reached another branch.
+    /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
+    /// Otherwise, the next step may have reached another branch of the path, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -186,7 +185,6 @@ impl<'s> Continuation<'s> {
         is_beyond.then_some(vertex.distance - last.distance)
     }
 
-    /// Solves for a load factor. The step is halved if no equilibrium is found, or if the equilibrium does not continue the path.
     fn solve_for_factor(&mut self, factor: f64, halvings: u32) -> Result<(), StaticsError> {
         self.query_monitor()?;
         let from = self.path.load_factor();
@@ -224,12 +222,12 @@ impl<'s> Continuation<'s> {
         goes_on
     }
 
-    /// Number of negative eigenvalues of the stiffness. The effect of follower loads is not included.
+    /// Number of negative eigenvalues of the stiffness; zero for scenes with follower loads.
     pub(super) fn unstable_directions(&self) -> usize {
         self.unstable_directions_with_inertia(0.0)
     }
 
-    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` [1/time²] times the inertia; zero for scenes with follower loads.
     pub(super) fn unstable_directions_with_inertia(&self, rate: f64) -> usize {
         if self.model.follower().is_some() {
             0
@@ -238,7 +236,6 @@ impl<'s> Continuation<'s> {
         }
     }
 
-    /// Solves for an equilibrium near the last equilibrium, for a given load factor. Returns the number of iterations.
     fn find(&mut self, factor: f64) -> Result<usize, StepFailure> {
         let found = match self.balance_from(factor, 0.0) {
             Ok(_) if self.distance_moved() > self.farthest(factor) => Err(StepFailure::FarSolution),

@@ -11,7 +11,7 @@ use crate::loads::PrescribedMotion;
 use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
-/// Largest sum of forces that counts as zero, as a fraction of the sum of their magnitudes.
+/// Largest unbalanced force or moment that counts as zero, as a fraction of the largest internal force or moment.
 const ROUNDING: f64 = 1e-12;
 
 /// Stability of an equilibrium.
@@ -97,7 +97,7 @@ impl Equilibrium {
     /// Calls a function with the model at every point of the path, in order.
     ///
     /// # Errors
-    /// Fails in the same cases as [`find`](Self::find).
+    /// Fails if the scene cannot be built again, although it was built before.
     pub fn along_path<T>(&self, look: impl Fn(&System) -> T) -> Result<Vec<T>, StaticsError> {
         let mut model = at_rest(&self.scene, &mut |_| true)?;
         let at = |point: &PathPoint| {
@@ -216,7 +216,6 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-/// Model in its initial state, with the schedules of its loads evaluated at the time `loading.time`.
 fn prepare(
     scene: &Scene,
     loading: &Loading,

@@ -38,7 +38,8 @@ pub enum Control {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
     /// Longest distance between consecutive equilibria [-, rad].
-    /// The distance is a root mean square over all control points: of displacements divided by the longest beam, and of rotations.
+    /// The distance is the root mean square of displacements and rotations over all control points.
+    /// Displacements are divided by the length of the longest beam.
     pub longest: f64,
     /// Largest number of points of the path.
     pub points: usize,

@@ -34,7 +34,6 @@ impl EquilibriumPath {
         self.points.pop();
     }
 
-    /// Appends a point with the configuration of the last point, for a dry run.
     pub(super) fn append_dry_point(&mut self, load_factor: f64) {
         let last = self.points.last().cloned();
         self.points.extend(last.map(|point| PathPoint { load_factor, ..point }));
@@ -62,7 +61,6 @@ impl EquilibriumPath {
     }
 }
 
-/// Extremum of the load factor between three equilibria.
 pub(super) struct LoadTurningPoint {
     /// Distance of the extremum from the first equilibrium, in the norm of displacements and rotations.
     pub(super) distance: f64,

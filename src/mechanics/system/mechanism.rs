@@ -85,7 +85,6 @@ impl System {
         }
     }
 
-    /// Starts the motion. Impulses that adjusted the velocities are discarded. The first step is predicted from the present rates.
     pub(super) fn begin(&mut self) {
         self.exchanged.total = WorkAndImpulse::default();
         let inertia = self.diagonal_of_inertia();

@@ -29,7 +29,6 @@ pub(super) fn notify_workers() {
     HANDED_OUT.fetch_add(1, Ordering::Release);
 }
 
-/// Makes this thread of the pool poll for new tasks for some time after its work.
 pub(super) fn keep_polling() {
     let before = HANDED_OUT.load(Ordering::Acquire);
     rayon_core::spawn(move || {

@@ -11,7 +11,7 @@ use super::pencil::Pencil;
 use crate::elementary::hypot;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 
-/// Largest scalar product of two orthogonal columns, as a fraction of the product of their lengths.
+/// Largest scalar product of two columns that count as orthogonal, as a fraction of the product of their lengths.
 const ORTHOGONAL: f64 = 1e-15;
 
 /// Largest number of passes over all pairs of columns. About twelve passes are usual.
@@ -23,9 +23,6 @@ const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.
 /// Degrees of freedom without inertia have the eigenvalue zero.
-///
-/// # Errors
-/// Fails if the search is stopped.
 pub(super) fn all_pairs(
     pencil: &Pencil,
     factors: &SymmetricFactors,

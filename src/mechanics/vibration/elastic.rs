@@ -11,7 +11,6 @@ use crate::linalg::{STRIP_WIDTH, VectorStrip};
 
 pub(super) type FourVectors = [f64; STRIP_WIDTH];
 
-/// Stiffness of all spans and springs of a scene: rows of strains and their stiffnesses.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,

@@ -13,11 +13,11 @@ use crate::linalg::{
     STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
 };
 
-/// Largest residual of a converged pair, as a fraction of the norm of the inverted stiffness.
+/// Largest residual of a converged pair, as a fraction of its eigenvalue.
 /// The error of the eigenvalue is of the order of the squared residual.
 const SETTLED: f64 = 1e-8;
 
-/// Ratio of the lengths of a vector after and before orthogonalisation. With a smaller ratio, the result consists of rounding errors.
+/// Largest ratio of the lengths of a vector after and before orthogonalisation for which the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
 /// Smallest ratio of the lengths of a vector after and before orthogonalisation that makes a second orthogonalisation unnecessary.
@@ -68,7 +68,6 @@ impl<'a> Lanczos<'a> {
         search
     }
 
-    /// Number of vectors that a search for `count` modes stores.
     pub(super) fn width(count: usize) -> usize {
         (2 * count + 32).next_multiple_of(STRIP_WIDTH)
     }

@@ -23,7 +23,7 @@ pub struct Mode {
     pub rounding: f64,
     /// Residual of the mode [-], a measure of its accuracy.
     /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
-    /// The residual is an upper bound of the relative error of the squared frequency plus the square of the lowest bending frequency.
+    /// The residual bounds the relative error of the sum of the squared frequency and the squared lowest bending frequency.
     /// A second bound of the relative error is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
@@ -65,7 +65,6 @@ pub struct Modes {
     /// Control points of all bodies in the configuration [length].
     points: Vec<Vec<Vec2>>,
     displacements: Vec<Vec<Vec<Vec2>>>,
-    /// Decay rate of each mode [1/time].
     decay_rates: Vec<f64>,
 }
 

@@ -31,7 +31,8 @@ pub(super) fn size(at: ComplexNumber) -> f64 {
 pub(super) struct Quadratic {
     /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,
-    /// Matrix with a row for each mode and a column for each damped rate [1/time^½]. Its product with its transpose is the damping.
+    /// Matrix with a row for each mode and a column for each damped rate [1/time^½].
+    /// The product of this matrix and its transpose is the damping matrix.
     pub(super) dampers: DMatrix<f64>,
 }
 

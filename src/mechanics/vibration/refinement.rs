@@ -31,9 +31,6 @@ pub(super) struct RefinedPair {
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
 /// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
 /// The residual includes these components.
-///
-/// # Errors
-/// Fails if the refinement is stopped.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,
@@ -217,7 +214,6 @@ impl OtherPairs<'_> {
         self.values[0] > WIDE * self.values[count - 1]
     }
 
-    /// Removes the components of all pairs from the given displacements.
     fn clean(&self, movements: &mut [FourVectors]) {
         for (strip, momenta) in self.strips.iter().zip(self.momenta) {
             let parts = products(momenta, movements);
@@ -226,7 +222,7 @@ impl OtherPairs<'_> {
     }
 }
 
-/// Converts inertia forces to residual forces by subtracting the internal forces of the shape.
+/// Replaces `M φ` in `r` by the residual force `ω² M φ - K φ` of each shape `φ`.
 fn subtract_restoring(r: &mut [FourVectors], squares: &FourVectors, shapes: &Shapes) {
     for (r, resisting) in r.iter_mut().zip(&shapes.internal_forces) {
         for ((r, resisting), square) in r.iter_mut().zip(resisting).zip(squares) {

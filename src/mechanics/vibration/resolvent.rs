@@ -1,7 +1,7 @@
 //! Damped vibrations with a shift: eigenvalues of the quadratic problem near the shift (docs/theory.md, section 15).
 //!
 //! For a positive shift, the shifted inverse is bounded for damping of any strength (Lumer & Phillips 1961).
-//! A dashpot of any strength acts as a projection, whose singular vectors are computed by one-sided rotations.
+//! One-sided rotations decompose the damping into dashpots along orthogonal directions. An infinitely strong dashpot fixes its direction.
 //! Each reported eigenvalue is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
 //! The forces of strong dashpots are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 
@@ -50,9 +50,6 @@ pub(super) struct Resolvent {
 
 impl Resolvent {
     /// Creates the problem for a shift whose square exceeds `-ω²` of all unstable modes with squared frequency `ω²`.
-    ///
-    /// # Errors
-    /// Fails if the search is stopped.
     pub(super) fn of(
         problem: &Quadratic,
         shift: f64,
@@ -81,9 +78,6 @@ impl Resolvent {
     }
 
     /// All eigenvalues as multiples of the shift, in increasing order of magnitude. The eigenvalues near the shift are accurate.
-    ///
-    /// # Errors
-    /// Fails if the search does not converge.
     pub(super) fn numbers(&self) -> Result<Vec<ComplexNumber>, VibrationError> {
         let matrix = self.matrix();
         let count = matrix.nrows();

@@ -26,10 +26,11 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Largest relative difference of two shifted squared frequencies that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
-/// Squared frequency that counts as zero, as a multiple of its rounding error.
+/// Largest squared frequency that counts as zero, as a multiple of its rounding error.
 const ROUNDING: f64 = 64.0;
 
-/// Squared frequency that counts as zero, as a fraction of the shift. Rounding gives rigid motions smaller squared frequencies than this limit.
+/// Largest squared frequency that counts as zero, as a fraction of the shift.
+/// Rounding gives rigid motions smaller squared frequencies than this limit.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a smaller shift unnecessary.

@@ -14,13 +14,10 @@ const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20,
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveStyle {
-    /// Every dot of a line is drawn.
     Solid,
-    /// Every third dot of a line is drawn.
     Dotted,
 }
 
-/// Raster of dots in characters.
 #[derive(Clone, Debug)]
 pub struct Dots {
     columns: usize,

@@ -15,9 +15,7 @@ pub enum PictureMark {
     Particle,
     Slider,
     Joint,
-    /// Support that fixes the position.
     Hinge,
-    /// Support that fixes position and angle.
     Clamp,
 }
 
@@ -42,7 +40,6 @@ const LEAST: (usize, usize) = (12, 5);
 /// Number of empty dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
 
-/// Picture of a configuration as text for a terminal: beams and marks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfigurationPicture {
     title: String,
@@ -75,7 +72,6 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Adds a beam in a reference configuration. The beam is dotted, and dimmer on terminals with colours.
     pub fn reference_beam(mut self, points: Vec<Point>) -> Self {
         self.reference_beams.push(points);
         self

@@ -48,7 +48,6 @@ pub struct BodyShape {
     pub corners: Vec<(f64, f64)>,
 }
 
-/// Symbol at a point, for a support, joint, slider or drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolMark {
     pub symbol: Symbol,
@@ -75,7 +74,6 @@ pub struct SpringShape {
     pub until: Option<f64>,
 }
 
-/// Load as a function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
     /// Symbol of the load. For a moment, only the first component of the value is used, positive counter-clockwise.
@@ -85,14 +83,12 @@ pub struct Arrow {
     pub values: Vec<Point>,
 }
 
-/// Point whose path is drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trail {
     pub name: String,
     pub at: PointCombination,
 }
 
-/// Quantity along all beams that determines their colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColourField {
     pub name: String,
@@ -103,7 +99,6 @@ pub struct ColourField {
     pub values: Vec<Vec<f64>>,
 }
 
-/// Quantity as a function of time, which is plotted below the motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeCurve {
     pub name: String,
@@ -121,16 +116,12 @@ pub struct ViewerData {
     pub beams: Vec<BeamShape>,
     pub particles: Vec<ParticleShape>,
     pub bodies: Vec<BodyShape>,
-    /// Supports, joints, sliders, drives.
     pub signs: Vec<SymbolMark>,
     pub springs: Vec<SpringShape>,
-    /// Walls and discs with their names.
     pub obstacles: Vec<(String, PlacedSymbol)>,
     pub arrows: Vec<Arrow>,
     pub trails: Vec<Trail>,
     pub fields: Vec<ColourField>,
-    /// Times of the rows of `columns`.
     pub rows: Vec<f64>,
-    /// Quantities that are plotted over `rows`.
     pub columns: Vec<TimeCurve>,
 }

@@ -16,7 +16,6 @@ use crate::output::symbol::{PlacedSymbol, Symbol};
 
 const TEMPLATE: &str = include_str!("page/template.html");
 const STYLE: &str = include_str!("page/style.css");
-/// Scripts of the page, in the order of their dependencies.
 const PROGRAMS: [&str; 9] = [
     include_str!("page/reading.js"),
     include_str!("page/film.js"),
@@ -31,7 +30,7 @@ const PROGRAMS: [&str; 9] = [
 
 /// Number of rounding intervals between the smallest and the largest value of a field. A screen shows fewer different shades.
 const SHADES: u16 = 255;
-/// Number of rounded values of a load component between -1 and 1. The number is odd, so that zero is one of the values.
+/// Number of values to which a load component between -1 and 1 is rounded. The number is odd, so that zero is one of the values.
 const LOAD_STEPS: u16 = 4095;
 /// Number of steps between 0 and 1 for rounding of weights. The rounding error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
@@ -149,7 +148,6 @@ fn packed_sign(sign: &SymbolMark) -> Value {
     })
 }
 
-/// Packs a spring. An anchor on the ground is stored as a point without weights.
 fn packed_spring(spring: &SpringShape) -> Value {
     let anchor = |anchor: &SpringEnd| match anchor {
         SpringEnd::Moving(at) => place(at, 0),
@@ -159,7 +157,6 @@ fn packed_spring(spring: &SpringShape) -> Value {
     json!({ "kind": spring.symbol.name(), "name": spring.name, "anchors": anchors, "until": spring.until })
 }
 
-/// Packs a beam as the index of its first point and its shape. Beams with the same mesh share a shape.
 fn packed_beam(beam: &BeamShape, shapes: &mut Vec<Value>) -> Value {
     let first = beam.line.iter().map(|place| place.first).min().unwrap_or(0);
     let shape = json!({
@@ -182,7 +179,6 @@ fn place(place: &PointCombination, from: usize) -> Value {
     json!([place.first - from, weights])
 }
 
-/// Packs the coordinates of all points, with the same resolution along both axes.
 fn packed_points(viewer_data: &ViewerData) -> Result<(Value, Value), OutputError> {
     let along = |pick: fn(&Point) -> f64| {
         Quantisation::over(viewer_data.points.iter().flatten().map(pick), FINEST)

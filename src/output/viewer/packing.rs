@@ -17,14 +17,12 @@ pub const FINEST: u16 = MISSING - 1;
 /// Rounding of numbers to steps: `number = origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantisation {
-    /// Number for code 0.
     pub origin: f64,
     /// Rounding step: difference between the numbers of consecutive codes. Zero if all numbers are equal.
     pub step: f64,
 }
 
 impl Quantisation {
-    /// Creates the rounding with the given number of steps between the smallest and the largest finite number.
     pub fn over(numbers: impl Iterator<Item = f64>, steps: u16) -> Self {
         let finite = numbers.filter(|number| number.is_finite());
         let (least, greatest) = finite

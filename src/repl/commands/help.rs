@@ -35,10 +35,6 @@ pub fn help(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Help on a name of the session or the language.
-///
-/// # Errors
-/// Fails if no help exists for this name. The error contains suggestions.
 pub fn help_on(shell: &mut Shell, name: &str) -> Result<Vec<NameInfo>, Diagnostic> {
     let mut found = Vec::new();
     let mut name_of_page = in_language(shell, name);

@@ -18,7 +18,7 @@ use crate::script::presentation::quantities::{BeamQuantity, NAMES};
 use crate::script::studies::error_estimate::{ErrorEstimate, QuantityError};
 use crate::simulation::Simulation;
 
-/// Maximum and minimum width of a value in the list of variables.
+/// Maximum and minimum width of a value in the list of variables [columns].
 const VALUE_WIDTH: usize = 70;
 const LEAST_VALUE_WIDTH: usize = 12;
 
@@ -81,7 +81,6 @@ pub fn invariants(shell: &mut Shell, _: &str) -> CommandOutcome {
     shell.show_latest_result("invariants()")
 }
 
-/// Shows the estimated errors of the last simulation: a table of all quantities, or a chart of the named columns.
 pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let words = operand.split([',', ' ']).map(|name| name.trim_matches('"').to_owned());
     let columns: Vec<String> = words.filter(|name| !name.is_empty()).collect();

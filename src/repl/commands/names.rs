@@ -57,7 +57,6 @@ pub fn known(shell: &mut Shell, name: &str) -> Option<NameInfo> {
     (!page.parts.is_empty()).then(|| NameInfo { shown: text_of(shell, name), page })
 }
 
-/// Source text of a function of the session without its doc comments. The help shows the doc comments separately.
 fn text_of(shell: &Shell, name: &str) -> Option<String> {
     let text = shell.session().record().definition(name)?;
     let lines = text.lines().skip_while(|line| line.trim_start().starts_with("///"));

@@ -24,7 +24,6 @@ pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static
     }
 }
 
-/// Returns true if a text may be the name of a help topic, such as `sim.run_to` or `std/sections`.
 fn is_name(text: &str) -> bool {
     let begins = text.starts_with(|letter: char| letter.is_alphabetic() || letter == '_');
     begins && text.chars().all(|letter| letter.is_alphanumeric() || "_.:/".contains(letter))

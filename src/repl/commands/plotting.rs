@@ -51,7 +51,6 @@ pub fn plot(shell: &mut Shell, operand: &str) -> CommandOutcome {
     }
 }
 
-/// Splits the operand of `:plot` into its curves and the map of options at its end. A comma between curves and map is optional.
 fn with_options(operand: &str) -> (&str, Option<&str>) {
     let mut depth = 0;
     for token in scan(operand) {
@@ -186,7 +185,7 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Success
 }
 
-/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn with the first column.
+/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn in the chart of the first column.
 fn charts(
     shell: &Shell,
     options: &Map,
@@ -325,7 +324,6 @@ fn mentions<'s>(shell: &'s Shell, text: &str) -> impl Iterator<Item = Simulation
     named.into_iter()
 }
 
-/// Simulation whose states an expression uses: the simulation that the expression names, or the last used simulation.
 fn subject(shell: &Shell, text: &str) -> Result<Option<SimulationHandle>, Diagnostic> {
     let mut named = mentions(shell, text);
     match (named.next(), named.next()) {

@@ -13,13 +13,11 @@ pub struct Command {
     /// Operand as shown in the help; empty without an operand.
     pub placeholder: &'static str,
     pub summary: &'static str,
-    /// Further help text; may be empty.
     pub doc: &'static str,
     /// Function that executes the command. Its argument is the text after the command name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
-/// Help command, which can also be written `?`.
 pub const HELP: Command = Command {
     name: ":help",
     operand: CommandOperand::Name,
@@ -38,7 +36,6 @@ pub const QUIT: Command = Command {
     body: session::quit,
 };
 
-/// All commands of the prompt, in the order of the help.
 pub const COMMANDS: &[Command] = &[
     HELP,
     Command {
@@ -174,7 +171,6 @@ pub const COMMANDS: &[Command] = &[
 ];
 
 impl Command {
-    /// Usage line of the command, such as `:run TIME`.
     pub fn usage(&self) -> String {
         format!("{} {}", self.name, self.placeholder).trim_end().to_owned()
     }

@@ -8,7 +8,6 @@ use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 pub struct Candidate {
     pub display: String,
     pub replacement: String,
-    /// One-line summary; may be empty.
     pub summary: String,
 }
 
@@ -95,7 +94,6 @@ pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> 
     all
 }
 
-/// Returns true if the letters of `typed` occur in `name` in the same order, and the first letters are equal.
 fn is_subsequence(name: &str, typed: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = typed.chars().flat_map(char::to_lowercase);

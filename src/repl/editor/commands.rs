@@ -63,8 +63,6 @@ fn options_at(operand: &str) -> Option<usize> {
     (at == 0 || operand[..at].ends_with([' ', ','])).then_some(at)
 }
 
-/// Completes an operand that is a map of options like an argument of the unfinished call `call`.
-/// An operand that is not a map is completed like an expression.
 fn in_call(
     call: &str,
     operand: &str,

@@ -87,7 +87,6 @@ struct InputReader<'t> {
     outer: Vec<BracketLevel<'t>>,
     level: BracketLevel<'t>,
     line: usize,
-    /// True if the last token requires a continuation.
     is_incomplete: bool,
     /// True if the last token ends a value. A bar after a value is an operator.
     is_value: bool,
@@ -146,7 +145,6 @@ impl<'t> InputReader<'t> {
         ParseOutcome::Incomplete
     }
 
-    /// Handles a string literal without a closing quote on its line. Only a backslash continues the literal on the next line.
     fn read_open_text(&mut self, written: &str) -> ParseOutcome {
         let backslashes = written.len() - written.trim_end_matches('\\').len();
         ParseOutcome::Final(if backslashes % 2 == 1 { Open(0) } else { Complete })

@@ -7,9 +7,9 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 /// Place where a name is defined. Ranges are bytes of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Definition<'t> {
-    /// In the same text. Functions of one name may have several definitions.
+    /// The definitions are in the same text. Functions of one name may have several definitions.
     Here(Vec<Range<usize>>),
-    /// In an imported file. Without a name, the file itself is meant.
+    /// The definition is in an imported file. Without a name, it is the file itself.
     Imported {
         /// Path in the import.
         path: &'t str,
@@ -57,7 +57,7 @@ pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
 /// Largest number of parameters of a function. It limits the run time for texts with errors.
 const MOST_PARAMETERS: usize = 100;
 
-/// Tokens between the word `fn` and the parameters, as in `fn number.twice()`.
+/// Largest number of tokens between the word `fn` and the parameters, as in `fn number.twice()`.
 const LONGEST_NAME: usize = 3;
 
 struct TokenizedText<'t> {
@@ -72,9 +72,9 @@ struct Scope {
     /// True for the body of a function, where outer variables are not visible.
     is_function: bool,
     declared: Vec<usize>,
-    /// Name in a declaration whose value is not complete.
+    /// Token index of the name in a declaration whose value is not complete.
     pending: Option<usize>,
-    /// Names that are visible in the next block: parameters, loop variables, and errors.
+    /// Token indices of the names that are visible in the next block: parameters, loop variables, and variables of `catch`.
     next_block: Vec<usize>,
     next_is_function: bool,
 }
@@ -96,7 +96,6 @@ impl<'t> TokenizedText<'t> {
         self.tokens.get(index).is_some_and(|token| token.kind == TokenKind::Word)
     }
 
-    /// Path in quotes after the word `import`.
     fn imported_path(&self, index: usize) -> Option<&'t str> {
         let is_import = index.checked_sub(1).is_some_and(|before| self.written(before) == "import");
         self.written(index).strip_prefix('"').filter(|_| is_import)?.strip_suffix('"')
@@ -113,7 +112,6 @@ impl<'t> TokenizedText<'t> {
         names.filter(|at| self.written(*at) == name).map(|at| self.range(at)).collect()
     }
 
-    /// Name of the function that begins with the word `fn` at `start`: the last word before the parameters.
     fn name_of_function(&self, start: usize) -> Option<usize> {
         let head = start + 1..self.tokens.len().min(start + 1 + LONGEST_NAME);
         let name = head.take_while(|at| self.written(*at) != "(").last();
@@ -138,7 +136,6 @@ impl<'t> TokenizedText<'t> {
         at.map(|at| self.range(at)).into_iter().collect()
     }
 
-    /// Declaration of the variable at the token `of`; empty if there is none.
     fn variable(&self, of: usize) -> Vec<Range<usize>> {
         let mut scopes = vec![Scope::default()];
         for at in 0..=of {
@@ -209,7 +206,6 @@ impl<'t> TokenizedText<'t> {
         }
     }
 
-    /// Words after the token `start`, up to the token `end` or the start of a block.
     fn words_until(&self, start: usize, end: &str) -> Vec<usize> {
         let rest = start + 1..self.tokens.len();
         let rest = rest.take(2 * MOST_PARAMETERS);
@@ -222,12 +218,10 @@ impl<'t> TokenizedText<'t> {
 mod tests {
     use super::*;
 
-    /// Position of the occurrence with this number of a part of the text.
     fn find(text: &str, part: &str, number: usize) -> usize {
         text.match_indices(part).nth(number).expect("the part occurs").0
     }
 
-    /// Occurrences of `name` that are the definition of the occurrence `of`.
     fn defining(text: &str, name: &str, of: usize) -> Vec<usize> {
         let Some(Definition::Here(found)) = definition(text, find(text, name, of)) else {
             panic!("{text}")

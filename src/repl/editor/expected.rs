@@ -15,7 +15,6 @@ pub struct Expected<'a, 't> {
     levels: Vec<OpenBracket<'t>>,
 }
 
-/// Function that is called at the cursor, with the number of its parameters before the dot of a method call.
 #[derive(Clone, Copy)]
 pub struct ActiveCall {
     pub row: &'static FunctionBinding,
@@ -32,7 +31,6 @@ impl<'a, 't> Expected<'a, 't> {
         self.levels.last()
     }
 
-    /// Parameters whose value may be at the cursor.
     pub fn here(&self) -> Vec<&'static Parameter> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
@@ -70,7 +68,6 @@ impl<'a, 't> Expected<'a, 't> {
         levels.filter_map(|level| Some((*level, self.types.input.callee(level.opener)?))).next()
     }
 
-    /// Functions to which a call may refer.
     pub fn rows(&self, callee: &CalleeName) -> Vec<ActiveCall> {
         if callee.module.is_some() {
             return Vec::new();
@@ -89,7 +86,6 @@ impl<'a, 't> Expected<'a, 't> {
         fitting.collect()
     }
 
-    /// Functions of Rhai to which a call may refer, with their notations.
     pub fn built_ins(&self, callee: &CalleeName) -> Vec<(&'static BuiltIn, FunctionForm)> {
         if callee.module.is_some() {
             return Vec::new();

@@ -107,7 +107,6 @@ impl CallHint {
         }
     }
 
-    /// Text in one line, with the parameter at the cursor in angle quotes.
     fn line(self) -> String {
         let Self { mut label, current, about } = self;
         if let Some(Range { start, end }) = current {

@@ -7,7 +7,6 @@ const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
     pub text: &'t str,
-    /// Tokens of the text, without spaces and comments.
     pub tokens: Vec<Token>,
     /// Token that ends at the cursor. It may be white space or a comment.
     pub last: Option<Token>,
@@ -34,7 +33,6 @@ pub struct CalleeName<'t> {
 }
 
 impl<'t> Input<'t> {
-    /// Collects the tokens of `text` before `position`.
     pub fn before(text: &'t str, position: usize) -> Self {
         let text = text.get(..position).unwrap_or(text);
         let all = scan(text);

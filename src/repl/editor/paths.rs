@@ -10,7 +10,6 @@ use crate::script::library::MODULES;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileFilter {
     Any,
-    /// Script files, whose names are shown without extension.
     Modules,
 }
 

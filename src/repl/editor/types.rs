@@ -13,7 +13,6 @@ const LONGEST_CHAIN: usize = 32;
 /// Largest nesting depth of parentheses and declarations that is examined.
 const DEEPEST: usize = 16;
 
-/// Derivation of types from tokens, session variables, and return types of functions.
 #[derive(Clone, Copy)]
 pub struct Types<'a, 't> {
     pub input: &'a Input<'t>,
@@ -123,7 +122,6 @@ impl<'t> Types<'_, 't> {
         inside.of.filter(|_| inside.start == opener + 1)
     }
 
-    /// Type of a name, which may be declared in this input, or be a variable of the session or a constant of the language.
     fn variable(&self, at: usize, depth: usize) -> Option<ValueKind> {
         let name = self.input.written(at);
         if at.checked_sub(1).is_some_and(|before| self.input.written(before) == "::") {

@@ -30,7 +30,6 @@ pub struct Assistant {
 }
 
 impl Assistant {
-    /// Creates the helper for a terminal of `columns` columns and a prompt of width `prompt_width`.
     pub fn new(
         vocabulary: SessionNames,
         columns: usize,
@@ -61,7 +60,6 @@ impl Assistant {
 
 impl Helper for Assistant {}
 
-/// Completion candidate in the form required by rustyline.
 pub struct Listed {
     display: String,
     replacement: String,

@@ -12,7 +12,6 @@ use rustyline::{
 use crate::repl::editor::completeness::{Completeness, completeness};
 use crate::repl::editor::completion::INDENTATION;
 
-/// Entries of the history, shared by the key bindings that search the history.
 pub type Entries = Arc<Mutex<HashSet<String>>>;
 
 pub fn bind<H: Helper, I: History>(editor: &mut Editor<H, I>, entries: &Entries) {

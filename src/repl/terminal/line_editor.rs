@@ -20,7 +20,6 @@ use crate::repl::editor::surroundings::CompletionContext;
 pub enum Keys {
     #[default]
     Emacs,
-    /// Keys of vi. Editing starts in insert mode.
     Vi,
 }
 
@@ -28,7 +27,6 @@ impl Keys {
     /// Environment variable that selects the editing mode, `emacs` or `vi`.
     pub const VARIABLE: &str = "WITHY_KEYS";
 
-    /// Editing mode with the given name, such as `emacs` or `vi`; `None` for other names.
     pub fn named(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
             "emacs" => Some(Self::Emacs),
@@ -47,7 +45,6 @@ pub struct EditorOptions {
 }
 
 impl EditorOptions {
-    /// Reads the options from the environment variables `WITHY_KEYS` and `WITHY_HISTORY`.
     pub fn from_environment(colours: Colours) -> Self {
         let keys = env::var(Keys::VARIABLE).ok().and_then(|name| Keys::named(&name));
         let history = history::file(env::var_os(history::VARIABLE));
@@ -57,7 +54,6 @@ impl EditorOptions {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
-    /// Complete input of one or more lines.
     Line(String),
     /// Ctrl-C: the input is discarded.
     Interrupted,
@@ -67,7 +63,6 @@ pub enum EditorInput {
 
 const USUAL_COLUMNS: usize = 80;
 
-/// Line editor with a history that is stored in a file.
 pub struct Editor {
     lines: rustyline::Editor<Assistant, FileHistory>,
     history: Option<PathBuf>,
@@ -79,9 +74,6 @@ pub struct Editor {
 impl Editor {
     /// Creates a line editor on this terminal.
     /// If the history file cannot be read, it is ignored, and [`Self::take_history_problem`] returns the reason.
-    ///
-    /// # Errors
-    /// Fails if the terminal cannot be used.
     pub fn new(options: EditorOptions) -> io::Result<Self> {
         let lines = rustyline::Editor::with_config(configuration(&options)?).map_err(into_io)?;
         let entries = Entries::default();
@@ -97,10 +89,6 @@ impl Editor {
         Ok(editor)
     }
 
-    /// Reads an input of one or more lines and adds it to the history.
-    ///
-    /// # Errors
-    /// Fails if the terminal fails.
     pub fn read(
         &mut self,
         prompt: &str,

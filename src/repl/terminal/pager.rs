@@ -8,7 +8,6 @@ use std::io::stdout;
 
 use crate::repl::pager::{Pager, PagerOutcome};
 
-/// Pager at a terminal.
 pub struct TerminalPager {
     program: Option<String>,
     size: (usize, usize),
@@ -24,7 +23,6 @@ impl TerminalPager {
         (!is_unwanted && !is_dumb).then_some(Self { program, size: (0, 0) })
     }
 
-    /// Returns true if the text and the next prompt together do not fit on the terminal.
     fn is_long(&self, text: &str) -> bool {
         let (columns, lines) = self.size;
         columns > 0 && lines > 1 && pages::rows(text, columns) >= lines

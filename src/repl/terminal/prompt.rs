@@ -6,10 +6,6 @@ use super::line_editor::{Editor, EditorInput};
 use super::typed_ahead::TypedAhead;
 use crate::repl::shell::{CommandOutcome, Shell};
 
-/// Reads and evaluates inputs until the user quits.
-///
-/// # Errors
-/// Fails if the terminal fails.
 pub fn run(shell: &mut Shell, editor: &mut Editor) -> io::Result<()> {
     let _held = TypedAhead::set_mode();
     loop {

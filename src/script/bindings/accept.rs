@@ -30,7 +30,6 @@ pub fn accept(
     }
 }
 
-/// Converts `value` for a parameter described by a script. `wanted` describes the allowed values for messages.
 pub fn accept_described(
     engine: &Engine,
     owner: &str,
@@ -91,7 +90,6 @@ fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Convers
     Ok(accepted.ok_or(value))
 }
 
-/// Checks a name that users type, for example the name of a column or of a parameter.
 pub fn readable(owner: &str, name: &str) -> Result<String, ScriptError> {
     match refusal_of_name(name) {
         None => Ok(name.to_owned()),

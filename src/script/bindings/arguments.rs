@@ -8,7 +8,6 @@ use super::parameter::Parameter;
 use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 
-/// Checked arguments of a call. An omitted argument has its default, if it has one.
 #[derive(Clone)]
 pub struct Arguments {
     parameters: &'static [Parameter],
@@ -26,7 +25,6 @@ impl Arguments {
         Self { parameters, values }
     }
 
-    /// Returns true if the argument is given or has a default.
     pub fn has(&self, name: &str) -> bool {
         self.find(name).is_ok()
     }
@@ -98,7 +96,6 @@ impl Arguments {
         self.get(name)
     }
 
-    /// Value of the argument as a map of options. If the argument is omitted, all keys have their defaults.
     pub fn options_or_defaults(&self, name: &str) -> Result<Options, ScriptError> {
         match self.parameters.iter().find(|parameter| parameter.name == name) {
             Some(Parameter { kind: Kind::Options(keys), .. }) if !self.has(name) => {

@@ -2,27 +2,22 @@
 
 use super::returns::Returns;
 
-/// Functions of Rhai for one type of value.
 pub struct BuiltInTable {
     pub name: &'static str,
-    /// One or two sentences about the functions.
     pub doc: &'static str,
     pub rows: &'static [BuiltIn],
 }
 
-/// Function of Rhai with all its notations.
 pub struct BuiltIn {
     /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
     pub forms: &'static [&'static str],
     pub returns: Returns,
     pub summary: &'static str,
-    /// Further help text; may be empty.
     pub doc: &'static str,
     pub example: &'static str,
     pub related: &'static [&'static str],
 }
 
-/// Notation of a function of Rhai, split into its parts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionForm {
     /// Type of the value before the dot; `None` for a function.
@@ -32,22 +27,17 @@ pub struct FunctionForm {
     pub arguments: &'static str,
     /// Names of the required arguments; empty for a property.
     pub required: Vec<&'static str>,
-    /// Names of the optional arguments, after the required ones.
     pub optional: Vec<&'static str>,
-    /// Text after the name.
     pub ending: NameSuffix,
 }
 
-/// Text after the name of a function in its notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NameSuffix {
     Property,
     Arguments,
-    /// Arguments, of which the last may be repeated.
     Repeated,
 }
 
-/// Creates the entry of a function of Rhai. The method [`BuiltIn::returns`] adds the return value.
 pub const fn built_in(
     forms: &'static [&'static str],
     summary: &'static str,
@@ -80,34 +70,28 @@ impl BuiltIn {
         self.forms.iter().map(|form| written(form))
     }
 
-    /// Returns true if the function is a method or property of this type.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.form_of(type_name).is_some()
     }
 
-    /// First notation of the function in which a value of this type stands before the dot.
     pub fn form_of(&self, type_name: &str) -> Option<FunctionForm> {
         self.written().find(|form| form.is_of(type_name))
     }
 
-    /// First notation in which the function is called without a value before the dot.
     pub fn form_of_function(&self) -> Option<FunctionForm> {
         self.written().find(|form| form.receiver.is_none())
     }
 
-    /// Returns true if the function can be called without a receiver.
     pub fn is_function(&self) -> bool {
         self.form_of_function().is_some()
     }
 }
 
 impl FunctionForm {
-    /// Returns true if this notation applies to values of the type with this name.
     pub fn is_of(&self, type_name: &str) -> bool {
         self.receiver.is_some_and(|kind| kind_includes(kind, type_name))
     }
 
-    /// List of the arguments, with optional arguments in brackets.
     pub fn listed(&self) -> Vec<String> {
         let inside = self.arguments.trim_matches(['(', ')']).split(", ");
         inside.filter(|name| !name.is_empty()).map(str::to_owned).collect()

@@ -107,7 +107,7 @@ impl<'c, 'r> Call<'c, 'r> {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and this number of parameters; captured variables count as parameters. Their values are missing.
+    /// Script function with this name and this number of parameters. Captured variables count as parameters, but their values are missing.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -233,7 +233,7 @@ pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usi
     body
 }
 
-/// Closure that a call expression creates, without captured values. The expressions give the variables that the closure captures.
+/// Closure that a call expression creates, without captured values, and the expressions of the captured variables.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

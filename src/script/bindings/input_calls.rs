@@ -2,10 +2,8 @@
 
 use rhai::{AST, ASTNode, Dynamic, Expr, FnCallExpr, Module, Position, Stmt};
 
-/// Name of the function that declares an input.
 pub const INPUT: &str = "input";
 
-/// Call of `input`.
 pub struct InputCall {
     /// Name of the input; `None` if it is computed.
     pub name: Option<String>,
@@ -14,7 +12,6 @@ pub struct InputCall {
     pub position: Position,
 }
 
-/// Calls in the statements and functions of a syntax tree, in the order of their positions.
 pub fn input_calls(ast: &AST) -> Vec<InputCall> {
     let mut found = Vec::new();
     ast.walk(&mut |path: &[ASTNode]| {
@@ -40,7 +37,6 @@ pub fn input_calls(ast: &AST) -> Vec<InputCall> {
     found
 }
 
-/// Names of the inputs that the statements of a syntax tree declare, without its functions.
 pub fn names_in_statements(ast: &AST) -> Vec<String> {
     let statements = AST::new(ast.statements().to_vec(), Module::new());
     names_in(&statements)

@@ -13,7 +13,6 @@ pub struct KeySets<T: 'static> {
     pub sets: &'static [KeySet<T>],
 }
 
-/// Set of keys that must be given together.
 pub struct KeySet<T> {
     pub meaning: T,
     /// Description of the set, which follows the words `given by` in messages.

@@ -38,7 +38,6 @@ impl Use {
     }
 }
 
-/// Registers the methods and properties of all types for values that have variants.
 pub fn install(engine: &mut Engine, catalog: &Catalog, context: &Context) {
     let mut members: BTreeMap<(&'static str, Use), Vec<RegisteredFunction>> = BTreeMap::new();
     for table in catalog.tables() {

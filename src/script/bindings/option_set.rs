@@ -7,12 +7,7 @@ use super::parameter::Parameter;
 use crate::integrators::Method;
 use crate::script::messages::error::ScriptError;
 
-/// Type that can be read from the value of a key.
 pub trait FromOption: Sized {
-    /// Reads the value of a key. An omitted key has its default value.
-    ///
-    /// # Errors
-    /// Fails if the value of the key has another type, which is an internal error.
     fn read(options: &Arguments, key: &str) -> Result<Self, ScriptError>;
 }
 
@@ -47,7 +42,7 @@ impl FromOption for Dynamic {
     }
 }
 
-/// Types that the engine stores without conversion.
+/// Implements [`FromOption`] for types that the engine stores without conversion.
 macro_rules! held_as_they_are {
     ($($held:ty),*) => {
         $(impl FromOption for $held {

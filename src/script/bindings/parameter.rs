@@ -63,7 +63,7 @@ pub const fn name(name: &'static str) -> Parameter {
     Parameter::new(name, Kind::Name)
 }
 
-/// Parameter with one of several texts.
+/// Parameter whose value is one of several texts.
 pub const fn choice(name: &'static str, allowed: &'static [&'static str]) -> Parameter {
     Parameter::new(name, Kind::Choice(allowed))
 }

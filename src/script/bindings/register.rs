@@ -18,7 +18,6 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Registers the types and bindings of `table`.
 pub fn register(engine: &mut Engine, table: &'static BindingTable, context: &Context) {
     for of in table.types {
         of.register(engine);
@@ -151,10 +150,6 @@ fn add(engine: &mut Engine, name: String, types: Vec<TypeId>, binding: Registere
     });
 }
 
-/// Calls a binding with its arguments and, for a method or property, its receiver.
-///
-/// # Errors
-/// Fails if the binding fails, or if an argument is invalid.
 pub(super) fn perform(
     binding: &RegisteredFunction,
     native: &NativeCallContext,
@@ -227,7 +222,6 @@ fn make(
     body(&mut Call::new(row, context, native, receiver, Arguments::new(parameters, accepted)))
 }
 
-/// Hint for a load whose function reads a simulation during a step.
 pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that depends on the motion use a controller, or a \
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";

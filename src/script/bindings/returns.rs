@@ -11,18 +11,15 @@ pub enum ValueKind {
     Any,
     Number,
     Integer,
-    /// The value `true` or `false`.
     Boolean,
     Text,
     Character,
     Function,
-    /// Time of the clock.
     Timestamp,
     Range,
     Map,
     Array(&'static ValueKind),
     Object(Type),
-    /// Value of one of the given types. The most likely type comes first.
     OneOf(&'static [ValueKind]),
 }
 
@@ -100,7 +97,6 @@ impl fmt::Display for ValueKind {
     }
 }
 
-/// Return value of a binding with its type, dimension and description, for the documentation.
 #[derive(Clone, Copy)]
 pub struct Returns {
     pub kind: ValueKind,
@@ -117,7 +113,6 @@ impl Returns {
     pub const ANYTHING: Self = Self::of(ValueKind::Any);
     pub const NUMBER: Self = Self::of(ValueKind::Number);
     pub const INTEGER: Self = Self::of(ValueKind::Integer);
-    /// The value `true` or `false`.
     pub const BOOLEAN: Self = Self::of(ValueKind::Boolean);
     pub const TEXT: Self = Self::of(ValueKind::Text);
     pub const CHARACTER: Self = Self::of(ValueKind::Character);
@@ -140,7 +135,6 @@ impl Returns {
         Self::of(ValueKind::Array(element))
     }
 
-    /// Value of one of several types. The most likely type comes first.
     pub const fn one_of(kinds: &'static [ValueKind]) -> Self {
         Self::of(ValueKind::OneOf(kinds))
     }
@@ -150,7 +144,6 @@ impl Returns {
         self
     }
 
-    /// Replaces the description of the type, for example by `an angle from -PI to PI`.
     pub const fn with_description(mut self, words: &'static str) -> Self {
         self.description = words;
         self

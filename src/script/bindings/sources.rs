@@ -1,5 +1,5 @@
 //! Source files of script functions, and script lines that call the library.
-//! The engine does not know the file when native code calls closures of modules. It provides the lines of calls only in errors.
+//! The engine does not know the file when native code calls closures of modules. The engine provides the lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -17,7 +17,7 @@ pub const FOLDER: &str = "std/";
 
 /// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
 ///
-/// Stored in the engine as the default tag of calls.
+/// The sources are stored in the engine as the default tag of calls.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -28,7 +28,6 @@ pub struct Sources {
     reader: TokenReader,
 }
 
-/// Names of the inputs that a run of a study can vary.
 #[derive(Default)]
 struct InputNames {
     in_functions: BTreeSet<String>,
@@ -64,12 +63,11 @@ impl Sources {
         engine.default_tag().clone().try_cast().unwrap_or_default()
     }
 
-    /// Resets the state of the parser before it reads another text.
     pub fn begin_reading(&self) {
         self.reader.begin();
     }
 
-    /// Calls `work`, during which parsing cannot be stopped. It must parse only texts that have been parsed before.
+    /// Calls `work`, during which parsing cannot be stopped. The function `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
@@ -90,7 +88,6 @@ impl Sources {
         })
     }
 
-    /// Records that the functions and closures of a syntax tree belong to a file.
     pub fn record_file(&self, ast: &AST, source: &str) {
         let mut known = self.functions.borrow_mut();
         for function in ast.iter_functions() {
@@ -103,17 +100,14 @@ impl Sources {
         }
     }
 
-    /// Returns true if the statements of an imported file declare an input.
     pub fn imports_have_inputs(&self) -> bool {
         !self.inputs.borrow().in_imports.is_empty()
     }
 
-    /// Returns true if a function declares an input with this name.
     pub fn functions_have_input(&self, name: &str) -> bool {
         self.inputs.borrow().in_functions.contains(name)
     }
 
-    /// Returns true if the statements of an imported file declare an input with this name.
     pub fn imports_have_input(&self, name: &str) -> bool {
         self.inputs.borrow().in_imports.contains(name)
     }
@@ -132,7 +126,7 @@ impl Sources {
     }
 
     /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
-    /// Within nested library calls, the outermost line is kept.
+    /// If library functions call each other, the line of the outermost call is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

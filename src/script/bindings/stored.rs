@@ -70,20 +70,16 @@ impl StoredFunction {
         self.function.curry().iter().filter(|value| value.is_shared())
     }
 
-    /// Name of the function in messages.
     pub fn role(&self) -> &str {
         &self.role
     }
 
-    /// State shared by the calls of the run.
     pub fn context(&self) -> &Context {
         &self.context
     }
 }
 
-/// Reason why a script function did not return a number.
 pub enum NoNumber {
     Failed(Box<EvalAltResult>),
-    /// The function returned a value of another type, which the text describes.
     Other(String),
 }

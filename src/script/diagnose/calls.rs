@@ -309,7 +309,6 @@ impl UnknownName<'_> {
     }
 }
 
-/// Hint for a history column or another recorded quantity that a script reads as a property.
 fn recorded(of: &str, name: &str) -> Option<String> {
     let [(_, of_stations), ..] = RECORDABLE;
     match of {
@@ -344,7 +343,6 @@ pub fn of_library(name: &str) -> Option<String> {
     Some(format!("it is in the library: write import \"{module}\" as {short}; then {call}{others}"))
 }
 
-/// Error for a call with a wrong number of arguments. `others` are functions with the same name for other types.
 fn wrong_count(row: &FunctionBinding, others: &[&FunctionBinding], got: usize) -> ErrorText {
     let (least, most) = (row.required(), row.parameters.len());
     let takes =

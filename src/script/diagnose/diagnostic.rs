@@ -25,7 +25,7 @@ pub struct Diagnostic {
 /// Origin of an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blame {
-    /// Error in the script or its use.
+    /// Error that the user can correct, for example in the script.
     User,
     /// Internal error of the program.
     Program,

@@ -2,7 +2,6 @@
 
 use crate::script::messages::nouns::with_article;
 
-/// Message and hint for the operator `symbol` with operands of the given types.
 pub fn explain(symbol: &str, types: &[&str]) -> (String, Option<String>) {
     let words: Vec<_> = types.iter().map(|name| with_article(name)).collect();
     let message = match (symbol, words.as_slice()) {

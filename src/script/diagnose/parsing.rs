@@ -2,7 +2,6 @@
 
 use rhai::{Engine, LexError, ParseErrorType};
 
-/// Message and hint for a script with a syntax error. `word` is the token at the error.
 pub fn explain(error: &ParseErrorType, word: &str) -> (String, Option<String>) {
     match error {
         ParseErrorType::UnexpectedEOF => {

@@ -31,7 +31,6 @@ impl OnNumbers {
     }
 }
 
-/// Registers the operators under their names in the language.
 pub fn install(engine: &mut Engine) {
     let arithmetic: [(String, OnNumbers); 5] = [
         ("+".into(), OnNumbers::smooth(|x, y| x + y)),

@@ -236,7 +236,6 @@ impl<'a> ElementCallback<'a> {
     }
 }
 
-/// Converts the result of a test function of a script to a boolean.
 pub(super) fn boolean_result(native: &NativeCallContext, answer: &Dynamic) -> EngineResult<bool> {
     answer.as_bool().map_err(|_| {
         let got = describe(native.engine(), answer);

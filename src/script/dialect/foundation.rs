@@ -27,16 +27,13 @@ const SEED: [u64; 4] =
 
 const TEXTS_SHARED: usize = 256;
 
-/// Function that is not available in the language.
 pub struct Refused {
     pub name: &'static str,
-    /// Possible numbers of arguments of the function.
     pub counts: &'static [usize],
     pub reason: &'static str,
     pub instead: &'static str,
 }
 
-/// All functions that are not available in the language.
 pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",

@@ -45,7 +45,6 @@ pub fn judge(
     Ok(())
 }
 
-/// Hint for a variable that a function cannot see.
 pub fn not_visible(name: &str, line: usize) -> String {
     format!(
         "'{name}' of line {line} is not visible inside functions: pass it as an argument, or \

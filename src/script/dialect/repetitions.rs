@@ -11,7 +11,6 @@ use crate::script::state::context::Context;
 
 pub(super) const PULSE: usize = 4096;
 
-/// Registers the method `dedup` for calls with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for count in 1..=2 {

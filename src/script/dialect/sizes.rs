@@ -24,10 +24,6 @@ pub fn install(engine: &mut Engine) {
     engine.register_fn("pad", pad_text::<ImmutableString>);
 }
 
-/// Checks the size of the value of a variable.
-///
-/// # Errors
-/// Fails if the length of a text or the number of elements exceeds its limit.
 pub fn check(value: &Dynamic) -> EngineResult<()> {
     if let Some(text) = value.read_lock::<ImmutableString>() {
         expect(text.len() <= LONGEST_TEXT, TEXT)
@@ -74,7 +70,6 @@ fn pad_array(array: &mut Array, length: INT, element: Dynamic) -> EngineResult<(
     Ok(())
 }
 
-/// Lengthens a text to `length` characters by repetition of the padding. The last repetition may be incomplete.
 fn pad_text<P: ToString>(text: &mut ImmutableString, length: INT, padding: P) -> EngineResult<()> {
     let padding = padding.to_string();
     let length = usize::try_from(length).unwrap_or(0);

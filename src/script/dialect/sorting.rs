@@ -16,7 +16,6 @@ use crate::script::state::context::Context;
 
 type SortFunction = fn(Ordering) -> Ordering;
 
-/// Registers `sort` and `order`, each with and without a comparison function.
 pub fn install(engine: &mut Engine, context: &Context) {
     let types = [TypeId::of::<Array>(), TypeId::of::<FnPtr>()];
     for name in ["sort", "sort_by"] {

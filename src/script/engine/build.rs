@@ -18,10 +18,8 @@ use crate::script::source::syntax;
 use crate::script::state::context::Context;
 use crate::script::state::limits::DEEPEST;
 
-/// Maximum nesting depth of an expression outside functions.
 const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
-/// Number of operations between checks for interruption.
 const PULSE: u64 = 256;
 
 /// Creates an engine for the language of `catalog`. The engine reports to `context`.

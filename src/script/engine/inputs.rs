@@ -14,7 +14,6 @@ use crate::script::source::text::Source;
 use crate::script::state::context::Context;
 use crate::script::state::files::{InputFolder, InputFolders};
 
-/// Inputs that are found in a script and the files that it imports.
 #[derive(Default)]
 struct FoundInputs {
     names: Vec<String>,

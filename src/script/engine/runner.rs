@@ -147,7 +147,6 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
 /// Largest run time for which errors are estimated although the user has not requested an estimate.
 const BRIEF: Duration = Duration::from_secs(1);
 
-/// Maximum number of simulations whose errors are estimated at the end of a run.
 const MOST_ESTIMATES: usize = 5;
 
 fn estimated_errors(
@@ -182,7 +181,6 @@ fn estimated_errors(
     lines
 }
 
-/// Evaluates an expression in which the variable `object` has the given value. Returns the result or the error message.
 fn ask<T: Clone + Send + Sync + 'static>(
     engine: &Engine,
     object: &rhai::Dynamic,

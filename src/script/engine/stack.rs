@@ -75,7 +75,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// Stack size of a script [bytes]. It is at most a quarter of the remaining address space.
+/// Stack size of a script [bytes]. It is at most a quarter of a limited address space, unless the allowed call depth requires more.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
@@ -84,7 +84,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// Number of workers, and stack size of each worker [bytes]. All stacks together use at most half of the remaining address space.
+/// Number of workers, and stack size of each worker [bytes]. All stacks together use at most half of a limited address space.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

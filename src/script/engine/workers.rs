@@ -23,13 +23,11 @@ use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 use crate::simulation::cores;
 
-/// Interval of checks for interruption while no job ends.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Time to wait before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
-/// Data for the creation of an engine on another thread.
 #[derive(Clone)]
 pub struct EngineConfig {
     catalog: Catalog,
@@ -93,10 +91,6 @@ impl Worker {
         Ok(Self { host, script, program: program.clone(), interrupt })
     }
 
-    /// Calls a function of the script by its name.
-    ///
-    /// # Errors
-    /// Fails if the function fails.
     pub fn call(&self, name: &str, arguments: Vec<Dynamic>) -> EngineResult<Dynamic> {
         let options = CallFnOptions::new().eval_ast(true);
         let mut scope = Scope::new();
@@ -194,9 +188,6 @@ impl<J, R> WorkerPool<'_, J, R> {
 
 /// Calls `drive` with a pool of worker threads with separate engines. A job that takes longer than `wall` is stopped.
 /// The callback `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
-///
-/// # Errors
-/// Fails if no worker can be created.
 pub fn with_worker_pool<J: Send, R: Send, T>(
     config: &EngineConfig,
     wall: Duration,

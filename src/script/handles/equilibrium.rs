@@ -33,7 +33,6 @@ impl EquilibriumHandle {
         self.0.rest.borrow()
     }
 
-    /// Write access to the equilibrium, for queries that need a solution.
     pub fn equilibrium_mut(&self) -> RefMut<'_, Equilibrium> {
         self.0.rest.borrow_mut()
     }

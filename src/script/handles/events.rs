@@ -41,7 +41,6 @@ impl<F: Clone> Events<F> {
         self.called = self.called.min(passed);
     }
 
-    /// Number of scheduled functions that have not been called yet.
     pub fn waiting(&self) -> usize {
         self.functions.len() - self.called
     }

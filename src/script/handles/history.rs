@@ -22,7 +22,6 @@ pub struct HistoryHandle {
 }
 
 impl HistoryHandle {
-    /// Calls a function with the rows of the history within the interval.
     pub fn read<T>(&self, read: impl FnOnce(&History) -> T) -> T {
         self.of.read_history((self.from, self.to), read)
     }
@@ -42,7 +41,6 @@ impl HistoryHandle {
         column_names(self.of.simulation().history())
     }
 
-    /// Checks that a value is the name of a column. `argument` is the index of the value in the call, for the position of the error.
     pub fn expect_column(
         &self,
         call: &Call,
@@ -70,7 +68,6 @@ impl HistoryHandle {
             .at(CallPart::Argument(argument)))
     }
 
-    /// Intersection of this interval with another time interval.
     pub fn between(&self, from: f64, to: f64) -> Self {
         Self { of: self.of.clone(), from: self.from.max(from), to: self.to.min(to) }
     }

@@ -7,10 +7,8 @@ use crate::simulation::{Simulation, Warning};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Printing {
-    /// Warnings are printed at the end of a run.
     #[default]
     AtTheEnd,
-    /// Warnings are not printed, but are available on request.
     Never,
 }
 

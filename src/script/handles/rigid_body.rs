@@ -26,10 +26,6 @@ impl RigidBodyHandle {
         StationHandle { scene: self.scene.clone(), station: Station::on_rigid_body(self.index, 0) }
     }
 
-    /// Station at a named point of the body.
-    ///
-    /// # Errors
-    /// Fails if the body has no point of this name.
     pub fn point(&self, name: &str) -> Result<StationHandle, ScriptError> {
         let station = self.scene.scene().borrow().point_of_body(self.index, name)?;
         Ok(StationHandle { scene: self.scene.clone(), station })

@@ -24,7 +24,6 @@ const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities
 #[derive(Clone)]
 pub struct SceneHandle {
     variants: Rc<Variants>,
-    /// Functions of user-defined columns, in the order of the columns.
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
     /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
@@ -48,7 +47,6 @@ struct PerturbedBuilds {
     scenes: Vec<Rc<RefCell<Scene>>>,
 }
 
-/// Release condition that is evaluated by a script function.
 #[derive(Clone)]
 pub struct Condition {
     pub function: Rc<StoredFunction>,
@@ -95,13 +93,11 @@ impl SceneHandle {
         self.of_present().borrow_mut()
     }
 
-    /// Gives write access like [`change`](Self::change), as a shared pointer.
     pub fn shared_for_change(&self) -> Rc<RefCell<Scene>> {
         self.variants.is_changed.set(true);
         Rc::clone(self.of_present())
     }
 
-    /// Returns true at the first call after a change of the scene.
     pub fn take_change(&self) -> bool {
         self.variants.is_changed.replace(false)
     }
@@ -173,10 +169,6 @@ impl SceneHandle {
         Ok(family.parameters().into_iter().map_while(variation).collect())
     }
 
-    /// Rejects a beam whose length depends on a parameter. `beam` is its index.
-    ///
-    /// # Errors
-    /// Fails if the length differs between the variants.
     pub fn expect_constant_length(&self, beam: usize) -> Result<(), ScriptError> {
         let Some(PerturbedBuilds { scenes, .. }) = self.variants.beside.get() else {
             return Ok(());
@@ -218,7 +210,6 @@ impl SceneHandle {
         }
     }
 
-    /// Stores a controller that is called at the start of every step or at samples. Returns the cell with the value of the controller.
     pub fn store_controller(
         &self,
         function: StoredFunction,
@@ -263,18 +254,15 @@ impl SceneHandle {
         self.controllers.borrow().clone()
     }
 
-    /// Script functions that compute the first `columns` user-defined columns of the history.
     pub fn functions(&self, columns: usize) -> Vec<Rc<StoredFunction>> {
         self.functions.borrow().iter().take(columns).cloned().collect()
     }
 
-    /// Station of a handle. Fails if the handle belongs to another scene.
     pub fn own_station(&self, handle: &StationHandle) -> Result<Station, ScriptError> {
         self.expect_same(&handle.scene, "station")?;
         Ok(handle.station)
     }
 
-    /// Rejects an object that belongs to another scene. `what` is the type of the object.
     pub fn expect_same(&self, other: &Self, what: &str) -> Result<(), ScriptError> {
         if Rc::ptr_eq(&self.variants, &other.variants) {
             return Ok(());

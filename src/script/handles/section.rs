@@ -7,7 +7,6 @@ use crate::script::presentation::details;
 
 const DIGITS: usize = 7;
 
-/// Cross section, constant or tapered, and its material damping.
 #[derive(Clone)]
 pub struct SectionHandle {
     pub variation: SectionVariation,

@@ -46,7 +46,6 @@ struct Live {
     is_firing: Cell<bool>,
     /// True if an early end of the run has already been reported.
     is_ending_told: Cell<bool>,
-    /// True if the last advance failed or was interrupted.
     was_stopped: Cell<bool>,
     notes: Notes,
     start: RunStart,
@@ -110,7 +109,6 @@ impl SimulationHandle {
         handle
     }
 
-    /// Adds the simulation to the report of the run, and marks it as the last used simulation.
     pub fn report_as_latest(&self, context: &Context) {
         context.add_reporter(Box::new(self.clone()));
         self.is_latest(context);
@@ -163,7 +161,6 @@ impl SimulationHandle {
         context.set_latest_simulation(Dynamic::from(self.clone()));
     }
 
-    /// Lowest natural modes about the present configuration.
     pub fn modes(
         &self,
         count: usize,
@@ -177,7 +174,6 @@ impl SimulationHandle {
         self.0.simulation.borrow_mut().enable_snapshots(limit);
     }
 
-    /// Number of scheduled functions that have not been called yet.
     pub fn events_waiting(&self) -> usize {
         self.0.events.borrow().waiting()
     }

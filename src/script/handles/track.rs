@@ -28,7 +28,6 @@ impl TrackHandle {
         self.scene.scene().borrow().track_length(self.index)
     }
 
-    /// Returns true if the end of the last beam connects to the first beam.
     pub fn is_closed(&self) -> bool {
         self.scene.scene().borrow().tracks[self.index].end == TrackEnd::Closed
     }

@@ -71,7 +71,6 @@ pub fn grammar(catalog: &Catalog) -> String {
     format!("{grammar:#}\n")
 }
 
-/// Rule for a string in quotes. The string ends on its line, unless the line ends with a backslash.
 fn text(name: &str, quote: &str) -> Value {
     json!({
         "name": name, "begin": quote, "end": format!("{quote}|(?<!\\\\)$"),

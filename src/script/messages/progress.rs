@@ -2,15 +2,12 @@
 
 /// Display of the progress of a simulation or study: a bar on a terminal, and nothing in a pipe.
 pub trait Progress {
-    /// Starts the display for the simulation `name`, which runs from time `from` to time `to`.
     fn begin(&self, name: &str, from: f64, to: f64);
     /// Shows the present time `t`. The method is fast enough to be called at every step.
     fn report_time(&self, t: f64);
-    /// Starts the display for the study `name` with `count` cases.
     fn begin_cases(&self, name: &str, count: usize);
     /// Shows the number of completed cases. The method is fast enough to be called many times per second.
     fn report_case(&self, done: usize);
-    /// Ends the display, even if the end of the simulation or study has not been reached.
     fn end(&self);
     /// Calls `write`, which writes to the terminal, so that its text does not mix with the progress display.
     fn without_progress_bar(&self, write: &mut dyn FnMut()) {

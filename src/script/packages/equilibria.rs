@@ -336,7 +336,6 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
 }
 
-/// Prints notes on an unstable equilibrium, on what an equilibrium leaves out, and on a path that ends before `load_factor`.
 fn print_notes(context: &Context, rest: &Equilibrium, load_factor: f64) {
     let is_unstable = || rest.stability(&mut || !context.is_stopped()) == Stability::Unstable;
     if context.mode() == RunMode::Run && is_unstable() {

@@ -111,7 +111,6 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Option of pictures and files.
 pub(super) const ERROR: Parameter = boolean("error")
     .doc("true to estimate the errors, as sim.error_estimate() does, and to add them")
     .optional();

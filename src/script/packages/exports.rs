@@ -145,7 +145,6 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
 }
 
 struct VtkFiles {
-    /// Name of the collection file without extension, with its folder.
     stem: String,
     /// Name of the collection file without extension and without its folder.
     base: String,
@@ -320,7 +319,6 @@ fn write_csv(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Rejects the option `error` for a table that does not come from a simulation.
 fn expect_no_errors(call: &Call, options: &Options) -> Result<(), ScriptError> {
     if !options.boolean(ERROR.name).unwrap_or(false) {
         return Ok(());

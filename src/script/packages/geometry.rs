@@ -63,7 +63,6 @@ fn brief(x: f64) -> String {
     significant(x, 6)
 }
 
-/// Point with six digits per coordinate. A coordinate below the rounding error of the other coordinate is shown as 0.
 fn brief_point(point: Vec2) -> String {
     let [x, y] = [point.x, point.y].map(|x| match x.abs() < ROUNDING * point.norm() {
         true => brief(0.0),

@@ -120,7 +120,6 @@ fn declaration(call: &Call) -> Result<InputDeclaration, ScriptError> {
     Ok(declaration)
 }
 
-/// Rejects a range for a boolean or text input, and a default that the input does not allow.
 fn expect_consistent(call: &Call, declaration: &InputDeclaration) -> Result<(), ScriptError> {
     let InputDeclaration { name, default, min, max, .. } = declaration;
     let limit = match (min, max) {

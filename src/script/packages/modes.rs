@@ -235,7 +235,6 @@ impl Scripted for ModesHandle {
     }
 }
 
-/// Prints, once per scene, a note that modes do not include the effects of controllers and spins.
 fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     let steered = scene.schedules().filter(|(_, schedule)| schedule.is_sampled());
     let controllers: Vec<String> = steered

@@ -161,7 +161,6 @@ fn unknown_option(owner: &str, unknown: &str, known: &[OptionInfo]) -> ScriptErr
         .at(CallPart::Key(unknown.to_owned()))
 }
 
-/// Checks a value against the description `wanted`, and converts it to the form in which scripts use it.
 fn accept(
     call: &Call,
     owner: &str,
@@ -194,7 +193,6 @@ fn kind_named(words: &str) -> Option<&'static Kind> {
     KINDS.iter().find(|(known, _)| *known == words).map(|(_, kind)| kind)
 }
 
-/// Converts native lists of numbers or points to arrays of script values.
 fn written(accepted: Dynamic) -> Dynamic {
     if let Some(numbers) = accepted.clone().try_cast::<Vec<f64>>() {
         return numbers.into_iter().map(Dynamic::from).collect::<Array>().into();

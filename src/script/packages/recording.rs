@@ -89,7 +89,8 @@ pub(super) struct Missing {
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run after `time` cannot be computed again. Explicitly requested data cause an error, other data a note.
+/// Reports that the states of a run after `time` cannot be computed again.
+/// For explicitly requested data, the report is an error, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,
@@ -111,7 +112,6 @@ pub(super) fn report_diverged_rerun(
     Ok(())
 }
 
-/// Rejects a picture for a time that is too far from the nearest recorded configuration.
 pub(super) fn expect_near(
     call: &Call,
     of: &SimulationHandle,

@@ -178,7 +178,7 @@ pub const BEAM: Type = Type::of::<BeamHandle>();
 pub const STATION: Type = Type::of::<StationHandle>();
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-/// Largest relative difference between the length of a beam on its mesh and the length of its axis that causes no warning.
+/// Largest relative difference of the lengths of a beam on its mesh and of its axis for which no warning is printed.
 const MISSED_LENGTH: f64 = 0.01;
 
 const AT: Parameter = object("station", STATION);
@@ -186,7 +186,6 @@ const OTHER: Parameter =
     object("other", STATION).doc("second station; default: the ground").optional();
 const SPIN: Parameter = number("spin").unit("1/time").optional();
 const ROTARY: Parameter = number("rotary_inertia").unit("mass·length²").or(Presence::Number(0.0));
-/// Option for the initial rigid-body motion of beams and bodies.
 pub(super) const START_VELOCITY: Parameter =
     point("velocity").unit("length/time").doc("initial velocity of the point `about`").optional();
 pub(super) const START_SPIN: Parameter =
@@ -250,7 +249,6 @@ fn beam(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(BeamHandle { scene, index }))
 }
 
-/// Warns if the quadrature points of the mesh do not resolve the variation of a tapered section.
 fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let BeamDefinition { name, section, mesh, .. } = &scene.beams[index];
@@ -275,7 +273,6 @@ fn warn_about_taper(call: &Call, scene: &SceneHandle, index: usize) -> Result<()
     Ok(())
 }
 
-/// Warns if a beam on its mesh is longer or shorter than its given axis.
 fn warn_about_length(call: &Call, scene: &SceneHandle, index: usize) -> Result<(), ScriptError> {
     let scene = scene.scene().borrow();
     let beam = &scene.beams[index];

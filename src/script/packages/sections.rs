@@ -318,5 +318,4 @@ pub(super) fn mesh_of(arguments: &Arguments, name: &str) -> Option<Mesh> {
     arguments.get_if::<Mesh>(name).or_else(|| arguments.get_if::<Rc<KnotVector>>(name).map(knots))
 }
 
-/// Accepted types of a mesh argument for [`mesh_of`].
 pub(super) const MESH_KINDS: &[Kind] = &[Kind::Object(MESH), Kind::Object(KNOTS)];

@@ -329,7 +329,6 @@ fn joint_index(call: &mut Call) -> Result<usize, ScriptError> {
     found.ok_or_else(|| unknown(call, &name, "joint", names.iter().map(String::as_str)))
 }
 
-/// Mean forces of joints and supports over the last step. Fails if the simulation does not accumulate these forces.
 fn mean_reactions(call: &Call, handle: &SimulationHandle) -> Result<Reactions, ScriptError> {
     handle.simulation().model().mean_reactions().ok_or_else(|| {
         let names = handle.simulation().scene().joint_names();

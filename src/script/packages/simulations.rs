@@ -1,4 +1,4 @@
-//! Start of a scene, and the resulting simulation.
+//! Start of a simulation from a scene, and the methods and properties of simulations.
 
 use rhai::{Dynamic, INT};
 

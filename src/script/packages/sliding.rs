@@ -225,7 +225,7 @@ const ENDS: [(&str, EndAction); 4] = [
 const VELOCITIES: [(&str, StartVelocities); 2] =
     [("check", StartVelocities::Check), ("project", StartVelocities::Project)];
 
-/// Largest horizontal component of the direction of a vertical beam [-].
+/// Largest horizontal component of the unit tangent at which a beam counts as vertical [-].
 const STEEP: f64 = 1e-3;
 
 const SLIDER_KEYS: &[Parameter] = &[

@@ -156,7 +156,6 @@ fn force_of<'a>(
     }
 }
 
-/// Rejects a function for which even the finest polygon is inaccurate. The hint suggests an alternative.
 fn expect_smooth(
     call: &Call,
     polygon: &SpringLaw,

@@ -115,7 +115,6 @@ fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     }
 }
 
-/// Rejects a sweep without numeric rows, unless the run computes only a part of the rows.
 fn expect_rows(call: &Call, picture: &Picture, names: &[&str]) -> Result<(), ScriptError> {
     let context = call.context();
     let is_whole = context.mode() == RunMode::Run && context.studies().part.is_none();

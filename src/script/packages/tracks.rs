@@ -114,7 +114,6 @@ impl SliderGuide {
         }
     }
 
-    /// Start position of a slider, given by a beam and an arc length along it. It is the requested position, or the position nearest to the slave.
     pub(super) fn start(
         self,
         scene: &Scene,

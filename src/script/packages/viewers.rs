@@ -130,7 +130,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Fields for colouring beams, computed from the states of a simulation. The states are restored from snapshots or computed again.
-/// If the repeated run differs from the original, a note is printed and the result is `None`. For requested fields, it is an error.
+/// If the repeated run differs from the original, a note is printed and the result is `None`.
+/// If the fields were requested explicitly, the difference is an error.
 fn inside(
     call: &Call,
     of: &SimulationHandle,
@@ -192,7 +193,6 @@ pub(super) fn span(
     Ok((from, to))
 }
 
-/// Stations assigned to simulations. Each station must belong to at least one simulation.
 fn assigned(
     given: &[StationHandle],
     simulations: &[SimulationHandle],

@@ -14,7 +14,6 @@ use crate::system::{BeamPlaces, BeamSample, System, SystemError};
 
 const DIGITS: usize = 6;
 
-/// Section results of some beams at one time.
 pub struct SectionForceProfile {
     /// First part of titles. The name of the quantity is appended.
     pub title: String,
@@ -75,7 +74,6 @@ impl SectionForceProfile {
         })
     }
 
-    /// Removes the symbols that `shown` excludes.
     pub fn with_symbols(mut self, shown: Visibility) -> Self {
         self.outline.symbols = shown.visible(self.outline.symbols);
         self
@@ -106,7 +104,6 @@ impl SectionForceProfile {
         self.beams.iter().map(of_beam).fold(picture, StripPicture::strip)
     }
 
-    /// Chart of the quantity over the arc length of the beams, without a title.
     pub fn chart(&self, quantity: &BeamQuantity) -> LineChart {
         let chart = LineChart::new("")
             .x_label("s, from the start of the beam [length]")
@@ -118,7 +115,6 @@ impl SectionForceProfile {
         })
     }
 
-    /// Picture in which the colour and width of the beams show the magnitude of the quantity.
     pub fn field(&self, quantity: &BeamQuantity) -> FieldPicture {
         let label = match quantity.sign {
             sign if sign.len() == 1 => format!("|{sign}| [{}]", quantity.dimension),
@@ -136,7 +132,6 @@ impl SectionForceProfile {
         self.chart(quantity).title(self.heading(quantity)).x_label("s").text(style)
     }
 
-    /// Summary as lines of text, for output that is not a terminal.
     pub fn summary(&self, quantity: &BeamQuantity) -> String {
         let number = |value: f64| significant(value, DIGITS);
         let line = |beam: &BeamProfile| {

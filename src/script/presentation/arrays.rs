@@ -3,7 +3,6 @@
 use crate::output::{DataColumn, DataTable, DataValues, NpzArchive, NpzArray};
 use crate::simulation::{History, Simulation};
 
-/// Recorded data of a simulation: times, control points and history columns.
 pub fn archive(simulation: &Simulation) -> NpzArchive {
     let (scene, trajectory) = (simulation.scene(), simulation.trajectory());
     let times = trajectory.times();

@@ -16,10 +16,6 @@ pub struct Grids {
 const OF_A_PARTICLE: f64 = 0.0;
 
 impl Grids {
-    /// Grids of the beams of a simulation.
-    ///
-    /// # Errors
-    /// Fails if the axis of a beam has a point without a tangent.
     pub fn of(simulation: &Simulation) -> Result<Self, SystemError> {
         let scene = simulation.scene();
         let beams = (0..scene.beams.len())
@@ -33,7 +29,6 @@ impl Grids {
         })
     }
 
-    /// Grid of a recorded configuration, which contains only positions.
     pub fn of_configuration(&self, simulation: &Simulation, index: usize) -> VtkGrid {
         let bodies = simulation.control_points_at(index);
         let (of_beams, of_particles) = bodies.split_at(self.beams.len());

@@ -18,7 +18,6 @@ pub struct Magnifier<'a> {
     joints: Vec<Vec<Station>>,
 }
 
-/// Rigid motion of a body since the start.
 #[derive(Clone, Copy, Default)]
 struct RigidMotion {
     from: Vec2,
@@ -74,10 +73,6 @@ impl<'a> Magnifier<'a> {
         !self.travel.is_held(body)
     }
 
-    /// Magnified configuration.
-    ///
-    /// # Errors
-    /// Fails if a station lies outside its beam.
     pub fn configuration(
         &self,
         now: &DrawnConfiguration,
@@ -108,10 +103,6 @@ impl<'a> Magnifier<'a> {
         })
     }
 
-    /// Rigid motions of all bodies.
-    ///
-    /// # Errors
-    /// Fails if a station lies outside its beam.
     pub fn rigid_motions(&self, now: &DrawnConfiguration) -> Result<MagnifiedBodies, SystemError> {
         let mut motions = Vec::new();
         for (body, joints) in self.joints.iter().enumerate() {
@@ -167,7 +158,6 @@ impl<'a> Magnifier<'a> {
         [of.particles[particle]].iter().chain(outline).copied().collect()
     }
 
-    /// Displacements that keep travelling bodies attached to magnified bodies.
     fn shifts(
         &self,
         bodies: &MagnifiedBodies,
@@ -233,7 +223,7 @@ fn mean(points: &[Vec2]) -> Vec2 {
     points.iter().sum::<Vec2>() / points.len().max(1) as f64
 }
 
-/// Displacement between two polylines at the point of the first one that is nearest to a given point.
+/// Displacement from the first polyline to the second, at the point of the first polyline that is nearest to `at`.
 fn displacement(at: Vec2, from: &[Vec2], to: &[Vec2]) -> Option<Vec2> {
     let part = |index: usize| {
         let along = from[index + 1] - from[index];

@@ -19,16 +19,13 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Times {
-    /// First time.
     pub from: f64,
-    /// Last time.
     pub to: f64,
     pub every: f64,
 }
 
 pub struct MotionOptions {
     pub times: Times,
-    /// Stations whose paths are drawn, with their names.
     pub traces: Vec<(String, BodyPoint)>,
     /// Magnification of deformations since the start; `None` for no magnification.
     pub magnify: Option<f64>,
@@ -47,7 +44,6 @@ pub enum Visibility {
 }
 
 impl Visibility {
-    /// Symbols that are drawn. Obstacles are always drawn.
     pub fn visible(self, symbols: Vec<PlacedSymbol>) -> Vec<PlacedSymbol> {
         match self {
             Self::Yes => symbols,
@@ -201,7 +197,8 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Recorded configuration nearest to a time. For the present time, the present configuration, even if it is not recorded.
+/// Recorded configuration nearest to a time.
+/// For the present time, the present configuration is returned, even if it is not recorded.
 fn configuration(
     simulation: &Simulation,
     time: f64,
@@ -212,7 +209,6 @@ fn configuration(
     })
 }
 
-/// Returns true if the beams have so few spans that their knots can be marked.
 pub fn has_room_for_dots(simulation: &Simulation) -> bool {
     let meshes = simulation.model().meshes();
     let spans: usize = meshes.iter().map(|mesh| mesh.basis().breaks().len() - 1).sum();

@@ -14,10 +14,6 @@ const DIGITS: usize = 6;
 /// Smallest height of each chart in a stack of charts in a terminal [lines].
 const LEAST_HEIGHT: usize = 9;
 
-/// Chart of history columns as functions of time, as text for a terminal.
-///
-/// # Errors
-/// Fails if no column is given or a column is unknown. The error lists the columns.
 pub fn history_chart(
     history: &History,
     columns: &[String],
@@ -27,10 +23,6 @@ pub fn history_chart(
     history_charts(history, columns, style, |_, _| Ok(()))
 }
 
-/// Charts of history columns, one for each dimension, as text for a terminal. `add_bands` adds error bands to the chart of the given columns.
-///
-/// # Errors
-/// Fails if `add_bands` fails.
 pub fn history_charts(
     history: &History,
     columns: &[String],
@@ -47,14 +39,12 @@ pub fn history_charts(
     Ok(stacked_text(&charts, style))
 }
 
-/// Several charts as text for a terminal, one below the other. They share the height that `style` allows.
 pub fn stacked_text(charts: &[LineChart], style: &TerminalStyle) -> String {
     let height = (style.height / charts.len().max(1)).max(LEAST_HEIGHT.min(style.height));
     let style = TerminalStyle { height, ..*style };
     charts.iter().map(|chart| chart.text(&style)).collect::<Vec<_>>().join("\n")
 }
 
-/// Groups of items with the same dimension, in the order of their first appearance.
 pub fn by_dimension<T: Clone>(
     items: &[T],
     dimension: impl Fn(&T) -> Option<&'static str>,
@@ -70,10 +60,6 @@ pub fn by_dimension<T: Clone>(
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Checks the names of columns of a history.
-///
-/// # Errors
-/// Fails if no column is named, or if a column is unknown. The error lists the columns.
 pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), ScriptError> {
     if columns.is_empty() {
         let hint = format!("columns: {}", column_names(history));
@@ -82,7 +68,6 @@ pub fn expect_columns(history: &History, columns: &[String]) -> Result<(), Scrip
     columns.iter().try_for_each(|name| expect_column(history, name).map(|_| ()))
 }
 
-/// Chart of history columns over time for a terminal, with the columns in the title.
 fn history_lines(history: &History, columns: &[String]) -> LineChart {
     let title = columns.iter().map(|name| series_name(name)).collect::<Vec<_>>().join(", ");
     let label = match dimension_of(history, columns) {
@@ -92,12 +77,10 @@ fn history_lines(history: &History, columns: &[String]) -> LineChart {
     line_chart(title, history, columns, History::column).y_label(label)
 }
 
-/// Chart of the drift of energy and momenta on a logarithmic axis, as text for a terminal.
 pub fn drift_chart(history: &History, style: &TerminalStyle) -> String {
     drift_lines("", history).text(style)
 }
 
-/// Summary of the drifts as lines of text, for output that is not a terminal.
 pub fn drift_summary(history: &History) -> String {
     let line = |(name, of): &(&str, Invariant)| {
         format!("drift of {}: {}", name.replace('_', " "), scientific(history.drift(*of), 2))
@@ -106,10 +89,6 @@ pub fn drift_summary(history: &History) -> String {
     moving.map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Summary of a column on one line, for output that is not a terminal.
-///
-/// # Errors
-/// Fails if the column is unknown. The error lists the columns.
 pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptError> {
     let dimension = expect_column(history, column)?;
     let values = history.column(column).unwrap_or_default();
@@ -161,10 +140,6 @@ pub fn configuration_picture(
     Ok(marked(picture, &symbols).text(style))
 }
 
-/// Summary of a configuration as lines of text, for output that is not a terminal.
-///
-/// # Errors
-/// Fails if the axis of a beam has a point without a tangent.
 pub fn configuration_summary(
     simulation: &Simulation,
     time: Option<f64>,
@@ -197,7 +172,6 @@ fn shown_at(
     })
 }
 
-/// Chart of history columns as functions of time. `read` returns the values of a column.
 pub fn line_chart(
     title: impl Into<String>,
     history: &History,
@@ -211,7 +185,6 @@ pub fn line_chart(
     })
 }
 
-/// Chart of the drift of energy and momenta as functions of time, on a logarithmic axis.
 pub fn drift_lines(title: impl Into<String>, history: &History) -> LineChart {
     let chart = LineChart::new(title)
         .x_label("t")
@@ -232,7 +205,6 @@ fn series_name(column: &str) -> String {
     }
 }
 
-/// Label of the vertical axis: the name of a single column, and the dimension.
 fn axis_label(history: &History, columns: &[String]) -> String {
     match (columns, dimension_of(history, columns)) {
         ([only], "") => series_name(only),

@@ -9,7 +9,7 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Number of digits of numbers, small enough to hide rounding errors of binary numbers.
+/// Number of significant digits of displayed numbers. It is small enough to hide binary rounding errors.
 const DIGITS: usize = 10;
 const MOST_ITEMS: usize = 8;
 /// Number of displayed items at the start of a long array, in addition to its last item.
@@ -18,7 +18,7 @@ const MOST_KEYS: usize = 12;
 /// Largest displayed nesting depth. The nesting of values may be infinite.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
-/// Minimum width of the values in summaries.
+/// Minimum width of the values in summaries [columns].
 const LEAST_ROOM: usize = 20;
 const MOST_LINES: usize = 200;
 

@@ -5,16 +5,13 @@ use crate::system::BeamSample;
 
 pub struct BeamQuantity {
     pub name: &'static str,
-    /// Name of the quantity in titles of pictures.
     pub words: &'static str,
-    /// Symbol on axes.
     pub sign: &'static str,
     pub dimension: &'static str,
     pub of: fn(&BeamSample) -> f64,
     pub side: BeamSide,
 }
 
-/// All quantities, in the order of [`NAMES`].
 const QUANTITIES: [BeamQuantity; 8] = [
     quantity("N", "axial force", "force", |at| at.forces.axial),
     quantity("Q", "shear force", "force", |at| at.forces.shear),

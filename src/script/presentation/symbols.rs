@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, ObstacleShape, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Distance between the two points used to compute the tangent at a station, as a fraction of the beam length.
+/// Distance from a station to each of the two points from which the tangent is computed, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {
@@ -56,7 +56,6 @@ pub struct SceneAt<'a> {
 }
 
 impl<'a> SceneAt<'a> {
-    /// Scene of a simulation at a time, without released connections.
     pub fn of(simulation: &'a Simulation, time: f64) -> Self {
         let scene = simulation.scene();
         let holds = scene.releasables().into_iter().map(|(_, hold)| hold);
@@ -79,9 +78,6 @@ impl<'a> SceneAt<'a> {
 }
 
 /// Symbols of a scene at a time. `places` returns the positions of stations. Zero loads have no symbol.
-///
-/// # Errors
-/// Fails if `places` fails.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,
@@ -295,8 +291,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Factor of a load at a time. At a jump, it is the factor before the jump; at time zero, the factor after the jump.
-/// The factor of a load is 1 if a script function computes it, because script functions are not called here.
+/// Value of the schedule of a load at a time. At a jump, it is the value before the jump; at time zero, the value after the jump.
+/// The value is 1 if the schedule contains a script function, because script functions are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

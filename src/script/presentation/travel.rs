@@ -22,7 +22,6 @@ impl Travel {
         travel
     }
 
-    /// Returns true for a body that moves only by deformation.
     pub fn is_held(&self, body: usize) -> bool {
         self.is_held[body]
     }
@@ -31,7 +30,6 @@ impl Travel {
         self.group[body]
     }
 
-    /// Returns true for the ground, and for bodies that joints hold in place.
     fn is_fixed(&self, scene: &Scene, partner: &Partner) -> bool {
         match partner {
             Partner::Ground => true,
@@ -39,7 +37,6 @@ impl Travel {
         }
     }
 
-    /// Marks bodies that joints to the ground or to marked bodies hold in place. Returns true if a body was marked.
     fn hold_bodies(&mut self, scene: &Scene) -> bool {
         let mut free: Vec<usize> = self.rigid_freedoms(scene);
         for (station, partner, joint) in joint_ends(scene) {
@@ -67,7 +64,6 @@ impl Travel {
         }
     }
 
-    /// Marks the bodies of groups whose joints leave no degree of freedom, such as a three-hinged arch.
     fn hold_groups(&mut self, scene: &Scene) {
         let mut free = vec![0_usize; self.group.len()];
         self.rigid_freedoms(scene)

@@ -13,7 +13,6 @@ pub struct Definition<'t> {
     /// Index of the bracket before the parameters. If it is missing, index of the bracket of the body.
     opening: usize,
     body: usize,
-    /// Index after the last token.
     pub end: usize,
 }
 

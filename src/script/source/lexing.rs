@@ -45,7 +45,6 @@ thread_local! {
     static LEXINGS: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// Number of texts that this thread has tokenised.
 #[cfg(test)]
 pub fn lexings() -> usize {
     LEXINGS.get()

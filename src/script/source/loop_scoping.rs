@@ -15,12 +15,9 @@ pub const ONE: char = '\u{E003}';
 /// Private-use character for the inserted statement in a loop with a counter.
 pub const TWO: char = '\u{E004}';
 
-/// Parser name of the inserted statement for one variable.
 pub const ONE_NAME: &str = "\u{E003}";
-/// Parser name of the inserted statement for a variable and a counter.
 pub const TWO_NAME: &str = "\u{E004}";
 
-/// Registers the inserted statements, which declare new loop variables.
 pub fn install(engine: &mut Engine) {
     for (name, variables) in [(ONE_NAME, 1), (TWO_NAME, 2)] {
         engine.register_custom_syntax_with_state_raw(

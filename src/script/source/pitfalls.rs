@@ -9,7 +9,6 @@ pub struct Pitfall {
     pub note: String,
 }
 
-/// Notes on the doubtful expressions of a text, in the order of their places.
 pub fn pitfalls(text: &str) -> Vec<Pitfall> {
     let all = scan(text);
     let tokens: Vec<Token> = all.iter().copied().filter(Token::is_significant).collect();
@@ -64,7 +63,6 @@ fn note_on_braces(literal: &str) -> Option<String> {
     ))
 }
 
-/// Note on a number that is given as the schedule of a load. The slice `tokens` begins before the name of the method.
 fn note_on_schedule(text: &str, tokens: &[Token]) -> Option<String> {
     let [dot, name, open, rest @ ..] = tokens else { return None };
     let name = name.of(text);
@@ -97,7 +95,6 @@ fn note_on_schedule(text: &str, tokens: &[Token]) -> Option<String> {
     None
 }
 
-/// Note on a sum of two arrays of two elements. The slices `before` and `after` are the tokens around the operator.
 fn note_on_sum(text: &str, before: &[Token], after: &[Token]) -> Option<String> {
     let is_point = |inside: &[Token]| {
         let is_flat = !inside.iter().any(|token| matches!(token.kind, TokenKind::Open(_)));

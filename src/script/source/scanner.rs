@@ -2,7 +2,6 @@
 //!
 //! The lexer of the engine stops at the first error and drops comments and spaces. The editor must highlight the whole of an unfinished input.
 
-/// Piece of an input, the bytes `start..end`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
     pub kind: TokenKind,
@@ -14,11 +13,9 @@ pub struct Token {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
-    /// Spaces and line ends.
     Space,
     /// Line comment, or closed block comment.
     Comment,
-    /// Unclosed block comment.
     OpenComment,
     /// String or character literal, or raw string.
     Text,
@@ -32,7 +29,6 @@ pub enum TokenKind {
     Number,
     Open(Bracket),
     Close(Bracket),
-    /// Operator or punctuation.
     Symbol,
 }
 
@@ -41,11 +37,8 @@ pub enum Bracket {
     Round,
     /// The brackets `[` or `?[` of arrays and indices.
     Square,
-    /// The brace `{` of blocks.
     Curly,
-    /// The bracket `#{` of maps.
     Map,
-    /// The bracket `${` of an interpolation.
     Interpolation,
 }
 
@@ -64,7 +57,6 @@ impl Token {
         text.get(self.start..self.end).unwrap_or_default()
     }
 
-    /// Returns true if the token is neither space nor comment.
     pub fn is_significant(&self) -> bool {
         !matches!(self.kind, TokenKind::Space | TokenKind::Comment | TokenKind::OpenComment)
     }
@@ -112,7 +104,6 @@ struct Scanner<'t> {
     text: &'t str,
     at: usize,
     open: Vec<Bracket>,
-    /// True within a string in backticks.
     is_within_text: bool,
 }
 
@@ -297,7 +288,6 @@ fn begins_marked(rest: &str) -> bool {
     rest.bytes().take(MOST_MARKS + 1).find(|byte| *byte != b'#') == Some(b'"')
 }
 
-/// Returns true if a character may occur in a name.
 pub fn is_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_'
 }

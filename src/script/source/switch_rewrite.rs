@@ -1,4 +1,4 @@
-//! Check of the values of `switch`. For values that Rhai cannot compare, it would silently execute the default case.
+//! Check of the values of `switch`. For values that Rhai cannot compare, Rhai would silently execute the default case.
 //!
 //! A private-use character is inserted after the keyword `switch` before parsing.
 //! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
@@ -12,7 +12,6 @@ use crate::script::messages::error::EngineResult;
 /// Private-use character after `switch`. The parser reads it as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
-/// Parser name of the character after `switch`.
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
@@ -36,7 +35,6 @@ pub fn install(
     );
 }
 
-/// Positions of the keyword `switch`.
 pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }

@@ -22,7 +22,7 @@ use super::text::Source;
 use super::{loop_scoping, switch_rewrite};
 use crate::script::messages::stop::Stop;
 
-/// Prefix of the names of replaced operators.
+/// Prefix of the names of the operators that replace those of Rhai.
 pub const OWN: &str = "num";
 
 /// Replaced comparison, division and shift operators, with their precedences in Rhai.
@@ -61,12 +61,10 @@ pub fn power_name(chain: u8) -> String {
     format!("{OWN}^{chain}")
 }
 
-/// State of the token hook while it reads a text.
 #[derive(Clone, Default)]
 pub struct TokenReader {
     nesting: Rc<RefCell<Nesting>>,
     stopped: Rc<Cell<Option<Stop>>>,
-    /// True if reading a text must not be interrupted.
     is_undisturbed: Rc<Cell<bool>>,
 }
 

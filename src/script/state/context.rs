@@ -300,7 +300,7 @@ impl Context {
         }
     }
 
-    /// Calls a function with the record of checks.
+    /// Calls `change` with write access to the record of checks.
     pub fn with_checks<T>(&self, change: impl FnOnce(&mut Checks) -> T) -> T {
         change(&mut self.0.checks.borrow_mut())
     }

@@ -23,7 +23,6 @@ pub struct OutputFolder {
     written: RefCell<Vec<PathBuf>>,
     /// Record of the files written by earlier runs, which is read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
-    /// Folders in which temporary files of crashed runs have been removed.
     tidied: RefCell<HashSet<Option<PathBuf>>>,
     /// Contents of files that a dry run would have written. The script may read them.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
@@ -57,17 +56,11 @@ impl OutputFolder {
     }
 
     /// Writes the file `name` in the output folder. A dry run only checks the name.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<WrittenFile, ScriptError> {
         self.write_by(name, |file| file.write_all(content))
     }
 
     /// Writes the file `name` in the output folder in pieces. `write` receives the writer. A dry run only checks the name.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_by(
         &self,
         name: &str,
@@ -133,9 +126,6 @@ impl OutputFolder {
     }
 
     /// Writes a file that the script may [`read`](Self::read) later, also in a dry run.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder, or if writing fails.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<WrittenFile, ScriptError> {
         let written = self.write(name, &content)?;
         if self.mode == RunMode::DryRun {
@@ -177,10 +167,6 @@ impl OutputFolder {
         &self.folder
     }
 
-    /// Path of the file `name` in the output folder.
-    ///
-    /// # Errors
-    /// Fails if the name leads out of the folder.
     pub fn path_of(&self, name: &str) -> Result<PathBuf, ScriptError> {
         if !is_plain(Path::new(name)) {
             return Err(ScriptError::new(format!(
@@ -210,7 +196,6 @@ fn kept_name(path: &Path, number: usize) -> PathBuf {
 }
 
 pub struct InputFolder {
-    /// Name of the folder in messages.
     pub word: &'static str,
     pub path: PathBuf,
     pub open: fn(&Path) -> io::Result<Folder>,

@@ -22,13 +22,11 @@ pub struct Journals {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JournalLifetime {
-    /// Journal that is removed when the script ends.
     Run,
     /// Journal that is not removed, because it contains a part that will be merged.
     Persistent,
 }
 
-/// Index of a journal of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct JournalNumber(usize);
 
@@ -56,10 +54,6 @@ impl Journals {
         Ok(Some(self.store(journal, lasting)))
     }
 
-    /// Opens the files of all parts of a study as one read-only journal.
-    ///
-    /// # Errors
-    /// Fails if a file cannot be read.
     pub fn open_parts(
         &self,
         paths: impl IntoIterator<Item = PathBuf>,
@@ -80,10 +74,6 @@ impl Journals {
         found
     }
 
-    /// Writes the result of a case to a journal. Returns the number of bytes.
-    ///
-    /// # Errors
-    /// Fails if the file cannot be written.
     pub fn write<T: Serialize>(
         &self,
         journal: JournalNumber,
@@ -99,9 +89,6 @@ impl Journals {
 
     /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep.
     /// If an existing journal belongs to the same sweep, `recall` receives its entries.
-    ///
-    /// # Errors
-    /// Fails if the journal cannot be read or written.
     pub fn open_rows(
         &self,
         path: PathBuf,
@@ -139,15 +126,10 @@ impl Journals {
         Ok(Some(keeper))
     }
 
-    /// Number of completed cases of this run that the next run can reuse.
     pub fn stored_cases(&self) -> usize {
         self.kept.get()
     }
 
-    /// Removes the journals when the script has ended.
-    ///
-    /// # Errors
-    /// Fails if a file cannot be removed.
     pub fn finish(&self) -> Result<(), ScriptError> {
         if !self.has_parts.get() {
             self.kept.set(0);
@@ -168,10 +150,6 @@ pub struct RowKeeper {
 }
 
 impl RowKeeper {
-    /// Writes an entry to the journal. Returns the number of bytes.
-    ///
-    /// # Errors
-    /// Fails if the entry cannot be written.
     pub fn write(&mut self, journals: &Journals, entry: &RowEntry) -> Result<u64, ScriptError> {
         if matches!(entry, RowEntry::Computed(..) | RowEntry::Failed(..)) {
             journals.kept.set(journals.kept.get() + 1);
@@ -183,18 +161,10 @@ impl RowKeeper {
         self.journal.write(entry).map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Writes buffered entries to the file, unless the last write was very recent.
-    ///
-    /// # Errors
-    /// Fails if the entries cannot be written.
     pub fn sync_periodically(&mut self) -> Result<(), ScriptError> {
         self.journal.flush_periodically().map_err(|error| refused_rows(&self.path, &error))
     }
 
-    /// Writes buffered entries to the file.
-    ///
-    /// # Errors
-    /// Fails if the entries cannot be written.
     pub fn flush(&mut self) -> Result<(), ScriptError> {
         self.journal.flush().map_err(|error| refused_rows(&self.path, &error))
     }

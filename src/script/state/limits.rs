@@ -21,7 +21,7 @@ pub const DEFAULT_DEPTH: usize = 400;
 pub const DEEPEST: usize = 1000;
 /// Size of the stack for [`DEEPEST`] nested calls [bytes of address space]. Memory is used only when the stack grows.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Largest memory limit that increases the stack for dropping nested values [bytes].
+/// Largest memory limit up to which the stack size increases with the limit [bytes]. The stack must be large enough to drop nested values.
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.

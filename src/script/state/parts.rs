@@ -49,13 +49,8 @@ impl StudyPart {
     }
 }
 
-/// Largest number of missing parts listed in a message.
 const MOST_LISTED: usize = 10;
 
-/// Finds the files of all parts of a study in the given folders. The files are returned in the order of the parts.
-///
-/// # Errors
-/// Fails if there are no files, if parts are missing or occur twice, if the numbers of parts differ, or if a folder cannot be read.
 pub fn find_parts(
     study: &str,
     folders: &[PathBuf],

@@ -12,12 +12,12 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after the time limit, as a fraction of the limit.
-/// On a machine without other load, the run then ends within twice the time limit.
+/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit.
+/// On a machine without other load, a run with a time limit of some seconds then ends within twice this limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Factor of the allowed processor time that gives the allowed wall-clock time.
+/// Largest wall-clock time after a limit was exceeded, as a multiple of the processor time that is allowed in this period.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
 /// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.
@@ -62,7 +62,6 @@ impl Watchdog {
     }
 }
 
-/// Wall-clock time and processor time of the process.
 #[derive(Clone, Copy)]
 struct Clocks {
     wall: Instant,

@@ -52,7 +52,6 @@ pub struct CaseRunner<'c> {
     journal: Option<JournalNumber>,
 }
 
-/// Type of computation for the cases of a study.
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,

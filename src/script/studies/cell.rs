@@ -84,7 +84,6 @@ pub fn case(
     Ok(Case { scene, settings, stops })
 }
 
-/// Checks that settings returned by the function agree with the label of the cell.
 fn expect_no_other_value(call: &Call, own: &Map, values: &Map) -> Result<(), ScriptError> {
     let pair = |name| own.get(name).zip(values.get(name));
     fn differ<T: PartialEq>(

@@ -19,7 +19,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 use crate::simulation::{SimulationSettings, StepSize};
 
-/// Runs the study. In a dry run, nothing is computed.
 pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptError> {
     let mut plan = ErrorStudyPlan::read(call, options)?;
     let refined = refined(call, &plan)?;

@@ -63,7 +63,6 @@ pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     chart
 }
 
-/// Refinement levels that can be used to compute an order, from coarse to fine.
 fn usable_rungs(ladder: &Refinement) -> impl DoubleEndedIterator<Item = usize> {
     (0..ladder.sizes.len()).filter(|rung| ladder.counts_for_order(*rung))
 }
@@ -77,7 +76,8 @@ fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slo
     })
 }
 
-/// Line with the mean of the observed orders at the finest sizes, as far as these orders are nearly equal.
+/// Line whose slope is the mean of the observed orders at the finest sizes.
+/// The mean includes only consecutive orders that are nearly equal.
 /// Returns `None` if fewer than two orders are nearly equal.
 fn observed_order_line(ladder: &Refinement) -> Option<SlopeLine> {
     let last = usable_rungs(ladder).next_back()?;

@@ -54,7 +54,6 @@ fn table_of(study: &Convergence, quantity: &str) -> String {
     table.to_string().trim_end().to_owned()
 }
 
-/// Text with one line for each quantity except the positions; empty if there are no other quantities.
 fn other_orders(study: &Convergence) -> String {
     let of = |quantity: &str| {
         let ladders = study.ladders_with(quantity);

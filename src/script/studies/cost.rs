@@ -120,7 +120,6 @@ pub fn cases(
 }
 
 impl CostTable {
-    /// Creates the table. The plain scene comes first.
     pub fn new(name: String, costs: Vec<StepCost>) -> Self {
         Self { name, costs }
     }

@@ -33,7 +33,6 @@ pub fn deviation(deviation: Option<Deviation>) -> String {
     }
 }
 
-/// Label of a drift; `-` if unknown.
 pub fn drift(drift: f64) -> String {
     if drift.is_nan() { "-".to_owned() } else { scientific(drift, ERROR_DIGITS) }
 }
@@ -47,7 +46,6 @@ pub fn number(text: String) -> Cell {
     Cell::Number(text)
 }
 
-/// First sentence or clause of a reason, at most one line.
 pub fn first_sentence(text: &str) -> String {
     let ends = ["; ", ". ", "\n"].iter().filter_map(|end| text.find(end));
     let sentence = &text[..ends.min().unwrap_or(text.len())];
@@ -59,7 +57,6 @@ pub fn first_sentence(text: &str) -> String {
     format!("{whole_words} …")
 }
 
-/// List of times: `t = 2.5, 7.5`.
 pub fn at_times(times: &[f64]) -> String {
     let times: Vec<String> = times.iter().map(|time| format_number(*time)).collect();
     format!("t = {}", times.join(", "))

@@ -99,7 +99,6 @@ option_set! {
 }
 
 option_set! {
-    /// Additional options of `study_work_precision`.
     pub struct TimedOptions {
         /// Name of a table with results of other programs.
         other_programs: Option<String> =

@@ -18,7 +18,6 @@ use crate::script::messages::numbers::{as_number, format_number};
 use crate::simulation::{History, SimulationSettings, StepSize};
 use crate::system::Scene;
 
-/// Plan of an error study, without its reference.
 pub struct ErrorStudyPlan {
     pub name: String,
     pub subjects: Vec<ObservedScene>,
@@ -26,7 +25,7 @@ pub struct ErrorStudyPlan {
     pub dts: Vec<StepSize>,
     /// Times at which the runs are compared, in increasing order [time].
     pub times: Vec<f64>,
-    /// Length scale of position errors [length].
+    /// Length by which errors of positions are divided [length].
     pub length: f64,
     pub limits: RunLimits,
 }
@@ -122,7 +121,6 @@ impl ErrorStudyPlan {
     }
 }
 
-/// Entry of the option `columns`: a column name, or a column name and a factor.
 fn column_of(
     call: &Call,
     name: &str,
@@ -208,7 +206,6 @@ fn all_of<T: Clone + 'static>(
     }
 }
 
-/// Limits of a case: the given time in seconds, and the step limit of the run.
 pub fn case_limits(call: &Call, seconds: f64) -> RunLimits {
     let steps = call.context().meter().limits().steps;
     RunLimits {
@@ -316,7 +313,6 @@ pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).chain(bodies).collect()
 }
 
-/// Rejects scenes whose stations differ from those of the first scene. Columns are checked later.
 pub fn expect_same_observables(
     call: &Call,
     first: &ObservedScene,

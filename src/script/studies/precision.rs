@@ -14,7 +14,6 @@ use crate::script::bindings::call::Call;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::settings::RunMode;
 
-/// Runs the study. In a dry run, nothing is computed.
 pub fn study(
     call: &Call,
     options: &ErrorOptions,
@@ -49,7 +48,7 @@ pub fn study(
     };
     let is_found = found.is_some();
     let (trials, reference_solution) = found.unwrap_or_else(|| Reference::no_trials(&cases));
-    // Run times of different machines are not comparable. In a study of several parts, all runs are timed on merging.
+    // Run times of different machines are not comparable. In a study of several parts, all runs are timed when the parts are merged.
     let timings = match is_found {
         true => timings(&runner, &plan, (&cases, &trials), repeats)?,
         false => vec![None; cases.len()],

@@ -5,7 +5,6 @@ use crate::analysis::{Precision, PrecisionRow, machines};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 use crate::simulation::StepSize;
 
-/// Name of the series to which a row belongs. Runs with adaptive steps form a separate series.
 fn series_of(row: &PrecisionRow) -> String {
     let method = labels::method(&row.settings.method);
     match row.settings.dt {

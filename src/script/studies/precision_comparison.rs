@@ -67,7 +67,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// Note on the fastest combination confirmed by smaller steps, if the fastest combination may be accurate by chance.
+/// Note that names the fastest confirmed combination; `None` if it is the fastest combination.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let message = match study.cheapest_confirmed(error) {

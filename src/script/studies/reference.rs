@@ -73,9 +73,7 @@ fn doubled_step(dt: StepSize) -> StepSize {
     }
 }
 
-/// Source of the reference values of a study.
 pub enum Reference {
-    /// Independent solution from a table file.
     Table(String, ParsedCsv),
     /// Reference run: its description, its case, and the case with twice the step size, for an error estimate.
     /// The run with twice the step size is omitted if all runs of the study have the same time settings, because errors in time then cancel.
@@ -168,7 +166,7 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 }
 
 impl Reference {
-    /// Reads the option `reference`, and adds the comparable columns to the plan.
+    /// Reads the option `reference`, and adds to the plan the history columns that can be compared with it.
     pub fn read(
         call: &Call,
         options: &ErrorOptions,
@@ -224,7 +222,6 @@ impl Reference {
         }
     }
 
-    /// Reference values of the observables. `own` contains the results of the reference run.
     fn reference_solution(
         &self,
         call: &Call,

@@ -13,16 +13,14 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::SimulationSettings;
 
-/// Number of steps of the first run.
 const FIRST_STEPS: f64 = 50.0;
 
-/// Maximum number of runs.
 const MOST_RUNS: usize = 12;
 
 /// Largest factor of refinement between two runs, for the steps and for the mesh.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Fraction of the tolerance that is allowed for the error in time, and again for the error in space.
+/// Largest allowed error in time, and largest allowed error in space, each as a fraction of the tolerance.
 const PART: f64 = 0.5;
 
 pub struct RefinedRunRequest {
@@ -31,7 +29,6 @@ pub struct RefinedRunRequest {
     pub end: f64,
     /// Largest estimated error of positions, relative to the size of the scene [-].
     pub tolerance: f64,
-    /// Integrator.
     pub method: Method,
     /// Time after which no further run is started [s].
     pub max_time: f64,
@@ -62,7 +59,7 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough.
+/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough or cannot be estimated.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,
@@ -175,10 +172,6 @@ impl RefinedRun {
         }
     }
 
-    /// Result in a dry run: a simulation at the end time, without steps and errors.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built.
     pub fn dry_run(
         scene: &SceneHandle,
         request: &RefinedRunRequest,

@@ -20,7 +20,6 @@ const RESULTS: [&str; 7] =
     ["finished", "outcome", "energy_growth", "iterations", "most_iterations", "retries", "steps"];
 const COLUMNS: usize = 2;
 
-/// Quantity that determines the colours of the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
     EnergyGrowth,
@@ -30,7 +29,6 @@ pub enum MapColouring {
 }
 
 impl MapColouring {
-    /// All quantities by their names in scripts.
     pub const ALL: [(&'static str, Self); 3] = [
         ("energy growth", Self::EnergyGrowth),
         ("iterations", Self::Iterations),
@@ -45,7 +43,6 @@ impl MapColouring {
         }
     }
 
-    /// Name of the quantity, and the powers of ten at the ends of the colour scale.
     fn scale(self) -> (&'static str, (i32, i32)) {
         match self {
             Self::EnergyGrowth => ("energy growth", (-12, 0)),
@@ -122,10 +119,11 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// Case of each cell, or the message thrown by the script function.
+    /// Case of each cell, or the message of the value that the script function threw for the cell.
     ///
     /// # Errors
-    /// Fails if the function fails or returns an invalid value. Also fails if it throws at every cell, which means that the function is wrong.
+    /// Fails if the function has an error that it did not throw, or returns an invalid value.
+    /// Also fails if the function throws a value at every cell, because the function is then wrong.
     pub fn cases(
         &self,
         call: &Call,
@@ -163,7 +161,6 @@ impl StabilityMap {
         self.plan.cells().zip(&self.verdicts)
     }
 
-    /// Number of cells, and number of completed cells.
     pub fn counts(&self) -> (usize, usize) {
         let finished = self.verdicts.iter().filter(|verdict| verdict.outcome.is_finished());
         (self.verdicts.len(), finished.count())

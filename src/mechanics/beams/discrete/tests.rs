@@ -1,4 +1,4 @@
-//! Check that vector instructions of any width give identical results.
+//! Tests that vector instructions of any width give identical results.
 
 use pulp::Arch;
 

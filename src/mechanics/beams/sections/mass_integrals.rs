@@ -13,8 +13,6 @@ pub(in crate::beams) trait MassIntegral:
     /// Integral of the product of the two basis functions, without the inertia per length [length].
     fn length(self) -> f64;
 
-    /// Integrals of the product of the two basis functions for the inertia of x, y and rotation.
-    /// For a tapered beam, the integrals contain mass and inertia per length. For a uniform beam, `shares` contains them.
     fn weights(self) -> Movement;
 
     fn shares(uniform: &Section) -> Movement;

@@ -19,10 +19,8 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
 
     fn of_force<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Section at a quadrature point for the curvature `κ`.
     fn of_moment<'a>(&'a self, uniform: &'a Section, point: usize) -> &'a Section;
 
-    /// Stiffnesses `EA` and `GA` at several quadrature points for the strain `Γ`, one point in each vector lane.
     fn force_stiffness<V: Simd>(
         &self,
         uniform: &Section,
@@ -30,7 +28,6 @@ pub(in crate::beams) trait Sections: Clone + Debug + Send + Sync {
         part: LaneChunk<V>,
     ) -> Stiffness<V>;
 
-    /// Bending stiffness `EI` at several quadrature points for the curvature `κ`, one point in each vector lane.
     fn bending_stiffness<V: Simd>(
         &self,
         uniform: &Section,

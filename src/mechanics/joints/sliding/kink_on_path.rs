@@ -5,7 +5,6 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};
 use crate::elementary::square;
 use crate::geometry::{Dual, DualVector};
 
-/// Quantities of a kink in an iterate, which depend on the path of the slave.
 pub(super) struct KinkOnPath<const SLOPES: usize> {
     pub length: Dual<SLOPES>,
     pub difference: Dual<SLOPES>,

@@ -3,7 +3,8 @@
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Largest gap that is attributed to rounding, as a fraction of the length of the master. The direction of such a gap is not used.
+/// Largest gap that is attributed to rounding, as a fraction of the length of the master per unit of its parameter.
+/// The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law: the mean of the gap over each step is zero. The gap at the end of a step need not be zero.
@@ -34,7 +35,6 @@ fn closed_mean(contact: &Contact<'_>) -> [Equation; 2] {
     })
 }
 
-/// Sliding equation. The sliding direction is the mean tangent at the start plus a multiple of the gap.
 fn sliding(contact: &Contact<'_>) -> Equation {
     let (mut direction, gap) = (contact.start_tangent(), contact.start_gap());
     if gap.norm() > ROUNDING * contact.length {

@@ -37,7 +37,6 @@ impl Schedule {
         }
     }
 
-    /// Returns true if the limits of the schedule just before and just after a time may differ.
     pub(crate) fn may_jump_at(&self, time: f64) -> bool {
         match self {
             Self::Constant(_) | Self::Sine { .. } | Self::SmoothPulse { .. } | Self::Sampled(_) => {

@@ -96,7 +96,6 @@ impl Schedule {
         Ok(StepMean { mean, sampling_error: (mean - other).abs(), largest })
     }
 
-    /// Returns true if means of the schedule are computed from samples, which may miss fast changes.
     pub(crate) fn is_sampled_in_steps(&self) -> bool {
         !self.shape().is_some_and(|shape| shape.suits_points() || shape.suits_waves())
     }
@@ -157,7 +156,6 @@ impl ScheduleShape {
     }
 }
 
-/// Product of schedules, as a linked list in local variables.
 struct ScheduleFactors<'a> {
     first: &'a Schedule,
     others: Option<&'a ScheduleFactors<'a>>,

@@ -51,7 +51,6 @@ pub fn wrap(content: &[u8]) -> Vec<u8> {
     file
 }
 
-/// Checks versions, length and checksum of a file, and returns the content.
 pub fn unwrap(file: &[u8]) -> Result<&[u8], ArchiveError> {
     if file.is_empty() || !file.starts_with(&MAGIC[..file.len().min(MAGIC.len())]) {
         return Err(ArchiveError::Foreign);

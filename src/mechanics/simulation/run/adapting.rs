@@ -24,7 +24,6 @@ impl Simulation {
         planned.map_or(stop, |(adaptive, state)| adaptive.plan(&state, now, stop).interval.end)
     }
 
-    /// Takes two equal half steps whose error is within the tolerance. After a rejection, both half steps are repeated with a smaller size.
     pub(super) fn adapt(
         &mut self,
         adaptive: &mut Adaptive,
@@ -176,7 +175,6 @@ impl Simulation {
         }
     }
 
-    /// Takes the remaining interval of a step without error estimate. If a slider arrives at an end, the step ends at the arrival.
     fn cover_uncompared(
         &mut self,
         halving: StepRetry,

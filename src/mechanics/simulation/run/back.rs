@@ -118,9 +118,6 @@ impl Simulation {
     }
 
     /// Restores a snapshot of this simulation or of a copy. Later rows of the history are removed.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again, although it was built before.
     pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.end_derivatives("going back");
         self.restore_releases(&snapshot.releases)?;

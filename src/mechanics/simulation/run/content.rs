@@ -20,7 +20,6 @@ const MOST_COUNTED: u64 = 1 << 52;
 /// Largest number of Newton iterations that is accepted in settings.
 const MOST_ITERATIONS: usize = 10_000;
 
-/// Stored data of a simulation, from which all other data of the simulation are computed.
 #[derive(Serialize, Deserialize)]
 struct Content<'a> {
     name: Cow<'a, str>,
@@ -51,7 +50,8 @@ impl Simulation {
     /// Serialises the simulation and its name for [`from_bytes`](Self::from_bytes). Snapshots are not included.
     ///
     /// # Errors
-    /// Fails if the schedule of a load is a script function, or if a script function triggers a release.
+    /// Fails if a schedule is a script function, or if a sensor cannot be created from its name.
+    /// Also fails if the caller still has to trigger a release.
     pub fn to_bytes(&self, name: &str) -> Result<Vec<u8>, ArchiveError> {
         let mut schedules = self.scene.schedules();
         if let Some((load, schedule)) = schedules.find(|(_, schedule)| !schedule.can_be_stored()) {

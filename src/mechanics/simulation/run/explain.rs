@@ -55,7 +55,6 @@ impl Simulation {
         }
     }
 
-    /// Description of the treatment of failed and rejected steps, with the number of these steps.
     fn explain_tries(&self) -> SystemFeature {
         let WorkCounts { rejected, retries, .. } = self.counts();
         match &self.adaptive {

@@ -92,9 +92,7 @@ impl Simulation {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct StepErrors {
-    /// Length of the step [time].
     dt: f64,
-    /// Phase error [rad].
     phase: f64,
     unresolved: f64,
 }
@@ -109,10 +107,8 @@ impl StepErrors {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct PhaseSum {
-    /// Largest phase error [rad].
     phase: f64,
     unresolved: f64,
-    /// Kinetic energies [energy].
     kinetic: f64,
     steps: f64,
 }

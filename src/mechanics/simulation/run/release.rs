@@ -83,7 +83,6 @@ impl Simulation {
         let_go.iter().map(|gone| self.scene.releases[gone.release].object).collect()
     }
 
-    /// Adapts the work space of the integrator and the sensors to the renumbered unknowns.
     fn adapt_to_model(&mut self) -> Result<(), SimulationError> {
         let Self { settings, model, record, scene, stepper, .. } = self;
         stepper.integrator = settings.method.build(model, settings.tolerance);

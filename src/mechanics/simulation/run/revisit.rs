@@ -15,7 +15,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Step numbers and times of the stored states from which every later step up to the present is also stored.
+    /// Step numbers and times of the stored states, limited to the last steps without a missing state.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -64,11 +64,11 @@ impl Simulation {
     }
 
     /// Repeats the original run up to a row of its history in this copy.
-    /// Returns true if energies, momenta, work and impulses agree bit for bit with the row of the original run.
+    /// Returns true if the row exists, and its energies, momenta, work and impulses agree bit for bit with the original run.
     /// The repeated run may differ from the original run if script functions were called during the original run.
     ///
     /// # Errors
-    /// Fails in the same cases as [`run_to`](Self::run_to), or if the row does not exist.
+    /// Fails in the same cases as [`run_to`](Self::run_to).
     pub fn run_again(
         &mut self,
         of: &Self,

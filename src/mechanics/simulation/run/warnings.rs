@@ -35,7 +35,8 @@ const LARGEST_DRIFT: f64 = 1e-7;
 /// Rounding error of dissipated energies, as a fraction of these energies.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Smallest change of the kinetic energy in a step that counts as large, as a fraction of the total energy.
+/// Smallest dissipated energy for which a damper is reported as a possible cause.
+/// The energy is a fraction of the sum of the dissipated energy and the largest kinetic energy.
 const MUCH: f64 = 0.3;
 
 /// Largest number of unknowns for which modes of the initial configuration are computed.
@@ -59,7 +60,7 @@ const MOST_TURNS: usize = 20;
 /// Smallest number of adaptive steps that can cause a warning.
 const MANY_STEPS: usize = 5000;
 
-/// Largest ratio of the step size that resolves the motion of the scene to the mean step size without a warning [-].
+/// Largest ratio, without a warning, of the step size that resolves the motion of the scene to the mean step size [-].
 /// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
@@ -315,8 +316,8 @@ impl Simulation {
 
     /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
     /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
-    /// The warning is also given if a step increased the energy. Differences within rounding are ignored.
-    /// The warning reports the step with the largest returned energy.
+    /// The warning is also given if dampers added energy in a step. Differences within rounding are ignored.
+    /// The warning reports the step with the largest difference between returned and dissipated energy.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;
@@ -349,7 +350,6 @@ impl Simulation {
         })
     }
 
-    /// Possible causes of a large change of the kinetic energy within a step: the element with the largest dissipation, and controllers.
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;

@@ -36,7 +36,6 @@ impl PerturbedRuns {
         Ok(perturbation)
     }
 
-    /// Executes a release in both perturbed runs. Afterwards, their states have the same structure as `state`.
     pub(super) fn release(
         &mut self,
         release: usize,
@@ -95,7 +94,6 @@ impl PerturbedRuns {
     }
 }
 
-/// Times of jumps, kinks and releases of a scene [time].
 fn times(scene: &Scene) -> Vec<f64> {
     let breaks = scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
     breaks.chain(scene.release_times()).collect()

@@ -22,7 +22,6 @@ use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 /// The rounding error of strains is therefore larger than the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
-/// Bodies of a scene with the meshes of the beams, from which the model is built.
 pub struct Assembly<'a> {
     pub scene: &'a Scene,
     pub meshes: Vec<Mesh>,
@@ -61,9 +60,6 @@ impl System {
 
     /// Builds the mechanism of a scene at the start of a run.
     /// The initial kinks under sliders are those of the initial contact forces.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`assemble_while`](Self::assemble_while).
     pub(crate) fn assemble_in_motion(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
@@ -191,7 +187,6 @@ impl<'a> Assembly<'a> {
         Ok(assembly)
     }
 
-    /// Control points of all bodies in the initial configuration, with the slaves of sliders moved onto the meshes of their masters.
     fn drawn(&self, goes_on: &mut dyn FnMut() -> bool) -> Result<Vec<Vec<Vec2>>, SystemError> {
         let beams = self.scene.beams.iter().zip(&self.meshes).map(|(beam, mesh)| {
             query(self.scene, goes_on)?;

@@ -44,7 +44,6 @@ impl System {
     }
 }
 
-/// Returns true if a spring, a damper, drag or a slider acts at a point of a rigid body.
 fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
     let is_there = |station: &Station| station.body == BodyIndex::Rigid(body, point);
     let springs = scene.springs().filter(|spring| !spring.kind.is_angle());
@@ -54,7 +53,6 @@ fn is_touched(scene: &Scene, body: usize, point: usize) -> bool {
         || scene.elements.iter().any(is_dragged)
 }
 
-/// Returns true if a torsion spring or a drive acts on the angle of a rigid body.
 fn is_turned(scene: &Scene, body: usize) -> bool {
     let is_own =
         |station: &Station| matches!(station.body, BodyIndex::Rigid(own, _) if own == body);

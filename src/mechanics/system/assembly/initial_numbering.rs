@@ -9,12 +9,10 @@ use crate::system::scene::Scene;
 /// Placeholder for the missing unknown of a component whose motion is given.
 const NONE: usize = usize::MAX;
 
-/// Unknowns in the order of the bodies, before bandwidth reduction.
 pub struct InitialNumbering {
     pub unknowns: usize,
     /// Unknown of each class of tied components, indexed by the root of the class.
     pub number: Vec<usize>,
-    /// Force unknowns of each rigid link, numbered just before the linked point.
     pub forces: Vec<[usize; 2]>,
     pub roller_forces: Vec<Option<usize>>,
 }
@@ -113,7 +111,6 @@ impl InitialNumbering {
         Ok(groups)
     }
 
-    /// Unknowns of control points of bodies, in increasing order.
     pub fn numbers(
         &self,
         points: impl Iterator<Item = (usize, usize)>,

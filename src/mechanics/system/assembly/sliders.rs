@@ -72,7 +72,6 @@ impl Assembly<'_> {
         MasterCurve::new(self.scene.beams[beam].axis.clone(), self.mesh(beam).basis().domain())
     }
 
-    /// Contact path of a beam. A path that is created for the beam is stored in `found` for later calls.
     fn contact_path(&self, beam: usize, found: &mut [Option<ContactPath>]) -> ContactPath {
         let basis = || ContactPath::new(self.mesh(beam).basis().clone());
         found[beam].get_or_insert_with(basis).clone()
@@ -96,9 +95,6 @@ impl Assembly<'_> {
         legs.iter().map(leg).collect()
     }
 
-    /// Axis of a master with a kink under the contact force.
-    /// Returns `None` if the sliding rule has no kink or the mesh of the master is not smooth.
-    /// Kink lengths are computed once per master and stored in `found`.
     fn kinked_axis(
         &self,
         slider: &Slider,

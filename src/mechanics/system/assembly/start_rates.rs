@@ -27,14 +27,12 @@ struct SharedRates<'a> {
     requested: Vec<Option<RequestedRate<'a>>>,
 }
 
-/// Requested start rate of a node [length/time, 1/time].
 #[derive(Clone, Copy)]
 struct RequestedRate<'a> {
     rate: f64,
     at: &'a Station,
 }
 
-/// Initial rates of prescribed degrees of freedom, numbered after the unknowns.
 #[derive(Clone, Copy)]
 struct InitialDriveRates<'a> {
     unknowns: usize,
@@ -103,8 +101,8 @@ impl Assembly<'_> {
         let first = self.scene.first_rigid_body();
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
-            // The size converts differences of angular velocities to velocities.
-            // If all points of a body are at its centre, any size can be used, because the rotation of the body is not tied to others.
+            // Differences of angular velocities are multiplied by the size of the body and compared with velocities.
+            // If all points of a body are at its centre, any size can be used, because nothing is tied to the rotation of the body.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }

@@ -84,7 +84,6 @@ impl Bodies {
         place.interpolate(self[place.body].dynamics.control_points())
     }
 
-    /// Speed of the fastest control point [length/time].
     pub fn fastest_speed(&self, rates: &[f64]) -> f64 {
         let speeds = self.iter().flat_map(|body| {
             (0..body.degrees_of_freedom.len()).map(|point| body.vector_at(point, rates).norm())
@@ -120,7 +119,6 @@ impl Bodies {
         all
     }
 
-    /// Writes the values of [`by_control_point`](Self::by_control_point) for all bodies to a buffer.
     pub fn write_by_control_point(&self, values: &[f64], all: &mut Vec<Vec<Movement>>) {
         all.resize_with(self.len(), Vec::new);
         for (body, own) in self.iter().zip(all) {

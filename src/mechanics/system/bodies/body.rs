@@ -12,7 +12,6 @@ use crate::geometry::{Vec2, cross};
 use crate::linalg::BandRows;
 use crate::threads::run_concurrently;
 
-/// Beam, particle or rigid body with its degrees of freedom.
 pub struct Body {
     pub dynamics: Box<dyn BodyDynamics>,
     pub degrees_of_freedom: DegreesOfFreedom,
@@ -69,8 +68,6 @@ impl Body {
         }
     }
 
-    /// Divides the body into at most `most` concurrent parts, and returns the number of parts. Results do not change.
-    /// A body is not divided if it is small, or if the rows of its parts are interleaved.
     pub fn divide(&mut self, most: usize) -> usize {
         let points = self.dynamics.divide(most);
         let rows_of = |points: &[[usize; 3]]| {
@@ -209,7 +206,6 @@ impl Body {
         self.dynamics.correct_section_forces(&self.movements);
     }
 
-    /// Accumulates the inertia forces `factor · M · rates`, where `M` is the mass matrix of the body.
     pub fn add_inertia_forces(&mut self, factor: f64, rates: &[f64]) {
         self.gather(rates);
         self.dynamics.add_inertia(factor, &self.movements, &mut self.forces);
@@ -253,7 +249,6 @@ impl Body {
         }
     }
 
-    /// Adds `factor · M` to the given rows of the tangent, where `M` is the mass matrix of the body.
     pub fn add_inertia_tangent(&self, factor: f64, rows: BandRows<'_>) {
         let add = |points: Range<usize>, mut rows: BandRows<'_>| {
             let at_hand = rows.rows();

@@ -18,7 +18,6 @@ pub(super) fn rows_of_parts<'a>(
     })
 }
 
-/// Degrees of freedom of each span of a body, for adding span matrices to the tangent.
 pub(super) struct Places<'a> {
     pub(super) degrees_of_freedom: &'a [[usize; 3]],
     pub(super) consecutive: &'a [Option<usize>],

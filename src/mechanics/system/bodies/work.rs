@@ -119,7 +119,6 @@ impl Bodies {
         self.each(|body| body.correct_section_forces(correction));
     }
 
-    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of all bodies.
     pub fn add_inertia(&mut self, factor: f64, rates: &[f64], out: &mut [f64]) {
         self.each(|body| body.add_inertia_forces(factor, rates));
         self.scatter(out);

@@ -9,7 +9,6 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::{Body, Momenta};
 
-/// Elements of a model: point masses, weight, external forces and internal forces (springs, dampers, drag).
 #[derive(Default)]
 pub struct Elements {
     masses: Vec<NodalMass>,
@@ -33,7 +32,6 @@ impl Elements {
         Self { masses, weight, forces, resistances, largest_mismatch: (0.0, 0) }
     }
 
-    /// Total mass of all point masses [mass].
     pub fn mass(&self) -> f64 {
         self.masses.iter().map(|mass| mass.mass).sum()
     }
@@ -54,7 +52,6 @@ impl Elements {
         &*self.resistances[at]
     }
 
-    /// Springs, dampers, material damping and drag, in the order of the scene.
     pub fn resistances(&self) -> impl Iterator<Item = &dyn InternalForce> + Clone {
         self.resistances.iter().map(|resistance| &**resistance)
     }
@@ -116,7 +113,6 @@ impl Elements {
         self.forces.iter().map(|force| force.tracked_sections()).sum()
     }
 
-    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of all point masses.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         self.masses.iter().for_each(|mass| mass.add_inertia(bodies, factor, rates, out));
     }
@@ -161,7 +157,6 @@ impl Elements {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
     }
 
-    /// Appends the data of all existing contacts between bodies to `contacts`.
     pub fn save_contacts(&self, contacts: &mut Vec<f64>) {
         self.resistances.iter().for_each(|resistance| resistance.save_contacts(contacts));
     }
@@ -228,12 +223,10 @@ impl Elements {
         self.resistances.iter_mut().for_each(|resistance| resistance.correct(bodies, correction));
     }
 
-    /// Energy stored in springs [energy].
     pub fn stored(&self) -> f64 {
         self.resistances().map(InternalForce::stored).fold(0.0, |sum, stored| sum + stored)
     }
 
-    /// Energy dissipated since the start [energy].
     pub fn dissipated(&self) -> f64 {
         self.resistances()
             .map(InternalForce::dissipated)
@@ -254,7 +247,6 @@ impl Elements {
         self.resistances().for_each(|resistance| resistance.each_damped_rate(bodies, rates, take));
     }
 
-    /// Calls `take` with the degrees of freedom and the static stiffness of each spring.
     pub fn for_each_static_stiffness(
         &self,
         bodies: &[Body],

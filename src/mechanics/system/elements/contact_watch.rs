@@ -21,7 +21,6 @@ pub struct ShortBounce {
     pub duration: f64,
 }
 
-/// Monitor of the contact phases of a spring that can be slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
     /// Number of steps since the contact began; zero while the spring is slack.
@@ -30,7 +29,6 @@ pub struct ContactWatch {
     entry: f64,
     /// Largest force of the present contact so far [force, force·length].
     force: f64,
-    /// Time since the contact began [time].
     duration: f64,
     /// Largest force of a bounce that is attributed to rounding [force, force·length].
     noise: f64,

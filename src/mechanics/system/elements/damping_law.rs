@@ -180,7 +180,7 @@ impl DampingLaw {
         }
     }
 
-    /// Description of the law for messages; `None` without damping.
+    /// Description of the law for messages, such as `damping 0.5`; `None` without damping.
     pub fn describe(&self) -> Option<String> {
         match self {
             Self::Linear(0.0) => None,

@@ -21,7 +21,6 @@ pub struct DragForces {
     points: Vec<DragPoint>,
     rate_history: RateHistory,
     dissipated: f64,
-    /// Work of the wind [energy].
     wind_work: f64,
 }
 

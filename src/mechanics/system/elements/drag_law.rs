@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Vec2, perpendicular};
 
-/// Force `c s + k |s| s` as a function of the speed `s`. It applies to a point, or per length of a line.
+/// Force `c s + k |s| s` on a point, or force per length on a line, as a function of the speed `s`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SpeedLaw {
     /// Coefficient `c` of the linear part [force·time/length; for a line force·time/length²].

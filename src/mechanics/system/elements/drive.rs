@@ -16,7 +16,7 @@ pub enum DriveKind {
 }
 
 impl DriveKind {
-    /// Name of the type for messages.
+    /// Name of the drive type for messages, such as `motor`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Move => "move",

@@ -35,7 +35,7 @@ pub enum Element {
 }
 
 impl Element {
-    /// Name of the type for messages.
+    /// Name of the element type for messages, such as `spring`.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::PointMass(_) => "mass",
@@ -73,7 +73,6 @@ impl Element {
     }
 }
 
-/// Definition of an element in a scene.
 pub trait ElementDef {
     /// Checks the numbers and the stations of the element.
     ///

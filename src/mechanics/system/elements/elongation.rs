@@ -283,7 +283,6 @@ impl Elongation {
         }
     }
 
-    /// Evaluates the derivative of the secant in the last iterate.
     pub fn find_bend(&mut self, rotations: RotationIncrement) {
         let Self { measure, movements: moved, secant_slope: bend, .. } = self;
         let Measure::Length(parts) = measure else { return };

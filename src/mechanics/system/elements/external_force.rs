@@ -19,14 +19,13 @@ pub fn collocation(stage: Stage) -> Collocation {
     Collocation { configuration: tau, stress: sigma, rotations }
 }
 
-/// Iterate of a step in which forces are evaluated.
 #[derive(Clone, Copy)]
 pub struct TrialState<'a> {
     pub bodies: &'a [Body],
     pub stage: Stage,
     /// Increments of the unknowns since the start of the step [length, rad].
     pub increments: &'a [f64],
-    /// Factor of the forces [-].
+    /// Factor by which the forces are multiplied in the balance of the step [-].
     pub weight: f64,
 }
 
@@ -49,17 +48,11 @@ pub trait ExternalForce {
 
     /// Prepares a step by evaluating time-dependent values.
     /// `_stages` lists the stages at which the integrator evaluates forces.
-    ///
-    /// # Errors
-    /// Fails if a value of the element is not finite.
     fn begin_step(&mut self, _interval: Interval, _stages: &[Stage]) -> Result<(), LoadError> {
         Ok(())
     }
 
     /// Evaluates the element just after a time, for example at the end of a static load step.
-    ///
-    /// # Errors
-    /// Fails if a value of the element is not finite.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())
     }

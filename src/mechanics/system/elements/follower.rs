@@ -37,7 +37,6 @@ impl Follower {
         (self.force_parts, self.current) = (Vec2::zeros(), Vec2::zeros());
     }
 
-    /// Subtracts `factor` times the follower force in an iterate from `out`.
     pub fn subtract_from(&mut self, at: TrialState<'_>, factor: f64, out: &mut [f64]) {
         let (rotation, ..) = self.rotations(at);
         let force = rotation.to_space(self.force) * factor;
@@ -54,7 +53,6 @@ impl Follower {
         self.force.amax()
     }
 
-    /// Adds the tangent stiffness of `weight · factor` times the follower force to the tangent.
     pub fn add_tangent(
         &self,
         at: TrialState<'_>,

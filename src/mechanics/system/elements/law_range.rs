@@ -26,7 +26,6 @@ pub struct OutsideLaw {
     pub reached: f64,
 }
 
-/// Record of the value farthest outside the range of a law.
 #[derive(Debug, Clone, Copy)]
 pub struct LawRange {
     farthest: OutsideLaw,

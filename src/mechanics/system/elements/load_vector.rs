@@ -5,7 +5,6 @@ use crate::beams::{BodyPoint, Movement};
 use crate::geometry::{Vec2, cross};
 use crate::system::bodies::Body;
 
-/// Nodal forces and moments, scaled by a factor.
 #[derive(Debug, Clone, Default)]
 pub struct LoadVector {
     entries: Vec<(usize, usize, Movement)>,

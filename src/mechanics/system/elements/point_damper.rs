@@ -18,7 +18,6 @@ use crate::linalg::BandedMatrix;
 use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
-/// Damper between two points. Its force depends on the rate of their distance.
 #[derive(Debug, Clone)]
 pub struct PointDamper {
     name: String,

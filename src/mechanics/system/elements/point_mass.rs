@@ -70,7 +70,6 @@ impl NodalMass {
         [self.mass, self.mass, self.rotary_inertia]
     }
 
-    /// Adds `factor · M · rates` to `out`, where `M` is the mass matrix of the point mass.
     pub fn add_inertia(&self, bodies: &[Body], factor: f64, rates: &[f64], out: &mut [f64]) {
         let body = &bodies[self.place.body];
         let rate = body.at(&self.place, rates);

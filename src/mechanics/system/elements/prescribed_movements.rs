@@ -15,7 +15,6 @@ use crate::loads::{LoadError, MotionAtStart, PrescribedMotion};
 use crate::system::bodies::Body;
 use crate::system::step_mean::StepMean;
 
-/// Supported degree of freedom with a prescribed motion.
 pub struct PrescribedMovement {
     pub support: Support,
     pub drive: usize,
@@ -68,7 +67,6 @@ pub struct DriveState {
     pub moment: f64,
 }
 
-/// Ratio of a rotation increment to the rotation angle, which converts moments between the two measures of rotation.
 fn per_angle(increment: f64, rotations: RotationIncrement) -> f64 {
     let angle = rotations.angle(increment);
     if angle == 0.0 { 1.0 } else { increment / angle }
@@ -174,7 +172,6 @@ impl PrescribedMovements {
         self.drives.iter_mut().for_each(|drive| drive.work = 0.0);
     }
 
-    /// Largest prescribed rotation in the current step [rad].
     pub fn largest_rotation(&self) -> f64 {
         self.largest_rotation
     }
@@ -201,7 +198,6 @@ impl PrescribedMovements {
         DriveState { work: self.drives[drive].work, force, moment }
     }
 
-    /// Names of the drives whose motion has a kink within a step, with the largest kink of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         let all = self.movements.iter().zip(&self.present);
         let bent = all.filter(|(_, present)| present.curvature.size() > 0.0);
@@ -210,7 +206,6 @@ impl PrescribedMovements {
         })
     }
 
-    /// Names of the drives whose prescribed rate changes between the sampling points of a step, with the largest such change of each drive.
     pub fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let all = self.movements.iter().zip(&self.present);
         all.filter_map(|(movement, present)| {
@@ -260,9 +255,6 @@ impl PrescribedMovements {
 
     /// Jumps of prescribed rates at the start of a step, indexed by the degree of freedom; `None` without a jump.
     /// Rates may jump at declared breaks of a function and at samples of a controller.
-    ///
-    /// # Errors
-    /// Fails if the function of a drive has no finite value.
     pub fn jumps(&self, interval: Interval, rates: &[f64]) -> Result<Option<Vec<f64>>, LoadError> {
         let mut found = None;
         for (at, movement) in self.movements.iter().enumerate() {
@@ -290,14 +282,12 @@ impl PrescribedMovements {
         std::iter::repeat_n(0.0, ahead).chain(behind)
     }
 
-    /// Stores the changes of momentum that an impact causes at the prescribed degrees of freedom.
     pub fn store_impact_momentum(&mut self, struck: &[f64]) {
         for (present, struck) in self.present.iter_mut().zip(&struck[self.first..]) {
             present.impact_momentum = *struck;
         }
     }
 
-    /// Stores the mean momenta of a step at the control points of the prescribed degrees of freedom.
     pub fn store_mean_momentum(&mut self, bodies: &[Body], momentum: &[f64]) {
         for (movement, present) in self.movements.iter().zip(&mut self.present) {
             let Support { body, point, .. } = movement.support;

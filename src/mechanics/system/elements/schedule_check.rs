@@ -17,7 +17,6 @@ pub struct UnsampledChange {
     pub sampling_error: f64,
 }
 
-/// Record of the largest difference so far between two quadrature rules for the mean of a schedule.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ScheduleCheck {
     time: f64,

@@ -250,7 +250,6 @@ impl ElementDef for Spring {
     }
 }
 
-/// Index of the first point whose abscissa is not larger than the previous abscissa.
 fn first_non_increasing(points: &[(f64, f64)]) -> Option<usize> {
     points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
 }

@@ -48,7 +48,6 @@ pub struct SpringDamper {
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
     dissipated: f64,
-    /// Monitor of contact phases, for laws with a slack range.
     contact: ContactWatch,
 }
 

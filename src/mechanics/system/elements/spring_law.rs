@@ -132,7 +132,6 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the force is zero in a whole segment of the law.
     pub(crate) fn may_be_slack(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -234,7 +233,7 @@ impl SpringLaw {
         }
     }
 
-    /// Description of the law for messages.
+    /// Description of the law for messages, such as `a table of 5 points`.
     pub fn describe(&self) -> String {
         match self {
             Self::Linear { stiffness, natural } => {

@@ -5,7 +5,6 @@ use crate::geometry::{Vec2, cross};
 use crate::joints::Component;
 use crate::system::bodies::Body;
 
-/// Supported degree of freedom: body, control point and component.
 #[derive(Debug, Clone, Copy)]
 pub struct Support {
     pub body: usize,

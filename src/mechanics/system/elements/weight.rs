@@ -8,7 +8,6 @@ use crate::geometry::Vec2;
 use crate::integrators::Method;
 use crate::system::bodies::Body;
 
-/// Weight of beams and point masses: constant forces with a potential.
 pub struct Weight {
     gravity: Vec2,
     forces: LoadVector,
@@ -26,7 +25,6 @@ impl Weight {
         Self { gravity, forces }
     }
 
-    /// Potential energy of a body [energy].
     pub fn energy_of(&self, bodies: &[Body], body: usize) -> f64 {
         -self.forces.potential_work_on(bodies, |other| other == body)
     }

@@ -82,7 +82,6 @@ impl ZeroLengthSpring {
         along.chain(self.damper.iter_mut().map(|part| part as &mut dyn InternalForce))
     }
 
-    /// Magnitudes of elongation and force, computed from their components along x and y.
     fn magnitudes(&self) -> Option<SpringTrialState> {
         let [x, y] = self.along.as_slice() else { return self.along[0].stretched() };
         let (x, y) = (x.stretched()?, y.stretched()?);

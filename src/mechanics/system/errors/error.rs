@@ -140,12 +140,10 @@ pub enum Turning {
 }
 
 impl SystemError {
-    /// Returns a closure for `map_err` that adds the name of a beam to a geometry error.
     pub(in crate::system) fn geometry(beam: &str) -> impl Fn(GeometryError) -> Self + '_ {
         move |source| Self::Beam { beam: beam.to_owned(), source: source.into() }
     }
 
-    /// Returns a closure for `map_err` that adds the name of a beam to a beam error.
     pub(in crate::system) fn beam(name: &str) -> impl Fn(BeamError) -> Self + '_ {
         move |source| Self::Beam { beam: name.to_owned(), source }
     }

@@ -70,7 +70,6 @@ impl Links {
         there.map(|(index, _)| force(index)).reduce(|sum, force| sum + force)
     }
 
-    /// Prepares a step of the given duration [time].
     pub fn begin_step(&mut self, duration: f64) {
         self.force_unknowns = ForceUnknowns::Step(duration);
     }
@@ -95,7 +94,6 @@ impl Links {
         }
     }
 
-    /// Adds the derivatives of the terms of [`add`](Self::add) to the tangent.
     pub fn add_tangent(
         &self,
         bodies: &Bodies,

@@ -9,7 +9,6 @@ use crate::geometry::{Vec2, larger};
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::Bodies;
 
-/// Point of a body constrained to a straight line.
 #[derive(Debug, Clone)]
 pub struct InclinedRoller {
     pub joint: usize,
@@ -103,7 +102,6 @@ impl InclinedRoller {
         }
     }
 
-    /// Adds `force` times the unit normal of the line to the residual at the point.
     pub fn transmit(&self, bodies: &Bodies, force: f64, out: &mut [f64]) {
         let [x, y] = self.degrees(bodies);
         out[x] += force * self.normal.x;

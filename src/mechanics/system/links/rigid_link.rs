@@ -38,7 +38,6 @@ impl ForceUnknowns {
     }
 }
 
-/// Type of rotation increments and fraction of the step with which the arms of rigid links are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArmRule {
     pub rotations: RotationIncrement,
@@ -46,7 +45,6 @@ pub struct ArmRule {
     pub fraction: f64,
 }
 
-/// Rigid link between the centre of mass of a rigid body and another point of the body.
 #[derive(Debug, Clone)]
 pub struct RigidLink {
     pub body: usize,
@@ -197,7 +195,6 @@ impl RigidLink {
         }
     }
 
-    /// Adds a force on the linked point, and the opposite force with its moment on the body, to a residual.
     pub fn transmit(&self, bodies: &Bodies, force: Vec2, arm: Vec2, out: &mut [f64]) {
         let ([x, y, rotation], [point_x, point_y, _]) = self.degrees(bodies);
         out[point_x] += force.x;

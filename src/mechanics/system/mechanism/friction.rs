@@ -17,7 +17,6 @@ impl System {
         self.sliders.iter().any(|slider| slider.active_friction().is_some())
     }
 
-    /// Selects slip or stick for all sliders according to their present velocities.
     pub(in crate::system) fn choose_friction_modes(&mut self) {
         if !self.has_friction() {
             return;
@@ -47,9 +46,6 @@ impl System {
     }
 
     /// Takes the solver with the factors of the present inertia out of the model. The caller must put the solver back after use.
-    ///
-    /// # Errors
-    /// Fails if the inertia matrix is singular.
     pub(super) fn take_inertia_solver(&mut self) -> Result<Box<InertiaSolver>, LinearError> {
         let mut solver = self.step.inertia_solver.take().unwrap_or_else(|| {
             let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());
@@ -62,8 +58,6 @@ impl System {
         Ok(solver)
     }
 
-    /// Starts the slip of sticking sliders whose present force along the master exceeds the friction limit.
-    /// Returns true if a slider starts to slip.
     pub(super) fn start_overloaded_slips(&mut self, now: &Instant) -> bool {
         let mut starts = false;
         for at in 0..self.sliders.len() {
@@ -74,9 +68,6 @@ impl System {
     }
 
     /// Starts the sticking of a slider. An impulse removes the remaining velocity along the master, and its work counts as lost energy.
-    ///
-    /// # Errors
-    /// Fails if the impulse is not determined.
     pub(crate) fn end_slip(&mut self, slider: usize) -> Result<(), SystemError> {
         self.sliders[slider].stick();
         self.stop_along(&[slider]).map_err(|_| self.sliders.overdetermined())
@@ -88,9 +79,6 @@ impl System {
     }
 
     /// Starts the sticking of all sliders whose velocity along the master is opposite to their slip.
-    ///
-    /// # Errors
-    /// Fails if the impulses at the sliders are not determined.
     pub(crate) fn end_reversed_slips(&mut self) -> Result<(), SystemError> {
         let is_reversed =
             |at: &usize| self.sliders[*at].is_slip_reversed(&self.bodies, &self.motion.rates);

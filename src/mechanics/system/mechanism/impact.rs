@@ -20,7 +20,6 @@ pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 /// The first response is computed with the included deformations only, the second response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
-/// Unit impulse in one direction: generalised forces, and the velocity changes that the impulse causes.
 pub(super) struct ImpulseResponse {
     pub(super) forces: Vec<f64>,
     pub(super) rates: Vec<f64>,
@@ -52,7 +51,7 @@ impl ImpulseResponse {
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
-/// The mean velocity does not contain velocities across masters, whose signs alternate from step to step.
+/// This mean velocity does not contain velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -82,7 +81,6 @@ impl ImpactLaw {
     }
 }
 
-/// Contacts of one impact with their directions, and the velocities due to their impulses.
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
@@ -196,9 +194,6 @@ fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
 
 impl System {
     /// Sets the velocities of all slaves across their masters to zero by the smallest change (Gauss's principle of least constraint).
-    ///
-    /// # Errors
-    /// Fails if the impulses at the sliders are not determined.
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
         self.apply_transverse_impact().map_err(|_| self.sliders.overdetermined())
     }
@@ -270,7 +265,6 @@ impl System {
         (slave.dot(&unit), (slave - relative).dot(&unit))
     }
 
-    /// Speed of the fastest control point [length/time].
     pub(in crate::system) fn fastest_speed(&self) -> f64 {
         self.bodies.fastest_speed(&self.motion.rates)
     }
@@ -287,7 +281,6 @@ impl System {
         closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
     }
 
-    /// Generalised forces of a unit impulse in an impact direction, at all degrees of freedom.
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
         let mut forces = vec![0.0; self.degrees_of_freedom()];
         self.sliders[slider].transmit(&self.bodies, unit, &mut forces);
@@ -308,9 +301,6 @@ impl System {
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
     /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
-    ///
-    /// # Errors
-    /// Fails if the matrix is singular.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,

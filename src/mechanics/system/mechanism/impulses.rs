@@ -24,14 +24,11 @@ pub struct ExchangeLedger {
     pub powers: Option<Vec<StepPower>>,
 }
 
-/// Impulses on all control points, with preallocated buffers.
 pub struct Impulses {
     numbers: Vec<DegreesOfFreedom>,
-    /// Force unknowns of rigid links, numbered after all separate degrees of freedom.
     links: Vec<[usize; 2]>,
     rollers: Vec<Option<usize>>,
     values: Vec<f64>,
-    /// Residual of the balance. Its length includes the entries of the contact equations.
     residual: Vec<f64>,
     /// Impulses since the end of the last step [force·time, force·length·time].
     /// The impulses on control points are stored first, followed by the impulses of inclined rollers.

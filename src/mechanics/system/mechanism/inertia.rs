@@ -51,7 +51,6 @@ impl System {
         inertia
     }
 
-    /// Adds the entries of [`banded_inertia`](Self::banded_inertia) to a zero matrix.
     pub(super) fn fill_banded_inertia(&self, inertia: &mut BandedMatrix) {
         self.add_inertia_tangent(1.0, inertia);
         self.links.add_coupling(&self.bodies, self.unknowns.count(), inertia);

@@ -89,9 +89,6 @@ impl System {
 
     /// Computes the present contact forces and stores them in `self.step.present`.
     /// Nothing is allocated after the first call, unless the number of contacts grows.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`instant`](Self::instant).
     pub(super) fn compute_present_forces(&mut self) -> Result<(), SystemError> {
         let mut present = self.step.present.take().unwrap_or_default();
         present.residual.clear();
@@ -109,8 +106,6 @@ impl System {
         SystemError::NoInstant { time: self.motion.time, reason }
     }
 
-    /// Adds all forces at the present time to `out`, except inertia forces and contact forces.
-    /// The argument `rates` contains the rates by control point.
     fn add_present_forces(
         &mut self,
         rates: &[Vec<Movement>],
@@ -148,7 +143,6 @@ impl System {
         Ok(seen)
     }
 
-    /// Solves the equations of motion for the accelerations and the contact forces, from a residual with all other forces.
     fn solve_present_forces(&mut self, present: &mut PresentForces) -> Result<(), SystemError> {
         present.prescribed.clear();
         present.prescribed.extend(self.supports.prescribed().accelerations());

@@ -18,9 +18,6 @@ impl System {
     /// Slaves and masters are moved apart by the displacement of their kinks.
     /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
     /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
-    ///
-    /// # Errors
-    /// Fails if the velocities after the rotation are undetermined.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let slow = |slider: &SliderContact| slider.has_kink() && slider.is_slow(bodies, rates);

@@ -30,7 +30,6 @@ impl Reactions {
         self.nodes.iter().flatten().flatten().copied()
     }
 
-    /// Force of an inclined roller [force].
     pub(crate) fn by_roller(&self, roller: usize) -> Vec2 {
         self.roller_forces[roller]
     }

@@ -10,7 +10,6 @@ use crate::linalg::BlockLayout;
 use crate::system::elements::{PrescribedMovement, Support, Supports};
 use crate::system::state::{StepMeasures, Unknowns};
 
-/// Numbering of the degrees of freedom of a model, and data that depend on the numbering.
 pub struct DofNumbers {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
     pub links: Vec<[usize; 2]>,

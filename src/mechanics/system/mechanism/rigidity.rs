@@ -24,7 +24,6 @@ const NO_STRAIN: f64 = 1e-20;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
-    /// All deformations: only inertia resists the impulse.
     All,
     /// Deformations that steps of the given length resolve [time].
     Resolved(f64),
@@ -46,7 +45,6 @@ impl StrainResistance {
     }
 }
 
-/// Strains of the present configuration, with the weights by which an impact suppresses them.
 pub(super) struct Rigidity {
     resistances: Vec<StrainResistance>,
 }

@@ -27,7 +27,6 @@ const CORRECTIONS: usize = 40;
 const RIGHT: f64 = 1e-12;
 
 /// Range of accepted estimates of the derivative of the rotation angle with respect to its parameter.
-/// Estimates outside the range are not used.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner of a track that a slider passes, with the directions before and after the corner [-].
@@ -54,7 +53,6 @@ impl SeamCorner {
     }
 }
 
-/// Sliders that pass seams at the same time, with the corners at these seams.
 pub(super) struct SeamCrossings {
     passing: Vec<(usize, MasterEnd, Seam)>,
     sections: Vec<SeamCorner>,
@@ -62,7 +60,7 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners at which the section direction changes; empty if it changes at no seam.
+    /// Corners of the section directions at all seams that are passed; empty if the section direction changes at none of them.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
@@ -97,7 +95,6 @@ impl Response {
 }
 
 impl System {
-    /// Returns true if the track of a slider continues beyond a limit of the present beam.
     pub(crate) fn continues_beyond(&self, limit: MasterLimit) -> bool {
         self.sliders[limit.slider].seam(&self.bodies, limit.end).is_some()
     }

@@ -16,7 +16,6 @@ pub struct SystemState {
     prediction: Prediction,
     knows_accelerations: bool,
     sliders: Vec<SliderState>,
-    /// Contacts between bodies. The number of contacts changes during a simulation.
     contacts: Vec<f64>,
 }
 
@@ -30,7 +29,6 @@ impl SystemState {
         }
     }
 
-    /// Returns true if both states contain the same numbers of values, sliders and contacts.
     pub(crate) fn is_shaped_like(&self, other: &Self) -> bool {
         self.numbers.len() == other.numbers.len()
             && self.sliders.len() == other.sliders.len()
@@ -119,10 +117,6 @@ impl System {
         contacts.expect("the state is one of this model");
     }
 
-    /// Restores a state that was read from a file, with checks.
-    ///
-    /// # Errors
-    /// Fails if the values cannot be a state of this model.
     pub(crate) fn restore_checked(&mut self, state: &SystemState) -> Result<(), SystemError> {
         let refused = |reason: &'static str| SystemError::State { reason };
         let numbers = &state.numbers;

@@ -33,7 +33,6 @@ impl StaticOrder {
         }
     }
 
-    /// Returns true if this order is the order of unknowns in time steps.
     pub(crate) fn is_step_order(&self) -> bool {
         self.position.is_none()
     }

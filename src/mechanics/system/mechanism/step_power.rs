@@ -3,7 +3,6 @@
 use super::System;
 use crate::system::elements::ExternalForce;
 
-/// Power of a drive or a load over the last step.
 pub struct StepPower {
     /// Work in the step divided by its duration [energy/time]. Before the first step, the value is the present power of a drive.
     pub power: f64,
@@ -22,7 +21,6 @@ impl System {
         Some(self.exchanged.powers.as_ref()?[drive].power)
     }
 
-    /// Power of a load over the last step [energy/time].
     pub(in crate::system) fn power_of_load(&self, load: usize) -> Option<f64> {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
@@ -34,7 +32,6 @@ impl System {
         }
     }
 
-    /// Computes the powers of a step of the given duration [time].
     pub(super) fn update_powers(&mut self, duration: f64) {
         let Some(mut powers) = self.exchanged.powers.take() else { return };
         for (step, work) in powers.iter_mut().zip(self.works()) {

@@ -18,7 +18,6 @@ use crate::system::state::UnknownKind;
 const RIGID: f64 = 1e8;
 
 impl System {
-    /// Calls `take` with the static stiffness of every span and spring.
     pub(crate) fn for_each_static_span(
         &self,
         order: &StaticOrder,
@@ -32,7 +31,6 @@ impl System {
         self.elements.for_each_static_stiffness(&self.bodies, take);
     }
 
-    /// Calls `take` with the degrees of freedom and the stiffness of every span of every body.
     pub(super) fn each_span_of_bodies(&self, take: &mut dyn FnMut(&[usize], &SpanStiffness)) {
         for body in self.bodies.iter() {
             let order = body.dynamics.order();
@@ -70,7 +68,6 @@ impl System {
         reaches.fold(self.unknowns.half_bandwidth(), usize::max)
     }
 
-    /// Calls `take` with the penalty stiffness of every rigid link and contact.
     pub(crate) fn for_each_static_constraint(
         &self,
         order: &StaticOrder,
@@ -133,7 +130,7 @@ impl System {
         self.negative_stiffness_count_with_inertia(0.0)
     }
 
-    /// Number of negative eigenvalues of the stiffness plus `rate` times the inertia [1/time²].
+    /// Number of negative eigenvalues of the stiffness plus `rate` [1/time²] times the inertia.
     pub(crate) fn negative_stiffness_count_with_inertia(&self, rate: f64) -> usize {
         let order = self.static_order();
         let inertia = match rate > 0.0 {

@@ -74,9 +74,6 @@ impl System {
     /// Returns true if the velocity of a slider at an end of its master points beyond the end.
     /// The velocity contains only deformations that an impact with steps of length `dt` [time] includes.
     /// Velocities across masters are excluded, because their signs change from step to step.
-    ///
-    /// # Errors
-    /// Fails if the impulse at the end of the master is undetermined.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
@@ -96,9 +93,6 @@ impl System {
     /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
     /// The impact duration follows from wave speeds if at least one of the bodies is deformable and light enough.
     /// The ratio of step length to impact duration is recorded.
-    ///
-    /// # Errors
-    /// Fails if the impulse at the limit is undetermined.
     pub(crate) fn resolves_impact(
         &mut self,
         limit: MasterLimit,
@@ -136,8 +130,6 @@ impl System {
         }))
     }
 
-    /// Keeps the kinks at all contact points and the friction forces of slipping sliders constant in the next step.
-    /// Returns true if the equations of the next step change.
     pub(crate) fn freeze_contacts(&mut self) -> bool {
         self.sliders.freeze_contacts()
     }
@@ -146,7 +138,6 @@ impl System {
         self.sliders.unfreeze_contacts();
     }
 
-    /// Returns true if a kink under a contact force, or a friction force, is kept constant.
     pub(crate) fn has_frozen_contacts(&self) -> bool {
         self.sliders.iter().any(|slider| slider.is_frozen())
     }

@@ -66,18 +66,15 @@ impl System {
         self.sliders[slider].relative_gap(&self.bodies)
     }
 
-    /// Returns true if the velocity of a slider in flight points at the axis of its master.
     pub(crate) fn approaches_axis(&self, slider: usize) -> bool {
         self.speed_across(slider) < 0.0
     }
 
-    /// Moves all sliders in flight to the nearest points of their masters in the present configuration.
     pub(in crate::system) fn follow_masters(&mut self) {
         let Self { sliders, bodies, .. } = self;
         sliders.iter_mut().for_each(|slider| slider.move_to_nearest_point(bodies));
     }
 
-    /// Clears the numbers of take-offs and landings of all sliders, after a regular step.
     pub(crate) fn clear_contact_events(&mut self) {
         self.sliders.iter_mut().for_each(|slider| slider.clear_events());
     }
@@ -87,7 +84,6 @@ impl System {
         self.sliders[slider].take_contact_change()
     }
 
-    /// Starts the flight of a slider. Positions, velocities and energy do not change.
     pub(crate) fn take_off(&mut self, slider: usize) {
         self.sliders[slider].take_off();
         self.motion.accelerations.mark_unknown();
@@ -95,9 +91,6 @@ impl System {
 
     /// Ends the flight of a slider, and of all sliders that land simultaneously. The length of the steps is `dt` [time].
     /// A slider that strikes its master bounces or stays in contact. A slider beyond an end of its master passes the axis without contact.
-    ///
-    /// # Errors
-    /// Fails if the impulses of the landing are undetermined.
     pub(crate) fn land(&mut self, slider: usize, dt: f64) -> Result<(), SystemError> {
         let mut striking = Vec::new();
         self.sliders.iter_mut().for_each(|slider| slider.impulse = Vec2::zeros());
@@ -154,7 +147,6 @@ impl System {
         Ok(())
     }
 
-    /// Directions across the masters of landing sliders with their laws, followed by the directions of all contacts.
     fn landing_directions(
         &self,
         landing: &[usize],
@@ -178,8 +170,6 @@ impl System {
         }
     }
 
-    /// Starts the flight of sliders that an impact moves away from their masters.
-    /// The argument `laws` contains the directions and the laws of `impulses`.
     pub(super) fn separate_after_impact(
         &mut self,
         laws: impl Iterator<Item = (ImpactDirection, ImpactLaw)>,

@@ -18,7 +18,6 @@ impl System {
         self.supports().prescribed().bends()
     }
 
-    /// Loads and drives whose schedule changes between the samples of a step, with the largest such change of each load or drive.
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));

@@ -12,7 +12,7 @@ impl System {
         self.sliders().iter().map(|slider| slider.name.as_str())
     }
 
-    /// State of a slider: sliding, held at a stop, or released.
+    /// State of a slider: sliding, held at a stop, in flight, or released.
     pub fn slider_state(&self, slider: usize) -> SliderState {
         self.slider(slider).state
     }
@@ -95,7 +95,7 @@ impl System {
         self.slider(slider).speed(self.bodies(), self.rates())
     }
 
-    /// Slip speed of a slider with friction at the start of the last attempted step [length/time].
+    /// Friction limit minus the force along the master at the start of the last attempted step [force]; zero for a slider that does not stick.
     pub(crate) fn sticking_reserve(&self, slider: usize) -> f64 {
         self.slider(slider).sticking_reserve()
     }

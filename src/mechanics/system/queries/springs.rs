@@ -45,12 +45,10 @@ impl System {
         branches.extend(all.filter_map(|one| one.branch(self.bodies(), self.rates())));
     }
 
-    /// Springs with a bounce that the steps have not resolved, with their names.
     pub(crate) fn short_bounces(&self) -> impl Iterator<Item = (&str, ShortBounce)> {
         self.elements().resistances().filter_map(|one| Some((one.name(), one.short_bounce()?)))
     }
 
-    /// Elongations and rates of springs and dampers beyond the range of their laws, with the indices of the springs in the scene.
     pub(crate) fn outside_laws(&self) -> Vec<(usize, OutsideLaw)> {
         let mut found = Vec::new();
         let all = self.elements().resistances().filter(|one| one.stretched().is_some());
@@ -75,7 +73,7 @@ impl System {
     }
 
     /// Energies dissipated since the start by elements other than springs and dampers, in the order of the scene [energy].
-    /// The elements are material damping, drag, contact with obstacles, impacts of sliders with restitution below 1, and friction.
+    /// The elements are material damping, drag, contacts, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

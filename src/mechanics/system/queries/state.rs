@@ -25,7 +25,6 @@ impl System {
         })
     }
 
-    /// Body and point of the rigid link whose constraint force is the given unknown.
     pub(crate) fn linked_by(&self, unknown: usize) -> Option<(usize, usize)> {
         let link = self.links().iter().find(|link| link.unknowns.contains(&unknown))?;
         Some((link.body, link.point))
@@ -89,7 +88,6 @@ impl System {
         self.unknown_movements().kinds()
     }
 
-    /// Displacements of the control points of all bodies [length], from values of the unknowns.
     pub(crate) fn displacements(&self, movements: &[f64]) -> Vec<Vec<Vec2>> {
         let of_body = |body: &Body| {
             (0..body.degrees_of_freedom.len()).map(|at| body.vector_at(at, movements)).collect()

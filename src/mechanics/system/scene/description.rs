@@ -283,15 +283,12 @@ impl Scene {
     /// Adds a point mass at a station.
     ///
     /// # Errors
-    /// Fails if the mass is not positive and finite, or if the rotary inertia is negative.
+    /// Fails if the station does not exist, mass and rotary inertia are both zero, or one of them is negative or not finite.
+    /// Also fails if a particle has a rotary inertia.
     pub fn add_mass(&mut self, mass: PointMass) -> Result<(), SystemError> {
         self.add_element(Element::PointMass(mass))
     }
 
-    /// Adds an element.
-    ///
-    /// # Errors
-    /// Fails if a number of the element is out of range or a station does not exist.
     pub(crate) fn add_element(&mut self, element: Element) -> Result<(), SystemError> {
         element.description().check(self)?;
         if let Element::Damping(MaterialDamping { name, .. }) = &element
@@ -363,7 +360,6 @@ impl Scene {
         }
     }
 
-    /// Description of the body to which a station belongs, such as `beam 'arm'`.
     pub(crate) fn name_of_body(&self, station: &Station) -> String {
         match station.body {
             BodyIndex::Beam(beam) => format!("beam '{}'", self.beams[beam].name),
@@ -392,7 +388,7 @@ impl Scene {
         })
     }
 
-    /// Description of a station for messages.
+    /// Description of a station for messages, such as `the start of beam 'rod'`.
     pub fn describe(&self, station: &Station) -> String {
         if let BodyIndex::Rigid(body, point) = station.body {
             return self.describe_point(body, point);

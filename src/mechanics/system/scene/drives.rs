@@ -7,10 +7,11 @@ use crate::loads::{LimitSide, PrescribedMotion};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, SceneChecks};
 
-/// Tolerance for the initial value of a prescribed displacement, as a fraction of the size of the motion.
+/// Largest initial value of a prescribed displacement that counts as zero [rad], or as a fraction of the length of the body.
 const CLOSED_AT_START: f64 = 1e-12;
 
-/// Tolerance for jumps of a prescribed motion at declared breaks, as a fraction of the size of the motion.
+/// Largest jump of a prescribed displacement at a declared break that counts as zero.
+/// The jump is a fraction of the displacement plus the length of the body, or plus 1 rad for rotations.
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {

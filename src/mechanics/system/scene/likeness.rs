@@ -16,9 +16,9 @@ const TOLERANCE: f64 = 1e-9;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
-    /// Returns true if both scenes have equal objects, start velocities and loads in the same order.
-    /// The compared objects are beams, particles, rigid bodies, joints, tracks, sliders and masses.
-    /// Names and observed stations are ignored. Script functions cannot be compared, so scenes that contain them are never equal.
+    /// Returns true if all objects of both scenes are equal and have the same order. Only elements of different types may change their order.
+    /// Names, observed stations and outlines of rigid bodies are ignored.
+    /// Scenes that contain script functions are never equal, because script functions cannot be compared.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
             (Ok(own), Ok(others)) => {

@@ -28,6 +28,7 @@ impl Scene {
     ///
     /// A beam on which sliders slide has twice as many spans as a beam without sliders.
     /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
+    /// The largest number of spans is 64.
     /// A mesh that cannot interpolate the axis is reported by the assembly.
     pub fn choose_mesh(&mut self, beam: usize) {
         if !self.beams[beam].mesh.is_automatic() {
@@ -45,7 +46,6 @@ impl Scene {
         }
     }
 
-    /// Chooses the meshes of the beams on which an element exerts concentrated forces.
     pub(super) fn choose_meshes_under(&mut self, element: usize) {
         for station in concentrated(&self.elements[element]) {
             if let Some(beam) = station.beam() {
@@ -77,7 +77,6 @@ impl BeamDefinition {
     }
 }
 
-/// Stations at which an element exerts a concentrated force or moment.
 fn concentrated(element: &Element) -> Vec<Station> {
     match element {
         Element::PointMass(mass) => vec![mass.station],

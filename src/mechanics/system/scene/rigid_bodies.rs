@@ -7,7 +7,6 @@ use crate::system::SystemError;
 use crate::system::elements::PointMass;
 use crate::system::errors::{check_name, finite};
 
-/// Reserved name of the centre of mass in the scripting language.
 const CENTRE: &str = "centre";
 
 impl Scene {

@@ -23,7 +23,6 @@ struct Place<'s> {
 }
 
 impl Place<'_> {
-    /// Reason for rejecting a name that is not a quantity of this location, with the allowed names.
     fn why_no_quantity(&self) -> String {
         let Self { object, quantities, .. } = self;
         let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name).collect();

@@ -15,7 +15,6 @@ const CLOSED: f64 = 1e-6;
 struct StartGap {
     from: Vec2,
     to: Vec2,
-    /// Distance of the two points [length].
     gap: f64,
     /// Largest initial distance for which the slave is moved onto the axis [length].
     tolerance: f64,
@@ -130,9 +129,6 @@ impl Scene {
     }
 
     /// Returns true if a slider that only pushes starts in flight, at a distance from its master.
-    ///
-    /// # Errors
-    /// Fails if the slave or the start position lies outside its beam.
     pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
         if slider.side.is_none() {
             return Ok(false);
@@ -164,7 +160,6 @@ impl Scene {
         tangent.map(|tangent| tangent.normalize()).map_err(SystemError::geometry(name))
     }
 
-    /// Checks that a slider with a side has no option that is unavailable for such sliders.
     fn check_side(&self, slider: &Slider) -> Result<(), SystemError> {
         if slider.side.is_none() {
             return Ok(());

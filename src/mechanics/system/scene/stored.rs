@@ -19,7 +19,6 @@ const MOST_TRACKS: usize = 1000;
 
 const MOST_SENSORS: usize = 10_000;
 
-/// Unchecked [`Scene`] as read from a file.
 #[derive(Deserialize)]
 pub struct StoredScene {
     name: String,

@@ -131,7 +131,6 @@ pub fn check_ties(scene: &Scene) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// Checks that every inclined roller restrains a free direction, and that no two rollers restrain the same direction.
 fn check_rollers(
     scene: &Scene,
     places: &[usize],

@@ -42,7 +42,6 @@ pub enum ValueTime {
 pub(in crate::system) enum QuantityReader {
     Motion(fn(&System, &BodyPoint) -> f64),
     Acceleration(fn(Vec2) -> f64),
-    /// Angle of a tracked section.
     Angle,
     Section(fn(&SectionForces) -> f64),
     Energy(fn(&BodyEnergy) -> f64),
@@ -158,11 +157,9 @@ pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
     quantity("gap", "length", Present, Index(contact_gap)),
 ];
 
-/// Column of obstacles with friction: the friction force on the bodies.
 pub(in crate::system) static OBSTACLE_FRICTION: Quantity =
     quantity("friction", "force", MeanOfMethod, Index(|model, at| contact(model, at).friction));
 
-/// Columns of named loads: a force, a force per length, or a moment.
 pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
     quantity("force", "force", Present, Index(|model, at| load(model, at).value)),
     quantity("force", "force/length", Present, Index(|model, at| load(model, at).value)),

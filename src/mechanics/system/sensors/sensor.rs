@@ -73,7 +73,6 @@ impl Sensor {
         self.quantity.timing == ValueTime::SummedMean
     }
 
-    /// Returns true if the values of the sensor are means of a joint force over the last step.
     pub(crate) fn is_mean_of_joint(&self) -> bool {
         self.is_summed() && matches!(self.source, SensorSource::Joint(_))
     }

@@ -13,7 +13,6 @@ use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::system::bodies::Body;
 use crate::system::errors::{SliderError, SystemError};
 
-/// Sliders of a model, in the order of the scene. The type dereferences to a slice of sliders.
 #[derive(Default)]
 pub struct Sliders {
     all: Vec<SliderContact>,

@@ -5,7 +5,6 @@ use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
 use crate::linalg::{Border, BorderUnit};
 use crate::system::bodies::Body;
 
-/// Indices of the bodies of a slider, and of its unknowns in the vectors of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
     pub master: usize,

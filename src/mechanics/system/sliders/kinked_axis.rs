@@ -9,11 +9,11 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// Largest kink length at which the axis counts as rigid at the slider, as a fraction of the length of the master.
 const RIGID: f64 = 1e-14;
 
-/// First limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
 /// Near this speed, the stiffness of a moving kink is nearly zero. Above the limit, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
-/// Second limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
 /// At the critical speed, the stiffness of the kink is zero.
 /// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
 const FASTEST_ON_MESH: f64 = 0.9;
@@ -90,7 +90,6 @@ impl KinkedAxis {
         }
     }
 
-    /// Largest speed along the master at which the kink varies with the contact force [length/time].
     pub fn fastest(&self) -> f64 {
         self.fastest
     }
@@ -130,7 +129,6 @@ impl KinkedAxis {
         self.is_compliant() && self.jump != Vec2::zeros()
     }
 
-    /// Kink during a step in which the slider moves along `passage`.
     pub fn along(&self, passage: &ContactPath) -> Kink {
         let motion = KinkMotion {
             arc: passage.along(&self.arc),
@@ -210,7 +208,6 @@ impl KinkedAxis {
         self.jump = across - tangent * (pull / tangent.norm_squared());
     }
 
-    /// Returns true if a contact force displaces the axis at the slider.
     pub fn is_compliant(&self) -> bool {
         self.compliance_derivatives[0] > self.none
     }
@@ -235,12 +232,10 @@ impl KinkedAxis {
         (compliance, force * slope, 0.5 * bend * force.dot(&self.jump))
     }
 
-    /// Strain energy of the kink [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.jump.dot(&self.offset())
     }
 
-    /// Kinetic energy of the moving kink [energy].
     pub fn kinetic_energy(&self) -> f64 {
         self.inverse_square_speed * self.speed * self.speed * self.energy()
     }

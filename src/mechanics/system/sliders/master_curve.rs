@@ -56,7 +56,7 @@ pub enum SliderState {
 }
 
 impl SliderState {
-    /// Name of the slider state for reports.
+    /// Name of the slider state for reports, such as `held`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sliding => "sliding",

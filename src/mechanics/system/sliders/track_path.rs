@@ -11,7 +11,6 @@ use crate::system::bodies::Body;
 /// The distance of the ends is a fraction of the length of the beam plus the distance of the ends from the origin.
 const SAME: f64 = 1e-9;
 
-/// Beam of a track, with the properties that a slider on the beam needs.
 #[derive(Debug, Clone)]
 pub struct TrackPathSegment {
     pub beam: usize,
@@ -22,7 +21,6 @@ pub struct TrackPathSegment {
     slopes: [(usize, Vec<f64>); 2],
 }
 
-/// Path of a slider: the beams of its track, and the beam on which the slider is.
 #[derive(Debug, Clone)]
 pub struct TrackPath {
     segments: Arc<[TrackPathSegment]>,
@@ -161,7 +159,6 @@ impl TrackPathSegment {
         }
     }
 
-    /// Position of an end of the beam [length].
     fn end_point(&self, bodies: &[Body], end: MasterEnd) -> Vec2 {
         let points = bodies[self.beam].dynamics.control_points();
         match end {

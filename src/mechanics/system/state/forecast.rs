@@ -19,7 +19,6 @@ pub enum Prediction {
 /// Ratio of the squared errors of the predictions from mean rates and from start rates, below which mean rates are used.
 const SELECTION_RATIO: f64 = 0.8;
 
-/// Mean rates of the last step, with the selected type of prediction.
 #[derive(Debug, Clone)]
 pub struct IncrementPrediction {
     mean_rates: Vec<f64>,

@@ -2,18 +2,15 @@
 
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
-/// Factorised inertia matrix, with allocated vectors for responses to unit impulses.
 pub struct InertiaSolver {
     inertia: BandedMatrix,
     is_factorised: bool,
     /// Generalised forces of a unit impulse on all degrees of freedom.
     forces: Vec<f64>,
-    /// Velocities of the unknowns due to the unit impulse.
     rates: Vec<f64>,
 }
 
 impl InertiaSolver {
-    /// Creates a solver for the given numbers of unknowns and of degrees of freedom.
     pub fn new(unknowns: usize, half_bandwidth: usize, degrees_of_freedom: usize) -> Self {
         Self {
             inertia: BandedMatrix::zeros(unknowns, half_bandwidth),
@@ -23,15 +20,11 @@ impl InertiaSolver {
         }
     }
 
-    /// Returns true if the solver has factors of an inertia matrix.
     pub fn is_factorised(&self) -> bool {
         self.is_factorised
     }
 
     /// Factorises the inertia matrix. The callback `fill` adds its entries to a zero matrix.
-    ///
-    /// # Errors
-    /// Fails if the inertia matrix is singular.
     pub fn factorise(&mut self, fill: impl FnOnce(&mut BandedMatrix)) -> Result<(), LinearError> {
         self.is_factorised = false;
         self.inertia.clear();
@@ -41,7 +34,6 @@ impl InertiaSolver {
         Ok(())
     }
 
-    /// Factors of the last inertia matrix.
     pub fn factors(&self) -> BandedLu<'_> {
         self.inertia.factors()
     }

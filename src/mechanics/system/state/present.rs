@@ -4,11 +4,9 @@ use super::accelerations::Accelerations;
 use super::forecast::{IncrementPrediction, Prediction};
 use super::{MonitoredBody, Resolution, StepMeasures};
 
-/// Present time and rates, with measures of the temporal resolution of the motion.
 pub struct MotionState {
     /// Present time, which is the end of the last step [time].
     pub time: f64,
-    /// Rates of the unknowns at the present time [length/time, 1/time].
     pub rates: Vec<f64>,
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
@@ -77,7 +75,6 @@ impl MotionState {
         self.time = step.interval.end;
     }
 
-    /// Adds a jump to all rates [length/time, 1/time].
     pub fn jump(&mut self, change: &[f64]) {
         self.rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
         self.forecast.jump(change);

@@ -7,7 +7,6 @@ use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
 /// The vectors are reused in the next step. They are enlarged only if the number of contacts increases.
 pub struct PresentForces {
-    /// Rates of all bodies by control point.
     pub rates: Vec<Vec<Movement>>,
     /// Sum of all forces except inertia and contact forces, for each degree of freedom.
     pub residual: Vec<f64>,
@@ -23,11 +22,9 @@ pub struct PresentForces {
     pub responses: Vec<ContactResponse>,
     /// Acceleration in each contact direction due to each unit contact force [1/mass].
     matrix: BandedMatrix,
-    /// Magnitude of each contact force [force].
     pub magnitudes: Vec<f64>,
 }
 
-/// Response of the model to a unit contact force on a slave.
 #[derive(Default)]
 pub struct ContactResponse {
     /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
@@ -56,14 +53,12 @@ impl ContactResponse {
         inertia.solve(&mut self.rates);
     }
 
-    /// Adds `factor` times another response to this response.
     pub fn add(&mut self, factor: f64, other: &Self) {
         self.direction += other.direction * factor;
         let pairs = self.rates.iter_mut().zip(&other.rates);
         pairs.for_each(|(rate, other)| *rate += factor * other);
     }
 
-    /// Component of the rates or accelerations `v` in the direction of the unit force.
     pub fn component(&self, rates: &[f64]) -> f64 {
         let touched = self.forces.iter().zip(rates).filter(|(force, _)| **force != 0.0);
         touched.map(|(force, rate)| rate * force).sum()
@@ -89,9 +84,6 @@ impl Default for PresentForces {
 impl PresentForces {
     /// Computes the magnitudes of the contact forces.
     /// The callback `carried` returns the acceleration that the contact requires in each contact direction [length/time²].
-    ///
-    /// # Errors
-    /// Fails if the contact forces are not determined.
     pub fn solve(&mut self, carried: impl Fn(&(usize, Vec2)) -> f64) -> Result<(), LinearError> {
         let Self { accelerations, directions, responses, matrix, magnitudes, .. } = self;
         let count = directions.len();

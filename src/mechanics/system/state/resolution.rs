@@ -33,7 +33,6 @@ pub struct Resolution {
     kinetic: f64,
     unresolved: f64,
     bent: f64,
-    /// Length of the last step [time].
     last: f64,
     /// Squared error of the prediction of the last step from its start rates, weighted by mass [energy].
     last_by_start: f64,
@@ -58,7 +57,6 @@ impl Resolution {
         }
     }
 
-    /// Largest energy of motions that are attributed to rounding [energy].
     pub(super) fn noise(&self) -> f64 {
         self.noise
     }

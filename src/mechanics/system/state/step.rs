@@ -10,7 +10,6 @@ pub struct StepMeasures {
     pub inertia: (f64, f64),
     pub loads: (f64, f64),
     pub summary: ForceSummary,
-    /// Largest contact force [force].
     pub contact: f64,
     pub rotations: RotationIncrement,
     pub arm: f64,

@@ -13,7 +13,6 @@ pub enum UnknownKind {
     Force,
 }
 
-/// Unknowns of a model: their number, types and half-bandwidth.
 pub struct Unknowns {
     kinds: Vec<UnknownKind>,
     half_bandwidth: usize,

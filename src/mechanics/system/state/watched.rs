@@ -4,7 +4,6 @@ use super::Resolution;
 use super::forecast::IncrementPrediction;
 use crate::beams::RotationIncrement;
 
-/// Body with its degrees of freedom and its resolution measures.
 #[derive(Debug, Clone)]
 pub struct MonitoredBody {
     pub body: usize,

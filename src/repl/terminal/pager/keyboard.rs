@@ -10,16 +10,8 @@ pub enum Pressed {
 }
 
 pub trait Keyboard {
-    /// Waits for the next key. While waiting, `was_interrupted` is called periodically to detect Ctrl-C.
-    ///
-    /// # Errors
-    /// Fails if the terminal fails.
     fn read(&mut self, was_interrupted: &dyn Fn() -> bool) -> io::Result<Pressed>;
 
-    /// Bytes that follow the escape character of a key, such as an arrow key. There may be none.
-    ///
-    /// # Errors
-    /// Fails if the terminal fails.
     fn rest_of_sequence(&mut self) -> io::Result<Vec<u8>>;
 }
 

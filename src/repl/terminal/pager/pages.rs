@@ -81,10 +81,6 @@ impl Pages<'_> {
     }
 }
 
-/// Shows a text page by page on a terminal with `lines` lines, until the user quits or the text ends.
-///
-/// # Errors
-/// Fails if the terminal fails.
 pub fn show_pages(
     text: &str,
     lines: usize,

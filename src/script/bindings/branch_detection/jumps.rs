@@ -5,7 +5,6 @@ use rhai::{Array, Dynamic, Map};
 use crate::loads::{LimitSide, Schedule};
 use crate::script::bindings::parameter_variants::VariantValue;
 
-/// Returns true if a value is or contains a schedule with jumps at times that depend on a parameter.
 pub(super) fn jumps_with_a_parameter(value: &Dynamic) -> bool {
     if let Some(array) = value.read_lock::<Array>() {
         return array.iter().any(jumps_with_a_parameter);

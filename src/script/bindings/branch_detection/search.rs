@@ -36,9 +36,7 @@ pub(super) struct Decision {
 
 #[derive(Clone, Default)]
 struct VariableFacts {
-    /// Variables that depend on a parameter.
     varied: BTreeSet<String>,
-    /// Variables that depend on the argument of the function.
     asked: BTreeSet<String>,
     /// Variables that contain schedules with jumps at times that depend on a parameter.
     jumping: BTreeSet<String>,
@@ -56,7 +54,6 @@ struct Facts {
 struct BranchSearch<'s, 'n> {
     native: &'s NativeCallContext<'n>,
     depth: usize,
-    /// Number of functions that may still be searched.
     left: &'s Cell<usize>,
 }
 
@@ -117,7 +114,6 @@ impl VariableFacts {
         }
     }
 
-    /// First variable in an expression that contains a schedule with jumps at times that depend on a parameter.
     fn jumping_in(&self, expression: &Expr) -> Option<String> {
         first_in(expression, |node| match node {
             Expr::Variable(variable, ..) => self.jumping.get(variable.1.as_str()).cloned(),
@@ -128,7 +124,6 @@ impl VariableFacts {
         })
     }
 
-    /// Reports a branch on several expressions that together depend on a parameter and on the argument of the function.
     fn by<'e>(
         &self,
         expressions: impl Iterator<Item = &'e Expr> + Clone,
@@ -247,7 +242,6 @@ impl BranchSearch<'_, '_> {
         }
     }
 
-    /// Searches a function that is stored in a variable and called with arguments.
     fn held(
         &self,
         function: &FnPtr,
@@ -262,7 +256,6 @@ impl BranchSearch<'_, '_> {
         self.deeper().function(&definition, own)
     }
 
-    /// Searches a closure inside another function. Arguments of the closure are treated like arguments of the outer function.
     fn within(
         &self,
         function: &FnPtr,

@@ -11,7 +11,6 @@ mod values;
 
 use super::built_in::BuiltInTable;
 
-/// All tables of functions of Rhai, in the order of the reference.
 pub const TABLES: &[&BuiltInTable] = &[
     &texts::TABLE,
     &arrays::TABLE,

@@ -77,7 +77,6 @@ fn is_defined(value: &Dynamic) -> bool {
         && vector.is_none_or(|of| of.x.is_finite() && of.y.is_finite())
 }
 
-/// Returns true if two values are numbers with equal bits, or equal vectors.
 fn are_equal(one: &Dynamic, other: &Dynamic) -> bool {
     if let (Some(one), Some(other)) = (as_number(one), as_number(other)) {
         return one.to_bits() == other.to_bits();

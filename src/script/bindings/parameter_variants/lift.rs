@@ -165,7 +165,6 @@ fn option_in(options: &Dynamic) -> Option<(String, Dynamic)> {
 }
 
 impl ScriptError {
-    /// Adds a description of the variant to the error message, if the error occurred in a perturbed variant.
     fn with_variant_context(self, family: &ParameterSet, variant: usize) -> Self {
         match self {
             Self::Failure(mut failure) => {

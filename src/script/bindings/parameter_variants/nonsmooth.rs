@@ -22,10 +22,8 @@ pub struct Sides<'s> {
     pub minus: &'s [Dynamic],
 }
 
-/// Reason why the derivative of a function does not exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoDerivative {
-    /// The function has a kink or a jump between the perturbed arguments.
     Discontinuous,
     /// A point of infinite slope is too close to the arguments.
     InfiniteSlope,
@@ -66,20 +64,17 @@ impl Sides<'_> {
         [self.at, self.plus, self.minus].map(what)
     }
 
-    /// Reports a jump or kink if the function `what` of the arguments changes its sign between the perturbations.
     fn passes_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [_, plus, minus] = self.each(what);
         (plus * minus < 0.0).then_some(NoDerivative::Discontinuous)
     }
 
-    /// Reports an infinite slope if the function `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_zero(&self, what: impl Fn(&[Dynamic]) -> f64) -> Option<NoDerivative> {
         let [at, plus, minus] = self.each(what);
         let change = (plus - at).abs().max((minus - at).abs());
         (change > 0.0 && at.abs() <= NEAR * change).then_some(NoDerivative::InfiniteSlope)
     }
 
-    /// Reports an infinite slope if the vector `what` of the arguments varies with the parameter and is zero or close to zero.
     fn nears_origin(&self, what: impl Fn(&[Dynamic]) -> Option<Vec2>) -> Option<NoDerivative> {
         let (at, plus, minus) = (what(self.at)?, what(self.plus)?, what(self.minus)?);
         let change = (plus - at).norm().max((minus - at).norm());

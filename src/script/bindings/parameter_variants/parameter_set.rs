@@ -11,8 +11,8 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation, as a fraction of the parameter.
-/// The relative error of a difference quotient is about the square of the relative perturbation, plus the rounding error divided by it.
+/// Default perturbation of a parameter, as a fraction of its value.
+/// The relative error of a difference quotient is about the square of the relative perturbation `p`, plus the rounding error over `p`.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
 /// Parameters of a scene. The unperturbed variant contains the given values.
@@ -64,12 +64,11 @@ pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// Variant in which the present call is evaluated; `None` without evaluation in variants.
+/// Variant in which the present call is evaluated; `None` if the call is not evaluated in variants.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
 
-/// Index of the variant in which the present call is evaluated; 0 without evaluation in variants.
 pub fn present_variant() -> usize {
     present().map_or(0, |present| present.variant)
 }
@@ -170,7 +169,6 @@ impl ParameterSet {
         self.parameters.borrow().get(parameter).map(|of| of.distance)
     }
 
-    /// Index of the parameter with a name, counted from 0.
     pub fn number_of(&self, name: &str) -> Option<usize> {
         self.parameters.borrow().iter().position(|of| of.name == name)
     }

@@ -5,9 +5,7 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 /// Rule for the evaluation of a call whose arguments depend on parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lifting {
-    /// The call is evaluated in each variant.
     Each,
-    /// The call is evaluated once, with the unperturbed values of the parameters.
     AtValues,
     /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are rejected.
     Once,
@@ -80,6 +78,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Lists of all domains with a rule.
+/// Names of domains in the rules of this file. A test checks that these domains exist.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

@@ -27,7 +27,7 @@ impl VariantValue {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// Value in a variant. Elements of arrays and maps, and captured values, are also replaced.
+    /// Value in the given variant. Elements of arrays and maps, and captured values, are also replaced by their values in the variant.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }

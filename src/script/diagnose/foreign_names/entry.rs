@@ -32,7 +32,6 @@ impl ForeignName {
     }
 }
 
-/// Hint for a call of `name` with a number of arguments that is valid in other languages but not in withy.
 pub fn called_with(name: &str, count: usize) -> Option<&'static str> {
     Some(match (name, count) {
         ("print" | "debug", 2..) => "print takes one value: print(`a = ${a}, b = ${b}`)",

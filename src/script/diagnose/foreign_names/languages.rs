@@ -1,4 +1,4 @@
-//! Names of Python, MATLAB, JavaScript and C.
+//! Names and keywords of Python, MATLAB, JavaScript and C, with their replacements in withy.
 
 use super::entry::{ForeignName, entry};
 

@@ -1,4 +1,4 @@
-//! Terms of mechanics and of other simulation programs.
+//! Terms of mechanics and of other simulation programs, with their replacements in withy.
 
 use super::entry::{ForeignName, entry};
 

@@ -14,7 +14,7 @@ fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(at, message, "write else if … { … }")
 }
 
-/// Recognises `and`, `or`, `not`, `is`.
+/// Explains operators that are words: `and`, `or`, `not`, `is`.
 fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, word) = spot.find_word(&["and", "or", "not", "is", "AND", "OR", "NOT", "xor"])?;
     let hint = match (word, spot.word(at + 1)) {
@@ -29,7 +29,7 @@ fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(at, format!("'{word}' is not an operator here"), hint)
 }
 
-/// Recognises `for (let i = 0; …)`, `for i = 1:10`, `for x of xs`, `for i in range(10):`.
+/// Explains foreign loops: `for (let i = 0; …)`, `for i = 1:10`, `for x of xs`, `for i in range(10):`.
 fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, _) = spot.find_word(&["for", "foreach"])?;
     let next = spot.word(at + 1);
@@ -48,7 +48,7 @@ fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
     None
 }
 
-/// Recognises `if a == 1:`, `while x:`, `else:`, `for i in range(3):`.
+/// Explains a colon before a block: `if a == 1:`, `while x:`, `else:`, `for i in range(3):`.
 fn colon(spot: &TokenWindow) -> Option<SyntaxFix> {
     const WORDS: &[&str] =
         &["if", "while", "for", "else", "try", "loop", "with", "class", "except", "finally"];
@@ -74,7 +74,7 @@ fn colon(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `if (a == 1) print(a)`, `if a == 1 then`.
+/// Explains a body without braces: `if (a == 1) print(a)`, `if a == 1 then`.
 fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (token, why) = spot.missing();
     let is_body = token == "{" && why.contains("block");
@@ -93,7 +93,7 @@ fn body(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, message, format!("write {head}"))
 }
 
-/// Recognises `raise …`, `except …`.
+/// Explains foreign keywords for errors: `raise …`, `except …`.
 fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(spot.in_statement(0), "raise" | "error") && spot.count() == 1 {
         let message = format!("'{}' is not a word of the language", spot.in_statement(0));
@@ -108,7 +108,7 @@ fn handler(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `case 1:` and `default:`.
+/// Explains foreign cases of `switch`: `case 1:` and `default:`.
 fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     matches!(spot.word(0), "case" | "default").then_some(())?;
     spot.explain(
@@ -118,7 +118,7 @@ fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises an unclosed block, an `end` in place of a closing brace, and a superfluous bracket.
+/// Explains an unclosed block, an `end` in place of a closing brace, and a superfluous bracket.
 fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(
         spot.word(0),

@@ -7,7 +7,7 @@ use super::token_window::TokenWindow;
 
 pub const PATTERNS: &[ForeignSyntax] = &[map_without_sign, assigned_key, unclosed];
 
-/// Recognises `{ EA: 1e4 }`.
+/// Explains a map without the sign `#`: `{ EA: 1e4 }`.
 fn map_without_sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_key = spot.is_name(-1) || spot.is_text(-1) || spot.is_number(-1);
     (spot.word(0) == ":" && is_key && spot.word(-2) == "{").then_some(())?;
@@ -18,7 +18,7 @@ fn map_without_sign(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `#{ EA = 1e4 }`.
+/// Explains a map with equals signs: `#{ EA = 1e4 }`.
 fn assigned_key(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (missing, why) = spot.missing();
     let is_key = missing == ":" && why.contains("map") && spot.word(0) == "=";

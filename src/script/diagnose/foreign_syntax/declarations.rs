@@ -23,7 +23,7 @@ pub const PATTERNS: &[ForeignSyntax] = &[
 
 const FUNCTION_WORDS: &[&str] = &["def", "func", "function", "fun", "sub", "proc", "define"];
 
-/// Recognises `def f(x):`, `function y = f(x)`.
+/// Explains foreign function definitions: `def f(x):`, `function y = f(x)`.
 fn function(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     if !FUNCTION_WORDS.contains(&word) || spot.count() == 0 {
@@ -44,7 +44,7 @@ fn function(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `fn f(x) => x`, `fn f(x) = x^2;`, `let f(x) = x^2;`, `f(x) = x^2;`, `fn f x { … }`.
+/// Explains functions with a wrong head or body: `fn f(x) => x`, `fn f(x) = x^2;`, `let f(x) = x^2;`, `f(x) = x^2;`, `fn f x { … }`.
 fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_headed = spot.in_statement(0) == "fn"
         && matches!(
@@ -64,7 +64,7 @@ fn function_body(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `let f = function(x) { … }`, `let f = fn(x) { … }`, `let f = lambda x: …`.
+/// Explains foreign closures: `let f = function(x) { … }`, `let f = fn(x) { … }`, `let f = lambda x: …`.
 fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a function without a name is written |x| …, and called by f.call(x)";
     if let Some((at, word)) = spot.find_word(&["lambda"]) {
@@ -83,7 +83,7 @@ fn unnamed_function(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(back, message, hint)
 }
 
-/// Recognises `var x = 3`, `int x = 3`.
+/// Explains foreign declarations of variables: `var x = 3`, `int x = 3`.
 fn type_first(spot: &TokenWindow) -> Option<SyntaxFix> {
     const WORDS: &[&str] = &[
         "var", "val", "int", "float", "double", "auto", "bool", "string", "String", "real",
@@ -100,7 +100,7 @@ fn type_first(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `let a, b = 1, 2;`, `a, b = 1, 2`, `let a = 1, b = 2;`, `let x = 0,5;`, `return 1, 2`.
+/// Explains lists where one value is expected: `let a, b = 1, 2;`, `a, b = 1, 2`, `let a = 1, b = 2;`, `let x = 0,5;`, `return 1, 2`.
 fn several_names(spot: &TokenWindow) -> Option<SyntaxFix> {
     if spot.word(0) != "," || spot.missing().0 != ";" {
         return None;
@@ -125,7 +125,7 @@ fn several_names(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `let t = (1, 2);`, `let t = {1, 2};`.
+/// Explains tuples: `let t = (1, 2);`, `let t = {1, 2};`.
 fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_open = matches!(spot.word(-2), "(" | "{") && matches!(spot.word(-3), "=" | "(" | ",");
     let is_missing = spot.missing().0 == ")" || spot.word(-2) == "{";
@@ -134,7 +134,7 @@ fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(-2, "several values must be an array", hint)
 }
 
-/// Recognises `let [a, b] = pair;`.
+/// Explains declarations that take an array apart: `let [a, b] = pair;`.
 fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
     let declares = matches!(spot.word(-1), "let" | "const");
     (declares && matches!(spot.word(0), "[" | "{" | "(" | "#{")).then_some(())?;
@@ -145,7 +145,7 @@ fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `let x: int = 3`, `fn f(x: number)`, `fn f(x = 1)`.
+/// Explains declared types and defaults: `let x: int = 3`, `fn f(x: number)`, `fn f(x = 1)`.
 fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_variable = matches!(spot.word(-2), "let" | "const") && spot.word(0) == ":";
     if is_variable {
@@ -171,7 +171,7 @@ fn declared_type(spot: &TokenWindow) -> Option<SyntaxFix> {
     }
 }
 
-/// Recognises `let a == 3;` and `if x = 3`.
+/// Explains a confusion of `=` and `==`: `let a == 3;` and `if x = 3`.
 fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
     if spot.word(0) == "==" && matches!(spot.word(-2), "let" | "const") {
         let hint = format!("write let {} = …", spot.word(-1));
@@ -185,7 +185,7 @@ fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
     None
 }
 
-/// Recognises `from math import sin`, `using`, `#include`, `require`.
+/// Explains foreign imports: `from math import sin`, `using`, `#include`, `require`.
 fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     let is_import = matches!(word, "from" | "using" | "include" | "require" | "use" | "load")
@@ -200,7 +200,7 @@ fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `class Beam { … }`.
+/// Explains definitions of classes: `class Beam { … }`.
 fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     let is_class = matches!(word, "class" | "struct" | "interface" | "enum" | "type" | "classdef");
@@ -213,7 +213,7 @@ fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises misspelt keywords, such as `lett y = 3`, `retrun x`, `whlie x < 3 {`.
+/// Explains misspelt keywords, such as `lett y = 3`, `retrun x`, `whlie x < 3 {`.
 fn misspelt(spot: &TokenWindow) -> Option<SyntaxFix> {
     const WORDS: &[&str] = &[
         "let", "const", "if", "else", "for", "while", "loop", "fn", "return", "import", "export",

@@ -18,7 +18,7 @@ pub const PATTERNS: &[ForeignSyntax] = &[
     stepping,
 ];
 
-/// Recognises `a ? 1 : 2` and `1 if a else 2`.
+/// Explains foreign conditional expressions: `a ? 1 : 2` and `1 if a else 2`.
 fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "use if as an expression: let x = if a > 0 { 1 } else { 2 };";
     if spot.word(0) == "?" {
@@ -30,7 +30,7 @@ fn choice(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a condition must be written before its branches", hint)
 }
 
-/// Recognises `7 // 2`, where `//` starts a comment.
+/// Explains the integer division `7 // 2`, where `//` starts a comment.
 fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_operand = spot.is_number(-1) || spot.is_name(-1) || matches!(spot.word(-1), ")" | "]");
     (spot.missing().0 == ";" && is_operand && spot.has_comment_before()).then_some(())?;
@@ -42,7 +42,7 @@ fn whole_division(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `[x^2 for x in xs]`.
+/// Explains list comprehensions: `[x^2 for x in xs]`.
 fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_within = spot.word(0) == "for" && spot.missing().0 == ",";
     is_within.then_some(())?;
@@ -53,7 +53,7 @@ fn comprehension(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `a[0:2]`.
+/// Explains slices of arrays: `a[0:2]`.
 fn slice(spot: &TokenWindow) -> Option<SyntaxFix> {
     (spot.word(0) == ":" && spot.missing().0 == "]").then_some(())?;
     spot.explain(
@@ -63,7 +63,7 @@ fn slice(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `1:10`.
+/// Explains ranges with a colon: `1:10`.
 fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_range = spot.word(0) == ":" && spot.is_number(-1) && spot.is_value(1);
     (is_range && spot.word(-2) != "{").then_some(())?;
@@ -75,7 +75,7 @@ fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `print "hello"`, `sqrt 2`, `typeof x`, `new Scene()`.
+/// Explains calls without parentheses: `print "hello"`, `sqrt 2`, `typeof x`, `new Scene()`.
 fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
     if let ParseErrorType::Reserved(word) = spot.error {
         match word.as_str() {
@@ -109,7 +109,7 @@ fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(-1, "a function must be called with parentheses", hint)
 }
 
-/// Recognises `2x`, `2(x + 1)`, `1e3f`, `[1 2 3]`.
+/// Explains values without an operator or comma between them: `2x`, `2(x + 1)`, `1e3f`, `[1 2 3]`.
 fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (missing, why) = spot.missing();
     let in_array = missing == "," && why.contains("array");
@@ -128,7 +128,7 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a product must be written with *", hint)
 }
 
-/// Recognises `x++` where the parser reports only a missing token.
+/// Explains `x++` where the parser reports only a missing token.
 fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     let sign = spot.word(0);
     (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;
@@ -139,7 +139,7 @@ fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Recognises `section(EA = 1e4)`, `section(EA: 1e4)`.
+/// Explains arguments with names: `section(EA = 1e4)`, `section(EA: 1e4)`.
 fn keyword(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (missing, why) = spot.missing();
     let is_argument = missing == "," && why.contains("argument");

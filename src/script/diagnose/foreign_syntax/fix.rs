@@ -7,14 +7,13 @@ use super::{blocks, brackets, declarations, expressions, signs};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::source::program::Program;
 
-/// Explanation of syntax from another language: message, replacement and position.
 pub struct SyntaxFix {
     pub message: String,
     pub hint: String,
     pub at: Position,
 }
 
-/// Pattern of syntax from another language. It examines the tokens around the error. If they match, it returns an explanation.
+/// Pattern of syntax from another language. It examines the tokens around the error. A pattern that matches returns an explanation.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
 /// All patterns. Patterns with more context come first.

@@ -1,4 +1,4 @@
-//! Operators of other languages, comments, and quotes.
+//! Operators, comments and quotes in the syntax of other languages.
 
 use rhai::{LexError, ParseErrorType};
 
@@ -7,7 +7,7 @@ use super::token_window::TokenWindow;
 
 pub const PATTERNS: &[ForeignSyntax] = &[comment, sign, dotted_operator, quotes, formatted_text];
 
-/// Recognises the comments `# …` and, at the start of a statement, `% …`.
+/// Explains foreign comments: `# …` and, at the start of a statement, `% …`.
 fn comment(spot: &TokenWindow) -> Option<SyntaxFix> {
     let hint = "a comment begins with //";
     match spot.word(0) {
@@ -61,7 +61,7 @@ fn sign(spot: &TokenWindow) -> Option<SyntaxFix> {
 
 const ARROW: &str = "write |x| … for a function without a name; in switch, => follows a case";
 
-/// Recognises `.*`, `./` and `.^`.
+/// Explains operators for elements of arrays: `.*`, `./` and `.^`.
 fn dotted_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let operator = spot.word(0).chars().next().filter(|sign| "*/^\\'".contains(*sign))?;
     let is_dotted = spot.word(-1) == "." && spot.is_joined(0);
@@ -106,7 +106,7 @@ impl TokenWindow<'_> {
     }
 }
 
-/// Recognises `f"x = {x}"`.
+/// Explains text with inserted values as in Python: `f"x = {x}"`.
 fn formatted_text(spot: &TokenWindow) -> Option<SyntaxFix> {
     let is_prefix = matches!(spot.word(-1), "f" | "F" | "r" | "b" | "u");
     let is_text = spot.word(0).starts_with('"') && spot.is_joined(0);

@@ -12,11 +12,9 @@ struct Word {
     text: String,
     token: Token,
     at: Position,
-    /// True if no blank precedes the token.
     is_joined: bool,
 }
 
-/// Tokens around the position of a syntax error.
 pub struct TokenWindow<'s> {
     pub catalog: &'s Catalog,
     pub error: &'s ParseErrorType,
@@ -29,7 +27,6 @@ pub struct TokenWindow<'s> {
 }
 
 impl<'s> TokenWindow<'s> {
-    /// Collects the tokens of `program` around `place`.
     pub fn of(
         program: &Program,
         catalog: &'s Catalog,
@@ -76,7 +73,6 @@ impl<'s> TokenWindow<'s> {
         self.here - self.first
     }
 
-    /// Returns true if no blank precedes the token at an offset from the token with the error.
     pub fn is_joined(&self, from_here: isize) -> bool {
         self.find(from_here).is_some_and(|word| word.is_joined)
     }
@@ -89,7 +85,6 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(|letter: char| letter.is_ascii_digit())
     }
 
-    /// Returns true if the token at an offset from the token with the error starts a value: a number, text or name.
     pub fn is_value(&self, from_here: isize) -> bool {
         self.is_name(from_here) || self.is_number(from_here) || self.is_text(from_here)
     }

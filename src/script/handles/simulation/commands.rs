@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-/// Output of each controller as a function of time. A pair of time [time] and output is stored at each change of the output.
+/// Output of each controller as a function of time. The time [time] and the output are stored at each change of the output.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 

@@ -15,13 +15,10 @@ use crate::simulation::{Simulation, SimulationSettings, StepControl, StepSize};
 use crate::statics::Equilibrium;
 use crate::system::Scene;
 
-/// State from which a simulation was started.
 #[derive(Clone)]
 pub enum RunStart {
-    /// Initial state of the scene.
     Scene,
     Equilibrium(EquilibriumHandle),
-    /// Saved simulation, whose start is not stored.
     Loaded,
 }
 
@@ -36,7 +33,7 @@ const NO_FILES: &str = "companion runs repeat the functions of a simulation and 
     files; write them after the run";
 
 impl SimulationHandle {
-    /// Starts a simulation of a scene on a mesh with another number of spans. It is not added to the report.
+    /// Starts a simulation of a scene on a mesh with another number of spans. The simulation is not added to the report.
     pub fn start_refined(
         scene: &SceneHandle,
         span_ratio: f64,
@@ -63,7 +60,6 @@ impl SimulationHandle {
         &self.0.start
     }
 
-    /// Returns true if the simulation calls script functions between steps.
     pub fn has_callbacks(&self) -> bool {
         self.callbacks().next().is_some() || !self.0.events.borrow().all().is_empty()
     }
@@ -141,7 +137,6 @@ impl SimulationHandle {
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {
-    /// Name of the function in messages.
     role: String,
     shared: Dynamic,
     value: Dynamic,

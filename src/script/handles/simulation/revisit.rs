@@ -19,19 +19,12 @@ pub struct Revisit {
 }
 
 impl Revisit {
-    /// Replaces a simulation by a copy of its present state.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again.
     pub fn at_present(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_present()?;
         Ok(Self::with(handle, copy))
     }
 
     /// Replaces a simulation by a copy of its initial state, so that the run can be repeated.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again.
     pub fn at_start(handle: &SimulationHandle) -> Result<Self, ScriptError> {
         let copy = handle.simulation().copy_at_start()?;
         Ok(Self::with(handle, copy))
@@ -58,9 +51,6 @@ impl Revisit {
     }
 
     /// Restores a stored state in the copy. Returns false if this state is not stored.
-    ///
-    /// # Errors
-    /// Fails if the scene cannot be built again.
     pub fn restore_step(&self, steps: usize) -> Result<bool, ScriptError> {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }

@@ -63,7 +63,8 @@ impl ColumnReader {
         }
     }
 
-    /// Sets the outputs of the controllers in the scene to their values in this simulation before a time, because simulations share the scene.
+    /// Sets the outputs of the controllers in the scene to their values in this simulation before the time `time`.
+    /// The outputs may belong to another simulation, because simulations share the scene.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.outputs.before(number, time));
@@ -95,10 +96,6 @@ impl SimulationHandle {
         look(run)
     }
 
-    /// Evaluates the functions of user-defined columns for the last row of the history, unless they have already been evaluated.
-    ///
-    /// # Errors
-    /// Fails if a function fails, or if it does not return a number.
     pub fn evaluate_columns(&self) -> Result<(), ScriptError> {
         let ColumnReader { functions, evaluated_at, is_looking, .. } = &self.0.sensing;
         let steps = self.simulation().counts().steps;
@@ -122,10 +119,6 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Executes releases with a satisfied condition before the next step.
-    ///
-    /// # Errors
-    /// Fails if a function fails, or if it does not return a boolean.
     fn release_due(&self) -> Result<(), ScriptError> {
         let ColumnReader { conditions, is_looking, .. } = &self.0.sensing;
         for Condition { function, release } in conditions {
@@ -250,7 +243,6 @@ impl SimulationHandle {
         self.restore_after_error(stepped)
     }
 
-    /// After an error or interruption, restores the state at the start of the step.
     fn restore_after_error(&self, ran: Result<(), ScriptError>) -> Result<(), ScriptError> {
         ran.inspect_err(|_| self.0.simulation.borrow_mut().restore_step_start())
     }

@@ -28,7 +28,6 @@ impl SimulationHandle {
         })
     }
 
-    /// Calls a function with the rows of the history between two times, in the variant of the present call.
     pub fn read_history<T>(&self, times: (f64, f64), read: impl FnOnce(&History) -> T) -> T {
         let run = self.0.simulation.borrow();
         let beside = Self::present_side(&run);

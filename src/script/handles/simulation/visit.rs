@@ -10,7 +10,6 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visited {
-    /// All states were restored or computed again.
     All,
     /// The repeated run differs from the original run. The variant contains the first time with a difference.
     /// A script function may have changed the simulation during the original run, so that the repeated run differs.

@@ -6,7 +6,6 @@ use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::Kind;
 use crate::script::bindings::returns::ValueKind;
 
-/// Common types: name in messages, name for the language server, and description.
 const COMMON: &[(&str, &str, &str)] = &[
     ("whole number", "int", "A whole number of 64 bits."),
     ("number", "int | float", "A number; whole numbers are accepted."),

@@ -13,15 +13,12 @@ use crate::script::library::{ModuleFunction, ModulePage, page_of, pages};
 #[derive(Clone, Copy)]
 pub enum HelpSubject {
     Topic(&'static Topic),
-    /// Function, method, property or operator of a domain.
     Row(&'static BindingTable, &'static FunctionBinding),
     BuiltIn(&'static BuiltIn),
     Type(Type),
     Constant(&'static Constant),
     Option(&'static FunctionBinding, &'static Parameter),
-    /// Domain of the language.
     Table(&'static BindingTable),
-    /// Functions of Rhai for one type of value.
     BuiltIns(&'static BuiltInTable),
     Module(&'static ModulePage),
     ModuleFunction(&'static ModuleFunction),

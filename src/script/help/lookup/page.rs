@@ -14,12 +14,10 @@ pub struct HelpPage {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum HelpSection {
-    /// Empty line.
     Gap,
     /// Text that is wrapped. The first line starts at `indent`, the following lines at `hang`.
     Words {
         indent: usize,
-        /// Indentation of further lines.
         hang: usize,
         spans: Vec<StyledText>,
     },
@@ -36,9 +34,7 @@ pub struct StyledText {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpStyle {
     Plain,
-    /// Heading or name, shown in bold.
     Name,
-    /// Dimension or remark, shown dim.
     Remark,
 }
 
@@ -65,7 +61,6 @@ impl HelpPage {
         self.words(0, vec![StyledText::name(text)]);
     }
 
-    /// Appends wrapped text whose first line and further lines may have different indentation.
     pub fn words(&mut self, indent: usize, spans: Vec<StyledText>) {
         self.parts.push(HelpSection::Words { indent, hang: indent + 4, spans });
     }
@@ -142,7 +137,6 @@ fn wrap(
     text.push('\n');
 }
 
-/// Splits spans into words. Two consecutive spans are joined if no blank separates them.
 fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     let mut words = vec![Vec::new()];
     for span in spans {
@@ -176,7 +170,6 @@ pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     pieces
 }
 
-/// Byte index of the last possible break of the line within `width` characters.
 fn last_break(line: &str, width: usize) -> Option<usize> {
     let mut quote = None;
     let mut previous = ' ';

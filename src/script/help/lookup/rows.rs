@@ -82,7 +82,6 @@ fn expectation(parameter: &Parameter) -> Vec<StyledText> {
     }
 }
 
-/// Description of the default.
 pub fn presence(presence: Presence) -> String {
     match presence {
         Presence::Required => String::new(),

@@ -20,7 +20,6 @@ pub struct UnknownTopic {
 }
 
 impl UnknownTopic {
-    /// Collects suggestions for `name`.
     pub fn new(catalog: &Catalog, name: &str) -> Self {
         let known = names(catalog);
         let related = related(name, known.iter().copied());
@@ -42,7 +41,6 @@ impl UnknownTopic {
         }
     }
 
-    /// Returns true if there is no suggestion.
     pub fn is_strange(&self) -> bool {
         self.related.is_empty() && self.meant.is_none() && self.mentions.is_empty()
     }

@@ -109,10 +109,6 @@ fn chart(
     with_options(options, series.fold(chart, LineChart::series))
 }
 
-/// Charts of groups of curves over the quantity `over` for the prompt. The options are those of `plot`.
-///
-/// # Errors
-/// Fails if an option is unknown or invalid.
 pub fn typed_charts(
     engine: &rhai::Engine,
     map: &Map,

@@ -11,7 +11,6 @@ use crate::script::messages::error::ScriptError;
 
 pub const FILE: Parameter = text("file").doc("file name in the output folder");
 
-/// Writes a picture to the output folder in the format of its file extension. Returns the unit value.
 pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     let kind = PictureKind::of(Path::new(file.as_str()))?;
@@ -24,7 +23,6 @@ pub fn write_picture(call: &Call, picture: &dyn Panel) -> Result<Dynamic, Script
     Ok(Dynamic::UNIT)
 }
 
-/// Writes a CSV table to the output folder after a check of the file extension. Returns the unit value.
 pub fn write_csv(call: &Call, table: CsvTable) -> Result<Dynamic, ScriptError> {
     let file = call.text("file")?;
     if !file.ends_with(".csv") {

@@ -71,9 +71,6 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 /// Picture as text for a terminal, with options typed at the prompt.
 /// The picture shows only the present configuration unless other times are requested.
-///
-/// # Errors
-/// Fails if an option is unknown or invalid, or the interval is empty.
 pub fn motion_text(
     engine: &rhai::Engine,
     of: &SimulationHandle,

@@ -37,7 +37,6 @@ pub const SYMBOLS: Parameter = boolean("symbols")
 
 const DIGITS: usize = 6;
 
-/// Error in an option of a picture, which a script or a command at the prompt has given.
 pub struct OptionError {
     key: String,
     message: String,
@@ -79,7 +78,6 @@ pub fn limits(options: &Options) -> Result<AxisLimits, OptionError> {
     Ok(AxisLimits { x: ends("x_limits")?, y: ends("y_limits")? })
 }
 
-/// Rejects a label or limits of the vertical axis if columns of different units are drawn in several panels.
 pub fn expect_options_for_panels(options: &Options, panels: usize) -> Result<(), OptionError> {
     match [Y_LABEL, Y_LIMITS].into_iter().find(|option| options.has(option.name)) {
         Some(Parameter { name, .. }) if panels > 1 => Err(OptionError {

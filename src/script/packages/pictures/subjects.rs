@@ -47,7 +47,6 @@ pub fn simulations(call: &Call) -> Result<Vec<SimulationHandle>, ScriptError> {
     things(call, as_simulation)
 }
 
-/// Histories in the argument. Fails if a history is empty.
 pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = things(call, as_history)?;
     match histories.iter().find(|of| of.read(|rows| rows.samples().is_empty())) {
@@ -56,7 +55,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// Histories in the argument. Fails if a history is empty or has rows only at the ends of runs.
+/// Histories that a call draws. Fails if a history is empty or has rows only at the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;
@@ -67,7 +66,6 @@ fn as_simulation(value: &Dynamic) -> Option<SimulationHandle> {
     value.clone().try_cast()
 }
 
-/// History of a value, which is a history or a simulation. For a simulation, it is the whole history.
 pub fn as_history(value: &Dynamic) -> Option<HistoryHandle> {
     let whole = |of| HistoryHandle { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
     value.clone().try_cast::<HistoryHandle>().or_else(|| as_simulation(value).map(whole))

@@ -18,7 +18,6 @@ pub(super) fn number(x: f64) -> String {
     significant(x, DIGITS)
 }
 
-/// Formats a point or vector with few digits. A component below the rounding error of the other component is shown as 0.
 pub(super) fn pair(of: Vec2) -> String {
     let [x, y] = [of.x, of.y].map(|x| if x.abs() < ROUNDING * of.norm() { 0.0 } else { x });
     format!("({}, {})", number(x), number(y))
@@ -33,7 +32,6 @@ pub(super) fn listed(things: impl ExactSizeIterator<Item = String>) -> String {
     }
 }
 
-/// Formats numbers on one line. In a long list, the total count replaces the middle.
 pub(super) fn numbers(all: &[f64]) -> String {
     let texts = |part: &[f64]| part.iter().copied().map(number).collect::<Vec<_>>().join(", ");
     match all {

@@ -45,7 +45,6 @@ pub fn of_knots(knots: &KnotVector) -> Details {
     ]
 }
 
-/// Summary of a mesh: basis functions and quadrature points.
 pub fn of_mesh(mesh: &Mesh) -> Details {
     let PointCounts { force, moment, inertia } = mesh.point_counts();
     vec![

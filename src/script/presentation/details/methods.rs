@@ -8,7 +8,6 @@ use crate::script::bindings::kind::Details;
 use crate::script::messages::error::{CallPart, Failure};
 use crate::simulation::StepControl;
 
-/// Summary of an integrator: order, conserved quantities, parameter, and source.
 pub fn of_integrator(method: &Method) -> Details {
     let entry = method.entry();
     let claims = entry.claims;
@@ -75,7 +74,6 @@ pub fn of_schedule(schedule: &Schedule) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Summary of a caught error: hint and position.
 pub fn of_failure(failure: &Failure) -> Details {
     let place = match &failure.place {
         CallPart::Call => None,

@@ -64,7 +64,6 @@ pub fn of_beam(scene: &Scene, index: usize) -> Details {
     lines.into_iter().flatten().collect()
 }
 
-/// Summary of a rigid body: initial position, inertia, and points in the body frame.
 pub fn of_rigid_body(scene: &Scene, index: usize) -> Details {
     let body = &scene.rigid_bodies[index];
     let centre = Station::on_rigid_body(index, 0);
@@ -98,7 +97,6 @@ pub fn of_station(scene: &Scene, station: &Station) -> Details {
     along.into_iter().chain(at).collect()
 }
 
-/// Summary of a section: stiffness and inertia with dimensions, and wave speeds.
 pub fn of_section(section: &Section) -> Details {
     let properties = [
         ("EA [force]", section.axial_stiffness),
@@ -114,7 +112,6 @@ pub fn of_section(section: &Section) -> Details {
     properties.into_iter().map(|(label, value)| line(label, number(value))).chain(speeds).collect()
 }
 
-/// Description of the beam or track of a slider, and the start position of the slider as a fraction of the length.
 pub fn guide_of(scene: &Scene, slider: &Slider) -> (String, f64) {
     let Slider { master, arc_length, track, .. } = *slider;
     match track {
@@ -150,7 +147,6 @@ pub fn of_track(scene: &Scene, index: usize) -> Details {
     ]
 }
 
-/// Summary of a slider: bodies, rule and end behaviour.
 pub fn of_slider(scene: &Scene, index: usize) -> Details {
     let slider = &scene.sliders[index];
     let guide = guide_of(scene, slider);

@@ -7,7 +7,6 @@ use crate::simulation::{History, Invariant, Simulation, StepSize};
 
 const SLIDERS: usize = 2;
 
-/// Summary of a simulation: state, statistics, and stored data.
 pub fn of_simulation(simulation: &Simulation) -> Details {
     let (counts, settings) = (simulation.counts(), simulation.settings());
     let row = simulation.history().samples().last().map(|row| row.measures).unwrap_or_default();

@@ -99,7 +99,6 @@ impl Context {
         written.path
     }
 
-    /// Writes a file with the results of a stopped run, if the limit of written bytes allows it.
     pub(super) fn write_remains(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         let bytes = content.len() as u64;
         if self.mode() == RunMode::Run && bytes > self.meter().rescue_budget() {

@@ -78,10 +78,6 @@ impl FunctionQuery<'_> {
         }
     }
 
-    /// Calls `drive` with the evaluator.
-    ///
-    /// # Errors
-    /// Fails if there is no worker, or if `drive` fails.
     pub fn with_evaluator<T>(
         &self,
         calling: &Call,
@@ -120,7 +116,7 @@ impl FunctionQuery<'_> {
     /// Value of the function at a point, in the engine of the script.
     ///
     /// # Errors
-    /// Fails if the function fails. The error contains its position.
+    /// Returns the error of the function with its position.
     pub fn here(&self, calling: &Call, point: &[f64]) -> Result<Dynamic, ScriptError> {
         self.call_here(calling, &QueryPoint::Value(point.to_vec()))
     }
@@ -173,9 +169,6 @@ impl<'w> Evaluator<'w> {
 
     /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters.
     /// The argument `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
-    ///
-    /// # Errors
-    /// Fails if the run is stopped.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.evaluate_points(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),

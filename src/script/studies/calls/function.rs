@@ -16,7 +16,6 @@ use crate::script::messages::nouns::with_article;
 pub struct RunFunction {
     pub name: String,
     pub captured: Vec<(String, Portable)>,
-    /// Arguments that follow the map of values.
     pub extra: Vec<Portable>,
 }
 
@@ -82,10 +81,6 @@ impl RunFunction {
         Ok(Self { name: function.fn_name().to_owned(), captured, extra: Vec::new() })
     }
 
-    /// Adds a further argument after the map.
-    ///
-    /// # Errors
-    /// Fails if the value cannot be sent to other threads.
     pub fn with_extra_argument(
         &mut self,
         call: &Call,
@@ -127,7 +122,7 @@ impl RunFunction {
     /// Calls the function in the engine of the script, with copies of captured values.
     ///
     /// # Errors
-    /// Fails if the function fails (with the position of the error), or if it changes a captured variable.
+    /// Returns the error of the function with its position. Also fails if the function changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::internal_error("the function of a study is not found again");

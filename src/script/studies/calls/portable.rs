@@ -13,10 +13,8 @@ use crate::loads::Schedule;
 use crate::script::handles::section::SectionHandle;
 use crate::simulation::StepControl;
 
-/// Value that can be sent to another thread.
 #[derive(Clone, Debug)]
 pub enum Portable {
-    /// Unit value `()`.
     Nothing,
     Boolean(bool),
     Integer(INT),
@@ -26,24 +24,18 @@ pub enum Portable {
     Vector(Vec2),
     Array(Vec<Self>),
     Map(Vec<(String, Self)>),
-    /// Script function: name, number of parameters, and captured values.
     Function(String, usize, Vec<Self>),
-    /// Serialised native data: type and bytes.
     Data(DataKind, Vec<u8>),
 }
 
-/// Native types whose values can be serialised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataKind {
-    /// Constant or tapered section.
     Section,
     Mesh,
     Curve,
     Knots,
     Method,
-    /// Adaptive step size.
     Control,
-    /// Schedule given by a formula or a table.
     Schedule,
 }
 
@@ -166,7 +158,6 @@ impl Portable {
         }
     }
 
-    /// Numeric value; booleans count as 0 and 1.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Boolean(truth) => Some(f64::from(u8::from(*truth))),

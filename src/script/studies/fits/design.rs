@@ -22,9 +22,7 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
-    /// The result with the given name is minimised.
     Least(String),
-    /// The result with the given name is maximised.
     Largest(String),
 }
 
@@ -50,11 +48,9 @@ pub struct DesignRequest<'o> {
 pub struct BestDesign {
     pub parameters: Vec<(String, f64)>,
     pub results: Vec<(String, f64)>,
-    /// True if the search converged within the allowed number of runs.
     pub is_settled: bool,
     /// Index of an unbounded parameter that diverged because the objective decreases without limit.
     pub runaway: Option<usize>,
-    /// Number of calls of the script function.
     pub runs: usize,
     pub derivatives: String,
 }
@@ -120,7 +116,6 @@ impl Limit {
         low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
     }
 
-    /// Derivatives of the scaled distances, computed from the derivatives of the result.
     pub(super) fn slopes(&self, slopes: &[f64]) -> impl Iterator<Item = Vec<f64>> {
         let along = |sign: f64| slopes.iter().map(|slope| sign * slope / self.size()).collect();
         let low: Option<Vec<f64>> = self.low.map(|_| along(1.0));
@@ -143,7 +138,6 @@ impl Limit {
     }
 }
 
-/// Values of a map of numbers. Their order is that of [`names`].
 fn values(given: &Dynamic) -> FunctionResult {
     let Some(map) = given.read_lock::<Map>() else {
         return FunctionResult::Wrong(
@@ -283,9 +277,6 @@ impl DesignRequest<'_> {
 
 impl DesignRequest<'_> {
     /// Result of a dry run: the start values. The function is called once with these values.
-    ///
-    /// # Errors
-    /// Fails if the function fails.
     pub fn dry_run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();

@@ -22,12 +22,7 @@ const ERROR_DIGITS: usize = 2;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     Residuals,
-    /// Values of a model, to be compared with measurements.
-    Model {
-        measured: Vec<f64>,
-        /// Abscissas of the measurements.
-        over: Option<Vec<f64>>,
-    },
+    Model { measured: Vec<f64>, over: Option<Vec<f64>> },
 }
 
 pub struct FitRequest<'o> {
@@ -59,16 +54,13 @@ pub enum Derivatives {
 pub struct Fit {
     pub name: String,
     pub names: Vec<String>,
-    /// Result, with weighted residuals.
     pub fitted: Fitted,
     pub residuals: Vec<f64>,
-    /// Interpretation of the values that the fitted function returns.
     pub compared: Compared,
     pub confidence: f64,
 }
 
 impl Derivatives {
-    /// Parses the option.
     pub fn of(word: &str) -> Self {
         if word == "differences" { Self::Unknown } else { Self::Known }
     }
@@ -139,7 +131,6 @@ impl FitRequest<'_> {
         Ok(Fit { name, names, fitted, residuals, compared, confidence })
     }
 
-    /// Rejects a function for which the number of residuals depends on the parameters.
     fn expect_as_many(
         &self,
         call: &Call,
@@ -164,9 +155,6 @@ impl FitRequest<'_> {
     }
 
     /// Result of a dry run: the start values. The function is called once with these values.
-    ///
-    /// # Errors
-    /// Fails if the function fails.
     pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -256,7 +244,6 @@ impl Fit {
         estimate.half_width(parameter, self.confidence)
     }
 
-    /// Description of the end of the search.
     pub fn outcome(&self) -> &'static str {
         match self.fitted.settling {
             TerminationReason::Settled => "settled",
@@ -310,7 +297,6 @@ impl Fit {
         )
     }
 
-    /// Page with the data and the model curve, if any, and the residuals below.
     pub fn page(&self) -> Page {
         let count = self.residuals.len();
         let places: Vec<f64> = match &self.compared {
@@ -341,10 +327,6 @@ impl Fit {
         }
     }
 
-    /// Page as an SVG picture.
-    ///
-    /// # Errors
-    /// Fails if the page cannot be drawn.
     pub fn picture(&self) -> Result<String, ScriptError> {
         Ok(self.page().figure()?.to_svg()?)
     }

@@ -9,7 +9,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::{as_number, format_number};
 use crate::script::studies::plan::at_key;
 
-/// Search parameters, in the order of their names.
 pub struct Ranges {
     pub names: Vec<String>,
     pub ranges: Vec<SearchRange>,

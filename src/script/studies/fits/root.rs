@@ -10,10 +10,6 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::format_number;
 use crate::script::state::settings::RunMode;
 
-/// Finds a root of `function` between `from` and `to` within `tolerance`.
-///
-/// # Errors
-/// Fails if the function fails, is not finite, or has the same sign at both ends.
 pub fn find_root(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (function, from, to) =
         (call.callback("function")?, call.number("from")?, call.number("to")?);

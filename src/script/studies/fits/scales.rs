@@ -7,7 +7,6 @@ use crate::fitting::{Rating, SlopedRating, SlopesOfRating};
 
 pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
-    /// Index of the objective among the results.
     at: usize,
     limits: &'s [(usize, &'s Limit)],
     /// Magnitude of the objective in the first run.
@@ -36,10 +35,6 @@ impl<'s> ResultScales<'s> {
         Rating { objective, constraints: distances.collect() }
     }
 
-    /// Scaled objective and constraints with derivatives.
-    ///
-    /// # Errors
-    /// Fails if the derivatives are not usable, with the reason.
     pub(super) fn with_slopes(&self, rows: Vec<(f64, Vec<f64>)>, results: usize) -> SlopesOfRating {
         if rows.len() != results {
             return Err("it returns different results".into());

@@ -15,7 +15,6 @@ use crate::script::studies::plan::at_key;
 
 const MOST_ROWS: usize = 100_000_000;
 
-/// Joint sampling of the parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     pub kind: SampleKind,
@@ -28,7 +27,6 @@ pub struct Samples {
 pub enum SampleKind {
     LatinHypercube,
     Sobol,
-    /// Saltelli blocks for Sobol' indices.
     Saltelli,
 }
 
@@ -56,12 +54,11 @@ pub struct SweepPlan {
     pub design: SweepDesign,
     /// Level values of each parameter; empty if each row has a separate value.
     levels: Vec<Vec<Portable>>,
-    /// Parameters whose logarithms have the given distributions.
+    /// Parameters for which the given distribution applies to the logarithm.
     spread_by_ratios: Vec<String>,
 }
 
 impl SweepPlan {
-    /// Reads the options `parameters` and `samples`.
     pub fn read(
         call: &Call,
         parameters: &Map,
@@ -148,7 +145,6 @@ impl SweepPlan {
         rows.into_iter().chain(all).collect()
     }
 
-    /// Returns true if the logarithm of a parameter has the given distribution.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.spread_by_ratios.iter().any(|of| of == name)
     }

@@ -17,14 +17,12 @@ const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
 /// Number of cells along each axis for averages of scattered points.
 const CELLS: usize = 20;
-/// Maximum number of columns that a scatter matrix shows.
 pub const MOST_COLUMNS: usize = 6;
 /// Maximum number of distinct values that have separate bins in a histogram, if each value occurs at least twice on average.
 const MOST_VALUES: usize = 64;
 /// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
-/// Sweep and title from which pictures are drawn.
 pub struct Picture<'t> {
     pub table: &'t SweepTable,
     pub title: String,
@@ -90,7 +88,6 @@ impl Picture<'_> {
         }
     }
 
-    /// Returns true if at least one row has numbers in all of the given columns.
     pub fn has_rows(&self, names: &[&str]) -> bool {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
@@ -118,7 +115,6 @@ impl Picture<'_> {
         })
     }
 
-    /// One curve per combination of the other parameters, or a summary of all curves.
     fn curves(&self, chart: LineChart, x_name: &str, found: &[(usize, f64, f64)]) -> LineChart {
         let others: Vec<_> =
             self.table.sweep().design.parameters.iter().filter(|of| of.name != x_name).collect();
@@ -212,7 +208,6 @@ impl Picture<'_> {
         })
     }
 
-    /// Scatter matrix of numeric columns, with histograms on the diagonal.
     pub fn matrix(&self, names: &[&str]) -> Page {
         let columns: Vec<_> = names.iter().filter_map(|name| self.column(name)).collect();
         let is_whole = |row: &usize| columns.iter().all(|column| column.number(*row).is_finite());
@@ -273,7 +268,8 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram. If few values repeat often, each value has a bin, bounded halfway between neighbours. Otherwise all bins have equal widths.
+/// Bins of a histogram. If few distinct values occur often, each value has a bin, bounded halfway between neighbours.
+/// A histogram of other values has bins of equal width.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {

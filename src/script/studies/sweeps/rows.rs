@@ -9,7 +9,6 @@ use crate::script::studies::calls::calling::CallOutcome;
 
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
-    /// Names and numbers of the returned map.
     Computed(Arc<[String]>, Vec<f64>),
     /// The function threw an error, or returned a value that is not a number. The field contains the reason.
     Failed(String),
@@ -27,7 +26,6 @@ impl RowOutcome {
     }
 }
 
-/// Converts the returned map to numbers.
 pub fn found(given: &Dynamic) -> RowOutcome {
     let Some(map) = given.read_lock::<Map>() else {
         return RowOutcome::Wrong(

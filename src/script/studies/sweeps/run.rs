@@ -147,7 +147,7 @@ impl SweepRequest<'_> {
     /// Runs a row in the engine of the script.
     ///
     /// # Errors
-    /// Fails if the function fails. The error contains its position.
+    /// Returns the error of the function with its position.
     pub fn invoked(&self, call: &Call, row: usize) -> Result<Dynamic, ScriptError> {
         let values = self.plan.values(row, &|name, count| call.function_named(name, count));
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)

@@ -12,7 +12,6 @@ use crate::output::{
     format_number, significant,
 };
 
-/// Name of the column with the reasons of failures.
 pub const FAILURE: &str = "failure";
 const SHOWN: (usize, usize) = (12, 4);
 const DIGITS: usize = 6;
@@ -41,12 +40,10 @@ impl SweepTable {
         &self.swept.sweep
     }
 
-    /// Returns true if rows were selected.
     pub fn is_of_some_rows(&self) -> bool {
         self.chosen.is_some()
     }
 
-    /// Returns true if the logarithm of a parameter has the given distribution.
     pub fn is_spread_by_ratios(&self, name: &str) -> bool {
         self.swept.plan.is_spread_by_ratios(name)
     }
@@ -121,7 +118,6 @@ impl SweepTable {
         DataTable { columns: sweep.names().filter_map(column).chain([failures]).collect() }
     }
 
-    /// Numeric columns as arrays.
     pub fn archive(&self) -> NpzArchive {
         let is_number = |values: &&[f64]| values.iter().any(|x| x.is_finite());
         let column = |name: &str| {
@@ -132,9 +128,6 @@ impl SweepTable {
     }
 
     /// Writes the table as CSV, row by row. The required memory does not depend on the number of rows.
-    ///
-    /// # Errors
-    /// Fails if the table cannot be written.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();

@@ -3,13 +3,12 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Largest ratio of the length of a grazing path in a step to the length of its chord in the disc, for a passage through the disc [-].
+/// Ratio of the length of a path to its longest chord in the disc that still counts as grazing the disc [-].
 const LONGEST_PATH: f64 = 1e3;
 
-/// Largest length of the chord of a grazing path, as a fraction of the radius of the disc [-].
+/// Upper limit of the longest chord that counts as grazing the disc, as a fraction of the radius of the disc [-].
 const GRAZING: f64 = 0.1;
 
-/// Straight path of a point relative to a disc in a step.
 pub struct DiscPath {
     /// Vector from the centre of the disc to the point at the start [length].
     pub start: Vec2,
@@ -17,7 +16,6 @@ pub struct DiscPath {
     pub movement: Vec2,
     /// Radius of the disc plus radius of the body around the point [length].
     pub radius: f64,
-    /// True if the point touches the disc at the start of the step.
     pub is_closed: bool,
 }
 

@@ -25,7 +25,7 @@ struct FrictionLaw {
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Weight of the friction force in the mean friction force of the step [-].
+    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
     share: f64,
 }
 
@@ -77,13 +77,10 @@ impl FrictionLaw {
 /// Slip in an iterate as a function of `N` local coordinates, and the generalised force of a unit friction force.
 #[derive(Debug, Clone, Copy)]
 pub struct SlipTrial<const N: usize> {
-    /// Slip [length].
     pub slip: f64,
-    /// Derivative of the slip with respect to the local coordinates.
     pub slope: [f64; N],
     /// Generalised force due to a unit friction force. The work of this generalised force equals the slip.
     pub direction: [f64; N],
-    /// Derivative of each component of the generalised force with respect to the local coordinates.
     pub direction_slope: [[f64; N]; N],
     /// Largest of the increments from which the slip is computed [length]. It determines the rounding error of the slip.
     pub moved: f64,
@@ -117,7 +114,6 @@ pub fn sticking_damping(stiffness: f64, mass: f64, factor: f64) -> f64 {
 /// Friction force of a contact point in a step. Its slip is a function of `N` local coordinates.
 #[derive(Debug, Clone)]
 pub struct PointFriction<const N: usize> {
-    /// Coefficient of friction [-].
     coefficient: f64,
     /// Stiffness along the surface [force/length].
     stiffness: f64,
@@ -134,14 +130,12 @@ pub struct PointFriction<const N: usize> {
     linearised: SlipTrial<N>,
 }
 
-/// Normal force that limits the friction force of a contact in an iterate, with the duration of the step.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub force: f64,
-    /// Duration of the step [time].
     pub duration: f64,
-    /// Weight of the friction force in the mean friction force of the step [-].
+    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
     pub share: f64,
 }
 
@@ -246,7 +240,6 @@ impl<const N: usize> PointFriction<N> {
         self.linearised = self.trial;
     }
 
-    /// Generalised internal force of friction in the present iterate.
     pub fn present(&self) -> [f64; N] {
         self.trial.direction.map(|by| by * self.force.force)
     }
@@ -265,7 +258,6 @@ impl<const N: usize> PointFriction<N> {
         self.force.mismatch + self.by_normal * normal_mismatch
     }
 
-    /// Derivative of the generalised friction force, for the given derivative of the normal force.
     pub fn tangent(&self, normal_slope: [f64; N]) -> [[f64; N]; N] {
         let SlipTrial { slope, direction, direction_slope, .. } = &self.linearised;
         let by_normal = normal_slope.map(|by| by * self.by_normal);
@@ -277,7 +269,6 @@ impl<const N: usize> PointFriction<N> {
         })
     }
 
-    /// Corrects the friction force for a change of the local coordinates and of the normal force.
     pub fn correct(&mut self, moved: [f64; N], normal_change: f64) {
         let slope = &self.linearised.slope;
         self.force.correct((0..N).map(|at| slope[at] * moved[at]).sum());
@@ -295,7 +286,6 @@ impl<const N: usize> PointFriction<N> {
         contact.share * self.force.force * slip - (self.energy() - before)
     }
 
-    /// Elastic energy of the deflection [energy].
     pub fn energy(&self) -> f64 {
         0.5 * self.stiffness * self.deflection * self.deflection
     }
@@ -306,14 +296,13 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Generalised internal force of friction at the start of the step.
-    /// The slip is linear in the local coordinates. The slip in `rates` is therefore the slip rate.
+    /// `rates` is the slip for the rates of the local coordinates, which is the slip rate because the slip is linear in the local coordinates.
     pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);
         let force = self.stiffness * self.deflection + damping * rates.slip;
         rates.direction.map(|by| by * force.clamp(-limit, limit))
     }
 
-    /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub fn sticking_damping(&self) -> f64 {
         self.damping
     }

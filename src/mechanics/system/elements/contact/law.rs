@@ -7,7 +7,8 @@
 use crate::elementary::ln;
 use crate::system::elements::mixed_force::ForceTarget;
 
-/// Smallest distance from the centre of a disc in the law, as a fraction of the radius.
+/// Smallest distance from the centre of a disc at which the contact law is evaluated, as a fraction of the radius.
+/// Smaller distances are replaced by this limit.
 const LEAST_DISTANCE: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +34,6 @@ impl ContactLaw {
         }
     }
 
-    /// Tension at a gap, and the derivative of the tension.
     pub fn at(&self, gap: f64) -> ForceTarget {
         match *self {
             _ if gap >= 0.0 => ForceTarget::default(),

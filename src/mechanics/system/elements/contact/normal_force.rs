@@ -13,20 +13,17 @@ use crate::system::elements::rate_history::RateHistory;
 /// The law of a soft contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
-/// Law of the normal force.
 #[derive(Debug, Clone, Copy)]
 pub struct NormalLaw {
-    /// Elastic tension as a function of the gap.
     pub elastic: ContactLaw,
     /// Damping factor, which follows from the coefficient of restitution [-].
     pub damping: f64,
 }
 
-/// Time and stage at which the force of a contact is evaluated.
 #[derive(Clone, Copy)]
 pub struct ContactTime {
     pub stage: Stage,
-    /// Factor of the force [-].
+    /// Factor by which the contact force is multiplied in the balance of the step [-].
     pub weight: f64,
     /// Coefficients of rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
@@ -49,16 +46,13 @@ impl ContactTime {
     }
 }
 
-/// Change of the gap in an iterate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GapChange {
-    /// Change of the gap [length].
     pub value: f64,
     /// Largest of the increments from which the change of the gap is computed [length]. It determines the rounding error of the change.
     pub moved: f64,
 }
 
-/// Normal force of a contact in a step.
 #[derive(Debug, Clone)]
 pub struct NormalForce {
     /// Quadrature weight [length]; 1 for a point.
@@ -238,7 +232,6 @@ mod tests {
     use super::*;
     use crate::beams::RotationIncrement;
 
-    /// A contact that stays open has no force at any approach speed before the step.
     #[test]
     fn an_open_contact_is_not_damped() {
         let elastic = ContactLaw::HalfPlane { stiffness: 1e4 };

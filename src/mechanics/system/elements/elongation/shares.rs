@@ -12,7 +12,6 @@ pub struct CoordinateShare {
 }
 
 impl Elongation {
-    /// Finds the degrees of freedom that move the terminals, in the current numbering.
     pub(super) fn locate(&mut self, bodies: &[Body]) {
         let components = self.components();
         let Self { terminals, shares, .. } = self;

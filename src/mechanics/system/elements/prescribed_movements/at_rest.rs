@@ -54,7 +54,6 @@ impl PrescribedMovements {
         Cow::Owned(all)
     }
 
-    /// Records that the prescribed displacements, multiplied by `load_factor`, have been applied.
     pub fn accept_positions(&mut self, load_factor: f64) {
         for present in &mut self.present {
             present.placed = load_factor * present.goal;

@@ -37,7 +37,7 @@ impl SpringDamper {
             }
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
-                // Only linear laws receive numerical damping. With a negative stiffness, it would add energy.
+                // Only linear laws receive numerical damping, because numerical damping adds energy where the stiffness is negative.
                 // Separate x and y components receive none, because their numerical damping would rotate the force relative to the spring.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
@@ -51,7 +51,7 @@ impl SpringDamper {
 
     /// Target force of the spring for a linearisation.
     /// After several iterations, the spring is linearised at the intersection of its law with a straight line.
-    /// The straight line is the response of all other objects to the force of the spring. It intersects an increasing law once.
+    /// The straight line is the response of all other objects to the force of the spring. An increasing law intersects this line once.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

@@ -55,7 +55,6 @@ impl PairContact {
         matches!(self.members[member].target, ContactTarget::Beam(_))
     }
 
-    /// Returns true if the body of a member rotates. A particle does not rotate.
     fn rotates(&self, member: usize) -> bool {
         !matches!(self.body(member), BodyIndex::Particle(_))
     }

@@ -20,7 +20,6 @@ use crate::system::elements::internal_force::InternalForce;
 use crate::system::elements::rate_history::RateHistory;
 use crate::system::elements::{TrialState, WorkAndImpulse};
 
-/// Pair of shapes that can touch: the contact points of `shape` touch the axis of `target`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CandidatePair {
     pub(super) shape: usize,
@@ -31,7 +30,6 @@ pub(super) struct CandidatePair {
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FrictionOfPair {
-    /// Coefficient of friction [-].
     pub(super) coefficient: f64,
     /// Fractions of the moment of friction that act on `shape` and on `target` [-]. The sum of the fractions is one.
     pub(super) shares: [f64; 2],
@@ -43,7 +41,6 @@ impl CandidatePair {
     }
 }
 
-/// Contact forces between the bodies of an element, with all pairs that touch at present.
 pub(super) struct PairForces {
     name: String,
     shapes: Vec<Shape>,
@@ -56,7 +53,8 @@ pub(super) struct PairForces {
     /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
     /// The bound is zero if the boxes around two bodies overlap.
     clearance: f64,
-    /// True if the configuration `start` of the shapes is that at the start of the present step. It may be older if no bodies can touch.
+    /// True if the configuration `start` of the shapes is that at the start of the present step.
+    /// The configuration may be older if no bodies can touch.
     is_current: bool,
     watch: ContactWatch,
     last_rate: f64,
@@ -130,7 +128,6 @@ impl PairForces {
         self.find_pairs();
     }
 
-    /// Sets the configuration `start` to the positions at the start of the step, if it is older.
     fn use_present_start(&mut self, bodies: &[Body]) {
         if !self.is_current {
             self.set_configuration(bodies);
@@ -173,7 +170,6 @@ impl PairForces {
         }
     }
 
-    /// Computes the boxes and samples of all touched bodies, which the search for nearest points needs.
     fn prepare_pairs(&mut self) {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
@@ -377,7 +373,7 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    /// If the configuration `start` is older than the step, no bodies came near each other in the step, so no path crosses a body.
+    /// Returns false without a search if the configuration `start` is older than the step: no bodies came near each other in such a step.
     fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
         if !self.is_current || self.is_clear_with(bodies, increments) {
             return false;

@@ -26,7 +26,6 @@ pub(super) const LOCAL: usize = 8;
 /// For a smaller sum, both feet coincide within rounding, and the share `θ` has no influence.
 const SAME_FOOT: f64 = 1e-14;
 
-/// Derivatives with respect to the local coordinates.
 pub(super) type Slope = [f64; LOCAL];
 
 #[derive(Debug, Clone, Copy)]
@@ -36,7 +35,6 @@ pub(super) struct GapStart {
     pub(super) foot: Foot,
 }
 
-/// Displacements in an iterate, and the curve near its point `c(ξ₁)`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapMovement {
     pub(super) foot: Foot,
@@ -58,7 +56,6 @@ impl GapMovement {
     }
 }
 
-/// Change of the gap in an iterate, with the directions of the contact force and all derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     pub(super) change: f64,

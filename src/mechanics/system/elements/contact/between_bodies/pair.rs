@@ -37,8 +37,6 @@ impl PairIndex {
         shapes[self.shape].radius + shapes[self.target].radius
     }
 
-    /// Rotations of the body at the contact point and of the other body at the foot.
-    /// `rotation` returns the rotation of a control point of a shape.
     fn rotations(
         self,
         shapes: &[Shape],
@@ -189,7 +187,6 @@ impl ContactPair {
         })
     }
 
-    /// Velocity of the contact point relative to its foot, from the velocities of the control points of each shape.
     pub(super) fn relative(
         &self,
         shapes: &[Shape],
@@ -311,8 +308,6 @@ impl ContactPair {
         summary
     }
 
-    /// Adds the contact force to `out`, after elimination of the contact law.
-    /// Returns the derivatives of the local contact forces with respect to the local coordinates.
     pub(super) fn add_linearised(
         &mut self,
         shapes: &[Shape],
@@ -475,8 +470,6 @@ impl ContactPair {
         foot.weights(0).for_each(|(at, by)| add(target, at, on_end * by));
     }
 
-    /// Adds a generalised friction force to `out`.
-    /// The generalised force consists of forces on the contact point and on both feet, and of moments on both bodies.
     fn scatter_friction(
         &self,
         shapes: &[Shape],
@@ -532,7 +525,6 @@ impl ContactPair {
         (self.tension_at_start().1, self.normal_at_start().dot(&velocity))
     }
 
-    /// Adds the contact force at the start of the step, for rates at the control points of each shape.
     pub(super) fn add_force_at_start(
         &self,
         shapes: &[Shape],
@@ -570,7 +562,6 @@ impl ContactPair {
         self.normal_at_start() * self.tension_at_start().0.force
     }
 
-    /// Static stiffness of the contact at the start of the step, with the degrees of freedom that it couples.
     pub(super) fn static_stiffness(
         &self,
         shapes: &[Shape],

@@ -78,7 +78,6 @@ pub(super) struct Foot {
 }
 
 impl Foot {
-    /// Pairs of a control point and the derivative of its weight. `order` is the order of the derivative.
     pub(super) fn weights(&self, order: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         (self.values.first..).zip(self.values.derivatives(order).iter().copied())
     }
@@ -101,7 +100,6 @@ pub(super) struct ContactSite {
     pub(super) weight: f64,
     /// Parts of the axis of the same beam that the contact point can touch, without the parts close to the point along the axis.
     pub(super) allowed: AllowedParts,
-    /// Indices of the bodies that the point touches at present.
     pub(super) touched: Vec<usize>,
 }
 
@@ -118,7 +116,6 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
-    /// Returns true if the distance of a position from the box around the body is larger than `distance`.
     pub(super) fn is_beyond(&self, position: Vec2, distance: f64) -> bool {
         self.bounds().squared_distance_from(position) >= square(distance)
     }
@@ -273,7 +270,6 @@ impl Shape {
         self.axis.divide(&mut self.end);
     }
 
-    /// Configuration for given control points, prepared for searches of nearest points.
     pub(super) fn configuration(&self, controls: &[Vec2]) -> Configuration {
         let bounds = self.axis.bounds(controls);
         let mut at = Configuration { points: controls.to_vec(), bounds, ..Default::default() };
@@ -289,7 +285,6 @@ impl Shape {
         }
     }
 
-    /// Starts of the spans of the axis and its end, or the position of a disc.
     pub(super) fn vertices<'c>(&self, at: &'c Configuration) -> impl Iterator<Item = Vec2> + 'c {
         let last = match &self.axis {
             Axis::Point(foot) => at.points[foot.values.first],
@@ -298,7 +293,6 @@ impl Shape {
         at.samples.iter().step_by(SAMPLES + 1).copied().chain(once(last))
     }
 
-    /// Box around the body at the start and at the end of the step.
     pub(super) fn swept_bounds(&self) -> Bounds {
         self.start.bounds.joined(self.end.bounds)
     }
@@ -350,7 +344,6 @@ impl Shape {
         Some(foot)
     }
 
-    /// Returns true if a moving contact point passes through the moving axis, or through a disc of the given radius.
     pub(super) fn is_crossed(&self, path: &CrossingPath) -> bool {
         let CrossingPath { from, to, allowed, radius } = *path;
         let (basis, spans) = match &self.axis {
@@ -418,7 +411,6 @@ pub(super) struct CrossingPath {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NearestSearch {
     pub(super) position: Vec2,
-    /// Searched parts of the axis. The end of a searched part is not a valid nearest point, unless it is an end of the axis.
     pub(super) allowed: AllowedParts,
     pub(super) limit: f64,
     pub(super) hint: usize,
@@ -434,7 +426,6 @@ impl Axis {
         }
     }
 
-    /// Computes the boxes around the spans and the samples of a configuration, unless they are known.
     fn divide(&self, at: &mut Configuration) {
         let Configuration { points, spans: bounds, samples, .. } = at;
         let Self::Curve(SampledCurve { basis, spans, weights, growth }) = self else { return };
@@ -464,13 +455,11 @@ struct SpanSearch<'a> {
 }
 
 impl SpanSearch<'_> {
-    /// Vector from the position to the axis, and the first two derivatives of the axis with respect to the parameter.
     fn at(&self, xi: f64) -> [Vec2; 3] {
         let [place, slope, bend] = self.basis.curve_in(self.span, xi, &self.at.points);
         [place - self.position, slope, bend]
     }
 
-    /// Smallest squared distance from the position to the part of the axis between two parameters, with the parameter of the nearest point.
     fn nearest_in(&self, low: f64, high: f64) -> (f64, f64) {
         let is_whole = (low, high) == (self.span.start, self.span.end);
         let squared = |at: usize| match is_whole {

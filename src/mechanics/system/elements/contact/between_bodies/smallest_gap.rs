@@ -9,7 +9,6 @@ use crate::system::bodies::Body;
 /// Relative accuracy of the smallest gap between open bodies. Contact points that would reduce the gap by less are not evaluated.
 const ACCURACY: f64 = 1e-3;
 
-/// Search for the smallest gap in the present configuration of the bodies.
 pub(super) struct GapSearch<'s> {
     shapes: &'s [Shape],
     configurations: Vec<Configuration>,
@@ -79,7 +78,6 @@ impl<'s> GapSearch<'s> {
         self.gap = self.gap.min((squared.sqrt() - self.reach(candidate)).max(0.0));
     }
 
-    /// Reduces the gap to the gap of a contact point, if that gap is smaller.
     fn add_site(&mut self, index: PairIndex) {
         let reach = index.reach(self.shapes);
         let limit = self.limit(reach);

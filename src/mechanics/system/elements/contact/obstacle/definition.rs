@@ -119,7 +119,6 @@ impl ElementDef for Obstacle {
         Ok(())
     }
 
-    /// Pairs of stations whose displacements are coupled by the contact force of a disc.
     fn coupled(&self, scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         let station = |target: ContactTarget| match target {
             ContactTarget::Beam(_) => None,

@@ -30,7 +30,7 @@ pub(super) struct TouchingBody {
     /// If `is_active` is false, the contact points have no forces and are not updated.
     is_active: bool,
     watch: ContactWatch,
-    /// Mean rate of the gap with the largest force in the last step [length/time].
+    /// Mean rate of the gap at the contact point with the largest force in the last step [length/time].
     last_rate: f64,
 }
 
@@ -53,7 +53,6 @@ impl TouchingBody {
         self.is_convex && surface.is_beyond(middle, (0..count).map(position))
     }
 
-    /// Returns true if a point passes through the obstacle in a step. Paths are straight, so only discs can be crossed.
     fn crosses(&self, surface: &Surface, body: &Body, increments: &[f64]) -> bool {
         if matches!(surface.shape, ObstacleShape::HalfPlane { .. }) {
             return false;
@@ -95,7 +94,6 @@ impl TouchingBody {
         }
     }
 
-    /// Contact points with forces in the present step.
     fn active_points(&self) -> &[ContactPoint] {
         if self.is_active { &self.points } else { &[] }
     }
@@ -140,7 +138,6 @@ pub(super) struct ObstacleForces {
     dissipated: f64,
 }
 
-/// Rates at the start of a step; `None` in a static increment.
 fn step_rates(rates: &[f64]) -> Option<&[f64]> {
     (!rates.is_empty()).then_some(rates)
 }

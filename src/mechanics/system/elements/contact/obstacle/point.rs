@@ -22,12 +22,10 @@ pub(super) struct Surface {
     /// Radius of the bodies around their axes and points [length].
     pub(super) radius: f64,
     pub(super) law: NormalLaw,
-    /// Coefficient of friction [-].
     pub(super) friction: f64,
 }
 
 impl Surface {
-    /// Gap at a position, and the vector from the obstacle to this position.
     fn gap(&self, at: Vec2) -> (f64, Vec2) {
         match self.shape {
             ObstacleShape::HalfPlane { point, normal } => {
@@ -69,7 +67,6 @@ impl Surface {
     }
 }
 
-/// Change of the gap in an iterate, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GapTrial {
     change: f64,
@@ -88,7 +85,6 @@ impl GapTrial {
         moved: 0.0,
     };
 
-    /// Trial with zero change of the gap at a surface with the given normal.
     pub(super) fn along(normal: Vec2) -> Self {
         Self { secant: normal, slope: normal, ..Self::NONE }
     }
@@ -170,7 +166,6 @@ pub(super) struct ContactPoint {
     linearised: GapTrial,
     /// Forces applied at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
-    /// Friction; `None` without friction.
     friction: Option<Box<PointFriction<3>>>,
     /// Friction moment applied in the present iterate, as an internal moment [force·length].
     applied_moment: f64,
@@ -269,7 +264,6 @@ impl ContactPoint {
         }
     }
 
-    /// Sets the approach speed of a contact that was open before, for the velocity of the point at the start of the step.
     pub(super) fn set_approach(&mut self, surface: &Surface, velocity: Vec2) {
         let rate = surface.gradient(self.start).dot(&velocity);
         (self.normal.approach, self.normal.last_rate) = (rate.abs(), rate);
@@ -352,7 +346,6 @@ impl ContactPoint {
         ForceSummary { force: force.abs(), moment, strain_mismatch, ..ForceSummary::default() }
     }
 
-    /// Adds the contact force to `out` and its derivatives to `tangent`, after elimination of the contact law.
     pub(super) fn add_linearised(
         &mut self,
         surface: &Surface,
@@ -472,7 +465,6 @@ impl ContactPoint {
         of_force - self.applied_moment * duration
     }
 
-    /// State of a closed contact at the start of the step; `None` for an open contact.
     pub(super) fn closed(&self, surface: &Surface, body: &Body) -> Option<ClosedContact> {
         if !self.is_closed() {
             return None;
@@ -499,7 +491,6 @@ impl ContactPoint {
         })
     }
 
-    /// Adds the force of a closed contact at the start of the step, for rates at the control points of the body.
     pub(super) fn add_force_at_start(
         &self,
         contact: &ClosedContact,
@@ -565,10 +556,8 @@ impl ContactPoint {
 }
 
 pub(super) struct ClosedContact {
-    /// Gradient of the gap [-].
     pub(super) gradient: Vec2,
     pub(super) tension: ForceTarget,
-    /// Damping coefficient [force·time/length].
     pub(super) damping: f64,
     /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     pub(super) sticking_damping: f64,
