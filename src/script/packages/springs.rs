@@ -284,6 +284,7 @@ impl Scripted for SpringHandle {
             let scene = self.scene.scene().borrow();
             let place = |anchor: &Anchor| match anchor {
                 Anchor::Station(station) => scene.describe(station),
+                Anchor::Ground(_) if spring.kind.is_angle() => "the ground".to_owned(),
                 Anchor::Ground(at) => {
                     format!("[{}, {}]", significant(at.x, 6), significant(at.y, 6))
                 }

@@ -14,7 +14,7 @@ use crate::elementary::square;
 use crate::geometry::Vec2;
 use crate::integrators::{Interval, Stage};
 use crate::linalg::BandedMatrix;
-use crate::loads::{LoadError, Schedule};
+use crate::loads::{LimitSide, LoadError, Schedule};
 use crate::system::SystemError;
 use crate::system::bodies::Body;
 
@@ -74,11 +74,16 @@ pub struct Brake {
 impl Brake {
     pub fn new(name: String, elongation: Elongation, law: BrakeLaw) -> Self {
         let coordinates = elongation.secant.len();
+        let mut friction = PointFriction::new(1.0);
+        // Modes of the scene as drawn use the limit at the start. A schedule without a value fails in the first step.
+        let limit = law.limit.value(0.0, LimitSide::After).unwrap_or_default();
+        let stiffness = limit.max(0.0) / law.deflection;
+        friction.set_scales(stiffness.max(f64::MIN_POSITIVE), f64::INFINITY, DAMPING_FACTOR);
         Self {
             name,
             elongation,
             law,
-            friction: PointFriction::new(1.0),
+            friction,
             slope: vec![0.0; coordinates],
             secant: vec![0.0; coordinates],
             tangent: vec![0.0; coordinates * coordinates],
@@ -129,7 +134,7 @@ impl InternalForce for Brake {
         };
         let mobilities = self.elongation.moving().map(|(place, _)| mobility(place));
         let inertia = 1.0 / mobilities.sum::<f64>();
-        self.friction.set_scales(f64::MIN_POSITIVE, inertia, DAMPING_FACTOR);
+        self.friction.set_scales(self.friction.stiffness(), inertia, DAMPING_FACTOR);
     }
 
     fn begin_step(
