@@ -1,5 +1,4 @@
 //! Inertia matrix of a beam, stored by diagonals.
-//! In a product, each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 

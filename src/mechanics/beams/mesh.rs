@@ -10,9 +10,7 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule ([`patch_rule`]).
-    /// The number of points in each smooth section of the mesh equals the number of linearly independent derivatives of the basis functions.
-    /// The patch rule avoids locking and zero-energy modes, and passes the patch test.
+    /// Patch rule ([`patch_rule`]), which avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking. Too few points leave zero-energy modes.
@@ -246,8 +244,7 @@ impl Mesh {
         }
     }
 
-    /// Number of quadrature points for the curvature `κ` per span of a smooth run.
-    /// If the run has full continuity, one point fewer than for a single polynomial is sufficient.
+    /// Number of quadrature points for the curvature `κ` per span. A run of full continuity needs one point fewer.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

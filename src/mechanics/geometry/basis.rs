@@ -88,7 +88,6 @@ impl Basis {
     }
 
     /// Basis functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
-    /// At the ends of the span, the values of the basis functions are one-sided limits.
     ///
     /// # Panics
     /// May panic if the span does not belong to this basis.
@@ -147,7 +146,6 @@ impl Basis {
 
     /// Returns a basis of the same type with about `ratio` times as many spans.
     /// Breaks of reduced continuity are kept, with at least one span between two such breaks.
-    /// The spans between kept breaks have the same relative lengths as in this basis.
     ///
     /// # Errors
     /// Fails if the resulting basis has too many or too short spans.
@@ -179,8 +177,6 @@ impl Basis {
     }
 
     /// Returns the basis with continuity C⁰ at `xi`.
-    /// The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
-    ///
     /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead of `xi`.
     /// The basis is not changed at the ends of the domain, or where it is already C⁰.
     ///

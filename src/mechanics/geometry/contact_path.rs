@@ -9,8 +9,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
 /// The divided differences of the basis functions are accurate for paths of any length, including zero, and across breaks.
 ///
-/// Every accessor returns one value for each basis function that is nonzero somewhere on the path.
-/// Parameters and results are dimensionless.
+/// Every accessor returns one dimensionless value for each basis function that is nonzero somewhere on the path.
 /// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
 /// Outside the domain, the polynomials of the first and the last span are extended.
 #[derive(Debug, Clone)]
@@ -23,8 +22,7 @@ pub struct ContactPath {
     numbers: Vec<f64>,
 }
 
-/// Quantity that is computed for each basis function along a path.
-/// The table of these quantities has one row for each variant, in this order.
+/// Quantity that is computed for each basis function along a path, in the order of the table rows.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -184,7 +182,6 @@ impl ContactPath {
     }
 
     /// Number of spans that the path between two parameters covers, including fractions of spans.
-    /// For a path within one span, the number of spans is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);

@@ -6,7 +6,7 @@ use super::Vec2;
 
 /// Number with its derivatives with respect to `SLOPES` variables.
 ///
-/// Numbers without derivatives are computed by the same operations, so that their values agree to the last bit.
+/// Numbers with and without derivatives are computed by the same operations, so that their values agree to the last bit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dual<const SLOPES: usize> {
     pub value: f64,

@@ -28,8 +28,7 @@ impl GaussRule {
         }
     }
 
-    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29).
-    /// The points are computed by Newton's method from Tricomi's estimate.
+    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29), computed by Newton's method from Tricomi's estimate.
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {

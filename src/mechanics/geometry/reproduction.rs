@@ -5,7 +5,6 @@ use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
 /// Function space spanned by the derivatives of the basis functions of a run of spans, with the matrix of their scalar products.
 ///
-/// The scalar products of a function with the elements of the space determine the projection of the function onto the space.
 /// For smooth functions, the projection error decreases as the span length to the power of the degree, up to the ends of the run.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {

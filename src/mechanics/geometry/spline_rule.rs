@@ -13,7 +13,6 @@ const EQUAL: f64 = 1e-9;
 /// The patch rule has as many points as the basis functions have linearly independent derivatives, and integrates all derivatives exactly.
 ///
 /// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
-/// The quadrature points of a single span are the Gauss points.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the quadrature weights are positive. There is no proof.
 /// Returns `None` if rounding hides a zero, or if a weight is not positive. No such spans are known.

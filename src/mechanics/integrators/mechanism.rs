@@ -7,13 +7,11 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step.
-    /// The factor of a load is replaced by a linear function of time whose mean and change in the step are those of the factor.
-    /// At the stage `Start`, the load has the value of the linear function at the start of the step.
+    /// Start of the step. A load has the start value of a linear function of time with the mean and the change of the load in the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// The work of the internal forces at this stage is exactly the change of the strain energy in the step.
+    /// At the midpoint stage, the work of the internal forces is exactly the change of the strain energy in the step.
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces that belong to a later strain.
@@ -60,12 +58,10 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the force corrections that would remove the present strain residuals.
-    /// The derivatives of the strains are those of the last linearisation.
+    /// Adds `weight` times the force corrections that would remove the strain residuals, with the derivatives of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments.
-    /// The derivatives of the section forces are those of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
     /// Largest force residual, as a fraction of the forces in this step [-].
@@ -140,10 +136,8 @@ pub trait Constraints {
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
 /// Vectors of increments and rates contain the unknown degrees of freedom, followed by the constraint unknowns.
-/// The constraint unknowns are contact forces and contact positions.
-/// The constraint unknowns have no inertia. There are as many constraint equations as constraint unknowns.
-/// Force vectors also have entries for supported degrees of freedom, which are fixed or prescribed.
-/// The residual at a supported degree of freedom is the support reaction.
+/// Constraint unknowns are contact forces and contact positions. They have no inertia, and each has one constraint equation.
+/// Force vectors also have an entry for each supported degree of freedom, where the residual is the support reaction.
 /// With prescribed motions, the vectors of increments and rates end with the prescribed degrees of freedom.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.

@@ -101,7 +101,7 @@ pub enum EndAction {
     /// The slider bounces with its coefficient of restitution. The impact conserves momentum and angular momentum.
     Bounce,
     /// A stop holds the slider at the end until the contact force becomes tensile.
-    /// Waves in the elastic bodies determine the rebound. The steps must resolve these waves.
+    /// Waves in the elastic bodies determine the rebound, so the steps must resolve these waves.
     Contact,
     /// The slider is released from its master.
     Release,

@@ -1,5 +1,4 @@
 //! Block of a local border: a few unknowns outside a band, and the band unknowns that are coupled to them.
-//! Each block is eliminated separately from the other blocks.
 //!
 //! A block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
 //! The unknowns of a block are eliminated with complete pivoting, and the Schur complement is added to the band.

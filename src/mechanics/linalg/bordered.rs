@@ -117,7 +117,6 @@ impl Border {
     }
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
-    /// The couplings are entries in a row of the border columns `B` and in a column of the border rows `C`.
     /// In a border of blocks, all border unknowns of one call must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,

@@ -6,7 +6,6 @@
 //! ```
 //!
 //! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
-//! The solution is not refined here. The caller can correct the solution with the same factors.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;

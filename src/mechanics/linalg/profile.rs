@@ -1,7 +1,6 @@
 //! Matrix with a profile, and its LU factorisation with row exchanges.
 //!
-//! The profile can be changed without allocating memory, because the couplings of unknowns may change.
-//! Storage and elimination of rows are the same as those of a [`BandedMatrix`](super::BandedMatrix).
+//! The couplings of unknowns may change, so the profile can be changed without allocating memory.
 
 use pulp::Arch;
 

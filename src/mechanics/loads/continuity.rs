@@ -1,6 +1,6 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! At the start, the ratio of the changes at two small times distinguishes jumps, infinite rates and smooth functions.
+//! At the start, the ratio of the changes up to two small times distinguishes jumps, infinite rates and smooth functions.
 //! Within a step, the interval with the largest difference is bisected. For a jump, the remaining difference is constant.
 
 use super::{LimitSide, LoadError, Schedule};

@@ -57,8 +57,7 @@ pub enum Schedule {
         /// Times of jumps and kinks [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step, constant within the step.
-    /// The caller sets the command at the start of the step.
+    /// Command of a controller that is sampled at the start of every step, constant within the step.
     Sampled(Rc<Cell<f64>>),
     /// Command of a digital controller, constant until the next command.
     /// The caller sets the command of the controller when the command starts to act.

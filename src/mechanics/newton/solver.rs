@@ -17,7 +17,7 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// The perturbation of a parameter changes the residual norm by about 1e9 times this value.
+/// A perturbation of a parameter changes the residual norm by about 1e-5, far more than this limit.
 const FOLLOWED: f64 = 1e-14;
 
 /// Largest ratio of two successive residual norms at which corrections still reduce the residual [-].
@@ -183,7 +183,6 @@ impl Newton {
     }
 
     /// Solves the equations almost to rounding error with the factorised tangent of similar equations.
-    /// The iteration starts from the solution of the similar equations.
     /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
     pub(crate) fn solve_with_shared_factors(
         &mut self,

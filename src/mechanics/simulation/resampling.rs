@@ -70,7 +70,6 @@ impl Resampling {
     }
 
     /// Repeats the second half of a paused step with new controller values.
-    /// The error of the step is the larger of the error of the method and the error due to sampling.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

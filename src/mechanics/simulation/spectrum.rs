@@ -1,10 +1,8 @@
 //! Frequency spectrum of a column over time.
 //!
 //! The mean is subtracted, and the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB).
-//! Zeros are appended to the weighted rows before the Fourier transform.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
-//! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
-//! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
+//! The Fourier transform (Cooley and Tukey 1965) uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 

@@ -1,5 +1,4 @@
 //! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
-//! The residual of a pair is computed from the last correction.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -30,7 +29,6 @@ pub(super) struct RefinedPair {
 
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
 /// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
-/// The residual includes these components.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -8,8 +8,7 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
-    /// The correction factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
+    /// Correction factor for the kinetic energy of a moving kink that is missing on the mesh (docs/theory.md, section 10.1) [-].
     pub fn inertia(
         &self,
         mesh: &Mesh,

@@ -93,8 +93,7 @@ pub struct KinkMotion {
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, and their increments in the step [length].
-    /// The control points are given relative to the slave.
+    /// Control points with nonzero basis functions on the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Displacement of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -189,9 +188,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
-    /// The first entry of a tuple is the derivative with respect to the force, the second with respect to the couple.
-    /// Both derivatives are factors of the identity matrix.
-    /// The third entry of a tuple is the derivative with respect to the sliding increment.
+    /// A tuple contains derivatives with respect to the force and the couple (factors of the identity matrix), and the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

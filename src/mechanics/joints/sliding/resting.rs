@@ -60,9 +60,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the static contact forces on the control points of the master with respect to the contact unknowns.
-    /// The first entry of a tuple is the derivative with respect to the force, as factor of the identity matrix.
-    /// The second entry is the derivative with respect to the couple, which is zero.
-    /// The third entry is the derivative with respect to the sliding increment.
+    /// A tuple contains derivatives with respect to the force (factor of the identity matrix), the couple (zero) and the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

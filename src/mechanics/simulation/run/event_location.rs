@@ -101,8 +101,6 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Narrows the bracket of the arrival time by an attempted step.
-    /// The end of the step replaces the end of the bracket that is on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -315,7 +313,7 @@ impl Simulation {
     }
 
     /// Returns true if the arrival of a slider at a limit may be an impact.
-    /// At a stop, the part of the velocity of the slider that the steps resolve must point beyond the limit for an impact.
+    /// At a stop, an impact requires that the part of the slider velocity that the steps resolve points beyond the limit.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -448,7 +446,7 @@ impl Simulation {
     }
 
     /// Period [time] in which repeated impacts or oscillations count as not resolved by steps of length `dt` [time].
-    /// Variable steps become longer between impacts. Therefore, they use the time in which a wave passes a span if it is shorter than `dt`.
+    /// For variable steps, which become longer between impacts, the time in which a wave passes a span replaces `dt` if it is shorter.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {

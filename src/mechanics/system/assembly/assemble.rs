@@ -18,8 +18,7 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// Strains are differences of coordinates, which may be much larger than a span.
-/// The rounding error of strains is therefore larger than the machine precision.
+/// Strains are differences of coordinates that may be much larger than a span, so their rounding error exceeds the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 pub struct Assembly<'a> {

@@ -4,7 +4,6 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
     /// Number of sharp corners of the law below the present elongation.
-    /// The number of corners below the elongation changes, for example, when the contact of a bumper begins.
     pub index: usize,
     /// Rate of the elongation [length/time, rad/time].
     pub rate: f64,

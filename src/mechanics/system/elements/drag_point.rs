@@ -1,7 +1,6 @@
 //! Drag at a point of a body in a step.
 //!
 //! The drag force is an independent unknown, in components across and along the line.
-//! A force computed from velocities would have the rounding error of the velocities times the damping coefficient `c`.
 //! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};

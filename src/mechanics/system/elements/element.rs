@@ -15,7 +15,6 @@ use crate::system::SystemError;
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
 /// A new type of element needs a variant of this enum and a file in `system/elements` with its [`ElementDef`].
-/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) of the built element.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.

@@ -21,7 +21,6 @@ struct IterationState {
 
 /// Factor by which the elongation is multiplied in the scale of force differences, for laws with corners [-].
 /// The scale of force differences is the larger of the force and the stiffness times the elongation.
-/// The factor is small, because iterations with a law with corners end with a force difference, unlike those with a linear law.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 
 /// Number of linearisations after which the impedance is estimated from secants. Smooth laws usually converge earlier.

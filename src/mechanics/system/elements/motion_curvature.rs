@@ -3,8 +3,7 @@
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Largest jump of the rate of a motion from one step to the next that does not count as a kink.
-/// The jump is a fraction of the largest rate in the step [-].
+/// Largest jump of the rate of a motion between steps that does not count as a kink, as a fraction of the largest rate in the step [-].
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
 /// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.

@@ -224,7 +224,7 @@ impl RigidLink {
     }
 
     /// Velocity of the linked point, minus the velocity that follows from the rigid motion of the body [length/time].
-    /// At the end of a step, this difference is an error of second order, whose sign alternates from step to step.
+    /// At the end of a step, the velocity violation is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];

@@ -51,7 +51,7 @@ impl ImpulseResponse {
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
-/// This mean velocity does not contain velocities across masters, whose signs alternate from step to step.
+/// The mean velocity in the law of a stop does not contain velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -208,7 +208,7 @@ impl System {
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
     /// Velocity differences below `negligible` are ignored [length/time].
-    /// Without this adjustment, the difference between the velocities would change its sign in every step.
+    /// Without the adjustment, the difference between link and drive velocities would change its sign in every step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;

@@ -42,7 +42,6 @@ impl Instant {
 
 impl System {
     /// Computes the accelerations and forces at the present time, with loads just after this time.
-    /// The state of motion does not change.
     ///
     /// # Errors
     /// Fails if a load has no value, or if the contact forces are not determined.

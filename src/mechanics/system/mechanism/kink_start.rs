@@ -15,8 +15,8 @@ use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
-    /// Slaves and masters are moved apart by the displacement of their kinks.
-    /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
+    /// Moves slaves and masters apart by the displacement of their kinks.
+    /// Rotates the relative velocity of a slider at an end of its master from the smooth axis onto the kinked axis.
     /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);

@@ -8,8 +8,7 @@ use crate::system::elements::{InternalForce, Penetration, TrialState};
 /// Largest ratio of the contact force on a body to its other forces for which the penetration counts as caused by the other forces [-].
 const EXPLAINED: f64 = 2.0;
 
-/// Largest penetration that is attributed to the approximation of the axis by the mesh.
-/// The penetration is a fraction of the largest coordinate of the body [-].
+/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest body coordinate [-].
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {

@@ -15,8 +15,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of a slider from an end of its master at which it counts as arriving simultaneously with another slider.
-/// The distance from the end is a fraction of the parameter range of the master [-].
+/// Largest distance from an end, as a fraction of the parameter range, at which sliders count as arriving simultaneously [-].
 const TOGETHER: f64 = 1e-12;
 
 /// Smallest number of steps per period of the vibrations that are included in an impact. Faster vibrations are suppressed.
@@ -264,8 +263,7 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
-    /// All speeds have a common factor. While the set of active contacts does not change, the impulses are proportional to this factor.
-    /// The returned energy is proportional to the square of the common factor.
+    /// All speeds have a common factor, whose square is proportional to the returned energy if the active contacts do not change.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -13,8 +13,7 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 /// Largest tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
-/// Largest distance of a slider from the axis at which it counts as landing simultaneously with another slider.
-/// The distance from the axis is a fraction of the length scale of the contact [-].
+/// Largest distance from the axis, as a fraction of the contact's length scale, at which sliders count as landing simultaneously [-].
 const TOGETHER: f64 = 1e-12;
 
 impl System {

@@ -8,8 +8,7 @@ use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
 /// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
-/// A joint inside the beam has two positions with the same arc length.
-/// At a joint inside the beam, the first position belongs to the part before the joint, the second position to the part after the joint.
+/// A joint inside the beam has two positions with the same arc length: the first before the joint, the second after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,

@@ -55,7 +55,7 @@ impl Scene {
     }
 
     /// Length scale of a scene [length]: its longest beam, or its [extent](Self::extent) if it has no beams.
-    /// Returns `None` for isolated particles without size.
+    /// Isolated particles without size have no length scale (`None`).
     pub fn size(&self) -> Option<f64> {
         let extent = || Some(self.extent()).filter(|extent| *extent > 0.0 && extent.is_finite());
         self.longest_beam().or_else(extent)

@@ -222,9 +222,7 @@ impl SliderContact {
         END_TOLERANCE * self.size
     }
 
-    /// Distance by which a landing slave is beyond the axis at the end of the attempted step [-].
-    /// The distance of the landing slave is a fraction of the length scale of the contact.
-    /// Returns `None` unless the slider lands in the step.
+    /// Distance of a landing slave beyond the axis, as a fraction of the contact's length scale [-]; `None` without a landing.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let NearestPoint { gap, is_inside, .. } = contact.nearest;
@@ -232,9 +230,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance by which a slave in flight is beyond the axis at the end of the attempted step [-], negative if it has not reached the axis.
-    /// The distance of the slave is a fraction of the length scale of the contact.
-    /// Returns `None` if the slave is on the axis within rounding.
+    /// Distance of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the contact's length scale [-].
+    /// The distance is negative if the slave has not reached the axis, and `None` if the slave is on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
@@ -246,8 +243,7 @@ impl SliderContact {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step [length]; zero for a slider in contact.
-    /// Returns `None` for a slider that never leaves its master.
+    /// Distance of the slave from the axis at the end of the last step [length]; `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
         let to_axis = self.to_axis(bodies);

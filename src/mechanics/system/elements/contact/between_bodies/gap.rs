@@ -94,8 +94,8 @@ impl GapTrial {
     }
 
     /// Computes the change of the gap and the directions of the contact forces.
-    /// For `TangentScaled`, the work of the contact forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
-    /// For `Angle`, the contact force has the direction of the gap at the end of the step.
+    /// With `TangentScaled`, the work of the contact forces is the internal force in the gap times the change of the gap.
+    /// With `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,
