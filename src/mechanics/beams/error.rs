@@ -10,9 +10,9 @@ pub enum BeamError {
     SectionValue {
         name: &'static str,
         value: f64,
-        /// Dimension, such as `force`.
+        /// Dimension of the rejected property, such as `force`.
         dimension: &'static str,
-        /// Additional advice; may be empty.
+        /// Advice on how to correct the error; may be empty.
         hint: &'static str,
     },
     #[error("section: nu is {value}, but Poisson's ratio must lie in (-1, 0.5]")]
@@ -57,7 +57,7 @@ pub enum BeamError {
         "the axis has no tangent at parameter {parameter}: its derivative vanishes there; use more spans or elements, or move the control points apart"
     )]
     NoTangent {
-        /// Parameter of the point [-].
+        /// Parameter of the mesh at the point without a tangent [-].
         parameter: f64,
     },
 }

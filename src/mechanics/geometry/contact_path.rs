@@ -40,7 +40,6 @@ struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
     kinks: Vec<usize>,
-    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
 }
 
@@ -94,7 +93,6 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            // Common polynomial degrees are compile-time constants, for speed.
             match self.line.basis.degree() {
                 1 => self.set_values::<2>(interval),
                 2 => self.set_values::<3>(interval),

@@ -163,7 +163,6 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ` of the curve. Fails if the derivative is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

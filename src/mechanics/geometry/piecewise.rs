@@ -9,7 +9,6 @@ pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
     coefficients: Vec<f64>,
     count: usize,
-    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
     rule: Vec<(f64, f64)>,
 }
 

@@ -104,7 +104,6 @@ impl Reproduction<'_> {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Projection of the integral of the kernel onto the space, minus this integral, at a parameter of a span.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);

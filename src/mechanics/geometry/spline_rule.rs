@@ -56,7 +56,6 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 
 /// Values of the splines of one degree less, computed as sums of derivatives of the basis functions.
 /// Each spline of one degree less is a positive multiple of a B-spline, and its integral is one.
-/// If the basis functions `a` to `a + p` are nonzero on a span, the splines `a` to `a + p - 1` are nonzero on it.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -107,7 +106,6 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
 }
 
 /// Parameters in a span, from -1 to 1, between which zeros are searched.
-/// The parameters are denser towards the ends of the span, like Gauss points, so that at most one zero lies between two of them.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {

@@ -47,7 +47,6 @@ impl GeneralizedAlpha {
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
     /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism.
-    /// After this call, the state of the mechanism includes accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {

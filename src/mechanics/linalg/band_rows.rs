@@ -78,7 +78,6 @@ impl BandRows<'_> {
     }
 
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
             9 => self.add_fixed_block::<9>(first, values),

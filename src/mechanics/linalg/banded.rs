@@ -77,7 +77,6 @@ impl BandedMatrix {
         distant + self.in_band(row, column)
     }
 
-    /// Entry of the band at `(row, column)`; zero outside the band.
     pub(super) fn in_band(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0

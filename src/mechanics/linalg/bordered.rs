@@ -15,9 +15,7 @@ use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalB
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
-    /// Elimination of band and border together, for matrices whose band alone may be singular.
     joint_elimination: Option<JointElimination>,
-    /// Elimination from both ends, for long bands without border.
     ends: Option<Box<TwoEnded>>,
 }
 

@@ -156,7 +156,6 @@ impl FullBorder {
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 
-    /// Replaces the border columns `B` by `Z = A⁻¹ B`, and the corner `D` by `D - C Z`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
         for strip in &mut self.strips {
             if let Some(first) = strip.first_row {
@@ -173,7 +172,6 @@ impl FullBorder {
 }
 
 impl FullLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.width);
         self.band.solve(x);

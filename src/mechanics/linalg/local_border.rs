@@ -167,7 +167,6 @@ fn add_schur_complement(
 }
 
 impl LocalLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Arrangement { position, delayed, .. } = self.arrangement;
         let (x, z) = x.split_at_mut(position.len());

@@ -42,7 +42,6 @@ impl ProfileMatrix {
         self.storage.remake(ends.len(), reach);
     }
 
-    /// Adds `value` to the entry at `(row, column)`, which must lie in the profile.
     #[inline]
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         debug_assert!(self.ends[row.min(column)] >= row.max(column), "({row}, {column})");

@@ -20,7 +20,7 @@ const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 /// Number of bisections before the first of two differences is recorded, and between the two records.
 const HALVINGS: usize = 15;
 
-/// Smallest ratio of the second recorded difference to the first one that counts as a jump.
+/// Smallest ratio of the difference after the second bisections to the difference after the first bisections that counts as a jump.
 /// The ratio of the two differences is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 

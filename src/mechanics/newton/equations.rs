@@ -37,10 +37,10 @@ impl ResidualNorms {
     }
 }
 
-/// Part of the residual.
+/// Part of the residual of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResidualPart {
-    /// Force balance.
+    /// Residual of the force balance.
     Force,
     /// Strain residual.
     Strain,

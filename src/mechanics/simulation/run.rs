@@ -45,7 +45,7 @@ const MOST_SAMPLES: f64 = 1e4;
 /// Integrator, step size and tolerance of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SimulationSettings {
-    /// Integrator.
+    /// Time integrator of the simulation.
     pub method: Method,
     /// Fixed step size, or tolerance of variable steps.
     pub dt: StepSize,

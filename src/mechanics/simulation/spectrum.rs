@@ -127,7 +127,7 @@ impl TimeSeries {
     }
 }
 
-/// Computes the Fourier transform in place. The length must be a power of two.
+/// Computes the Fourier transform in place. The number of values must be a power of two.
 fn transform(numbers: &mut [(f64, f64)]) {
     let size = numbers.len();
     let bits = size.trailing_zeros();

@@ -5,7 +5,7 @@
 /// Time series of a quantity, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSeries {
-    /// Times [time].
+    /// Times of the values [time].
     pub times: Vec<f64>,
     /// Values, one for each time.
     pub values: Vec<f64>,
@@ -14,11 +14,11 @@ pub struct TimeSeries {
 /// Summary statistics of a quantity over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// Smallest value.
+    /// Smallest value of the quantity.
     pub min: f64,
     /// Time at which the smallest value first occurs [time].
     pub min_at: f64,
-    /// Largest value.
+    /// Largest value of the quantity.
     pub max: f64,
     /// Time at which the largest value first occurs [time].
     pub max_at: f64,
@@ -26,7 +26,7 @@ pub struct Summary {
     pub mean: f64,
     /// Root mean square `√(∫ f² dt / T)` of the quantity `f` over the duration `T`.
     pub rms: f64,
-    /// Integral `∫ f dt`.
+    /// Integral `∫ f dt` of the quantity `f` over time.
     pub integral: f64,
 }
 

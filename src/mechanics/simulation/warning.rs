@@ -42,8 +42,6 @@ impl fmt::Display for RateChangeCause {
 }
 
 /// Motion that the time steps do not resolve.
-///
-/// A new type of warning needs a variant, a message, and a condition in `Simulation::warnings`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Unresolved vibration with a large fraction of the kinetic energy.

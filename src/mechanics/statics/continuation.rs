@@ -359,7 +359,7 @@ pub(super) fn update_stop_contacts(
 }
 
 /// Tangent matrix of a model with `full` additional dense rows.
-/// In models with sliders, the band without contacts may be singular. Contact between bodies couples distant unknowns.
+/// Joint elimination is used with sliders, without which the band may be singular, and with contact between bodies.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

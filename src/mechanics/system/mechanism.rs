@@ -163,7 +163,6 @@ impl System {
     }
 
     /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
-    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }

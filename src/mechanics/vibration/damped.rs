@@ -1,5 +1,4 @@
 //! Damped vibrations of a small model, computed in the basis of all its undamped modes (docs/theory.md, section 15).
-//! No mode is omitted, and the squared frequencies are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 

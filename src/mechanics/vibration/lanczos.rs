@@ -1,7 +1,6 @@
 //! Computation of the lowest modes by the block Lanczos method with a shifted and inverted stiffness.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
-//! All vectors of the search are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 

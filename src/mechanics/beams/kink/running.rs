@@ -31,9 +31,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // In the exact motion, the velocity is one beyond the kink and zero before the kink.
-                            // The velocity of the mesh at the parameter `x` is `there`.
-                            // On the later spans, `missing` is the exact velocity minus `there`.
+                            // `missing` is the exact velocity (one beyond the kink, zero before it) minus the mesh velocity `there`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -46,9 +46,9 @@ impl ContactUnknowns {
 /// Position or tangent vector on the path of a slave along its master, with its derivative [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
-    /// Position or direction [length].
+    /// Position or tangent vector on the path [length].
     pub value: Vec2,
-    /// Derivative of the position or tangent with respect to the parameter at the end of the path [length].
+    /// Derivative of `value` with respect to the parameter of the master at the end of the path [length].
     pub by_end: Vec2,
 }
 

@@ -32,7 +32,6 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Creates the equation `value = 0` with zero derivatives.
     pub(super) fn new(value: f64, unit: Unit) -> Self {
         Self {
             value,

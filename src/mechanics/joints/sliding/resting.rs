@@ -11,7 +11,6 @@ use crate::geometry::Vec2;
 pub struct Resting;
 
 /// Sliding law for an equilibrium in which a stop holds the slider at an end of its master.
-/// The equations of the gap include the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment of the slider to the end of the master [-].

@@ -167,7 +167,6 @@ struct Step {
 }
 
 impl Step {
-    /// Mean of the product of a wave and the schedules `factors`; `None` without a closed form.
     fn mean(&self, factors: Option<&ScheduleFactors>, wave: Wave) -> Option<f64> {
         let Some(ScheduleFactors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
@@ -217,7 +216,6 @@ impl Step {
         }
     }
 
-    /// Mean of the product of a wave, `Re(amplitude exp(i turn x))` and the schedules `factors`.
     fn mean_of_product(
         &self,
         factors: Option<&ScheduleFactors>,

@@ -51,7 +51,6 @@ enum Event {
 }
 
 impl Event {
-    /// Event at the end of a step that ends before the target by less than the resolution of the search.
     fn just_before(target: SliderEvent) -> Self {
         match target {
             SliderEvent::Limit(_) | SliderEvent::Landing(_) => Self::JustBefore,
@@ -115,7 +114,6 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
-    /// Returns true if the event is closer to the start of the bracket than the shortest step.
     fn is_at_start(&self) -> bool {
         self.after.0 <= self.shortest
     }

@@ -255,7 +255,6 @@ impl Simulation {
         lengths
     }
 
-    /// Warning about many adaptive steps, due to a method of first order or to steps much shorter than the motion of the scene requires.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -297,7 +296,6 @@ impl Simulation {
     }
 
     /// Name of a method with numerical damping; `None` if such a method is already used or would have no effect.
-    /// Numerical damping acts on strains of beams and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);

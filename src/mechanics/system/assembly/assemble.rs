@@ -58,7 +58,6 @@ impl System {
     }
 
     /// Builds the mechanism of a scene at the start of a run.
-    /// The initial kinks under sliders are those of the initial contact forces.
     pub(crate) fn assemble_in_motion(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,

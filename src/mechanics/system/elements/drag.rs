@@ -35,7 +35,7 @@ pub enum Dragged {
 /// Drag force opposite to the velocity relative to a medium that moves at a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
-    /// Name in messages and columns.
+    /// Name of the drag element in messages and columns.
     pub name: String,
     /// Object that experiences drag.
     pub on: Dragged,
@@ -44,7 +44,7 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// Type and name for messages.
+    /// Type and name of the drag element for messages.
     pub fn object(&self) -> String {
         format!("drag '{}'", self.name)
     }

@@ -200,7 +200,6 @@ impl DragPoint {
     }
 
     /// Calls `give` with the derivatives of the nodal forces with respect to the nodal increments.
-    /// The derivatives include the rotation of the line under the present drag force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,

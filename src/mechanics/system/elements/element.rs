@@ -85,7 +85,6 @@ pub trait ElementDef {
     }
 
     /// Groups of stations that the element couples.
-    /// The unknowns of a group of stations get neighbouring numbers, for a small bandwidth.
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         Vec::new()
     }

@@ -9,7 +9,7 @@ const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 /// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
-    /// Start of the step [time].
+    /// Start time of the step with the kink [time].
     pub time: f64,
     /// Prescribed rates at the end of the previous step and at the start of this step [length/time, rad/time].
     pub rates: [f64; 2],
@@ -41,7 +41,7 @@ impl MotionCurvature {
         Self { time: interval.start, rates: [before, step.first_rate] }
     }
 
-    /// Change of the rate [length/time, rad/time].
+    /// Change of the rate at the kink [length/time, rad/time].
     pub fn size(&self) -> f64 {
         (self.rates[1] - self.rates[0]).abs()
     }

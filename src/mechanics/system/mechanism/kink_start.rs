@@ -63,7 +63,6 @@ impl System {
     }
 
     /// Rotates the relative velocities of sliders at ends of masters from the smooth axis onto the kinked axis, without work.
-    /// Sets the speeds of kinks to the speeds of their sliders.
     fn rotate_onto_kinks(&mut self, starting: &[usize]) -> Result<(), SystemError> {
         let at_ends = starting.iter().filter(|at| !self.sliders[**at].is_compliant());
         let corners = at_ends.map(|&at| {

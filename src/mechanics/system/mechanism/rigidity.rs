@@ -25,9 +25,9 @@ const NO_STRAIN: f64 = 1e-20;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     All,
-    /// Deformations that steps of the given length resolve [time].
+    /// Deformations that time steps resolve. The value of this variant is the length of the steps [time].
     Resolved(f64),
-    /// Deformations without axial strain that steps of the given length resolve [time].
+    /// Deformations without axial strain that time steps resolve. The value of this variant is the length of the steps [time].
     Inextensible(f64),
 }
 

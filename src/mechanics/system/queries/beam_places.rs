@@ -18,11 +18,11 @@ pub struct BeamPlaces {
 /// State of a beam at a sampled position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSample {
-    /// Arc length in the initial configuration [length].
+    /// Arc length of the sampled point in the initial configuration [length].
     pub arc_length: f64,
-    /// Position [length].
+    /// Position of the sampled point [length].
     pub position: Vec2,
-    /// Velocity [length/time].
+    /// Velocity of the sampled point [length/time].
     pub velocity: Vec2,
     /// Section angle [rad] with whole turns, counted from the tracked angle at the start of the beam.
     pub angle: f64,

@@ -13,9 +13,9 @@ use crate::system::{BodyEnergy, System};
 /// Quantity with its name, dimension and the function that reads it.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantity {
-    /// Name as part of sensor names.
+    /// Name of the quantity as part of sensor names.
     pub name: &'static str,
-    /// Dimension of the values.
+    /// Dimension of the values of the quantity.
     pub dimension: &'static str,
     /// Time to which a value belongs.
     pub timing: ValueTime,

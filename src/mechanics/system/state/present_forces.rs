@@ -5,7 +5,6 @@ use crate::geometry::Vec2;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
-/// The vectors are reused in the next step. They are enlarged only if the number of contacts increases.
 pub struct PresentForces {
     pub rates: Vec<Vec<Movement>>,
     /// Sum of all forces except inertia and contact forces, for each degree of freedom.

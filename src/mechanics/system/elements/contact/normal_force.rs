@@ -151,7 +151,6 @@ impl NormalForce {
 
     /// Tension and stiffness at the point where the contact law is linearised.
     /// A stiff contact is linearised at the intersection of the contact law with the line that represents the impedance of the body.
-    /// In equilibria, the impedance of the body is estimated from secants.
     pub fn linearisation_target(
         &mut self,
         law: &NormalLaw,

@@ -26,7 +26,7 @@ pub enum ContactTarget {
 }
 
 impl ContactTarget {
-    /// Type and name for messages.
+    /// Type and name of the body or point for messages.
     pub fn describe(&self, scene: &dyn SceneChecks) -> String {
         let described = scene.describe(&self.station());
         match self {
@@ -45,7 +45,6 @@ impl ContactTarget {
 }
 
 /// Parameters and quadrature weights [length] of the contact points of a beam.
-/// The contact points are the points of a Gauss–Lobatto rule with four points per span.
 pub fn contact_parameters(mesh: &Mesh, controls: &[Vec2]) -> Vec<(f64, f64)> {
     let basis = mesh.basis();
     let (mut points, mut at_end) = (Vec::new(), 0.0);

@@ -321,7 +321,7 @@ impl SliderContact {
             return false;
         }
         let Some(friction) = &mut self.friction else { return false };
-        // The steps locate the start of a slip with static friction.
+        // Sliders with static friction are excluded, because the search for events finds the starts of their slips.
         let is_overloaded =
             friction.static_friction.is_none() && along.abs() > friction.coefficient * across.abs();
         if is_overloaded {

@@ -29,7 +29,7 @@ pub struct ContactMember {
 /// Bodies that share a joint or a slider do not touch each other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairContact {
-    /// Name in messages and columns.
+    /// Name of the contact in messages and columns.
     pub name: String,
     /// Bodies that can touch each other. A single beam can touch itself.
     pub members: Vec<ContactMember>,
@@ -42,7 +42,7 @@ pub struct PairContact {
 }
 
 impl PairContact {
-    /// Type and name for messages.
+    /// Type and name of the contact for messages.
     pub fn object(&self) -> String {
         format!("contact '{}'", self.name)
     }

@@ -104,7 +104,6 @@ pub(super) struct ContactSite {
 }
 
 /// Configuration of a body: its control points, and the box around it.
-/// The boxes around the spans and the samples of the spans are computed on demand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
@@ -137,7 +136,7 @@ struct SampledCurve {
     spans: Vec<Span>,
     /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
-    /// Enlargement with which the box around the control points of a span contains the curve, as a fraction of the size of the box [-].
+    /// Enlargement of the box around the control points of a span that makes it contain the curve, as a fraction of its size [-].
     growth: f64,
 }
 

@@ -234,7 +234,6 @@ impl ContactPoint {
     }
 
     /// Effective masses for impulses along the normal and along the surface [mass].
-    /// At a point of a rigid body, the effective masses depend on the angle of the body.
     fn masses(&self, surface: &Surface, body: &Body) -> [f64; 2] {
         let position = self.position(body);
         let normal = surface.gradient(surface.gap(position).1);
