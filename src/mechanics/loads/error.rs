@@ -49,7 +49,6 @@ pub enum LoadError {
         "table: the time of row {row} ({time}) is smaller than the previous one ({before}); times must not decrease (repeat a time for a jump)"
     )]
     DecreasingTimes {
-        /// Index of the invalid row of a table, counted from 0.
         row: usize,
         /// Time in the invalid row of a table [time].
         time: f64,
