@@ -1,6 +1,5 @@
 //! Strain rates at the end of a step, accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
-//! In the energy–momentum method, a rate that decays within a step changes its sign from step to step.
 //! The mean rates of the last two steps are extrapolated to the end of the last step. The extrapolated rate has an error of second order.
 
 use super::Movement;

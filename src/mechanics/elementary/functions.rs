@@ -1,4 +1,5 @@
 //! Trigonometric, hyperbolic and exponential functions and their inverses.
+//! The functions come from the crate `libm`, a Rust port of the functions of musl and FreeBSD.
 //!
 //! Errors are mostly below one unit in the last place, and below two units for hyperbolic functions. Angles are in radians.
 //! Undefined values are NaN as required by IEEE 754.

@@ -136,7 +136,6 @@ impl Basis {
     }
 
     /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements.
-    /// The interpolation parameters increase strictly and include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),

@@ -60,7 +60,6 @@ struct PathPiece {
 
 impl ContactPath {
     /// Creates a path of zero length at the start of the domain of `basis`.
-    /// The constructor allocates the memory for all paths, so [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();

@@ -221,8 +221,7 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep has the duration `duration` [time].
-    /// A negative duration refers to substeps backwards in time.
+    /// Step size for which the longest substep has the given duration [time]. A negative duration refers to substeps backwards in time.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,

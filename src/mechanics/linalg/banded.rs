@@ -1,7 +1,6 @@
 //! Square banded matrix, and its LU factorisation with row exchanges.
 //!
-//! Rows are stored one after the other, with space for the additional nonzero entries due to row exchanges.
-//! The elimination is then a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! The elimination is a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 

@@ -1,6 +1,4 @@
 //! Elimination and substitution without row exchanges. The half-bandwidth is a compile-time constant for common beams.
-//!
-//! Every entry is computed by the same operations in the same order as with a half-bandwidth given at run time.
 
 use pulp::Simd;
 

@@ -1,6 +1,5 @@
 //! Border of many blocks. Each block is coupled to few unknowns of the band and is eliminated separately.
 //!
-//! The work of the elimination is proportional to the number of blocks and unknowns.
 //! In each factorisation, the blocks may be coupled to different unknowns of the band.
 
 use std::sync::Arc;

@@ -86,7 +86,6 @@ impl PrescribedMotion {
     ///
     /// A prescribed rate is integrated by [`Schedule::mean`].
     /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
-    /// If the function of time has kinks at the ends of a step, values beyond the kinks do not affect the rate.
     ///
     /// # Errors
     /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.

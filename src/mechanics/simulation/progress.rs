@@ -19,8 +19,7 @@ pub struct WorkCounts {
     pub newton_iterations: usize,
     /// Number of corrections in successful steps. Corrections reuse earlier factors of the matrix.
     pub corrections: usize,
-    /// Largest number of Newton iterations in one step.
-    /// For variable steps, the Newton iterations of the whole step and its two halves are added.
+    /// Largest number of Newton iterations in one step. The iterations of a whole variable step and its two halves are added.
     pub newton_max: usize,
     /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,

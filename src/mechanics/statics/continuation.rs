@@ -207,7 +207,6 @@ impl<'s> Continuation<'s> {
     }
 
     /// Returns true if the last point continues the path, or if the step cannot be halved again.
-    /// With arc-length control, the path may turn and become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -359,7 +358,7 @@ pub(super) fn update_stop_contacts(
 }
 
 /// Tangent matrix of a model with `full` additional dense rows.
-/// Joint elimination is used with sliders, without which the band may be singular, and with contact between bodies.
+/// Joint elimination is used in models with sliders, whose band alone may be singular, and in models with contact between bodies.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

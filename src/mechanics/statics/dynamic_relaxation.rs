@@ -35,7 +35,6 @@ const MOST_LEAVES: usize = 12;
 impl Continuation<'_> {
     /// Finds an equilibrium under a fraction of the loads, which the unloaded scene approaches under viscous damping.
     /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
-    /// Every pass reduces the potential energy.
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     pub(super) fn find_equilibrium(
         &mut self,

@@ -12,7 +12,6 @@ use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
 /// Largest decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
-/// Slow overdamped vibrations decay at much larger rates.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. An overdamped vibration has no frequency.

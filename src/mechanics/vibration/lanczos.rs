@@ -129,8 +129,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The orthogonalised image is small in comparison with the removed components.
-            // Rounding leaves a fraction of the removed components in the image.
+            // Rounding leaves a fraction of the removed components in the orthogonalised image.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);

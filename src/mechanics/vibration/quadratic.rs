@@ -1,5 +1,4 @@
 //! Quadratic eigenvalue problem of damped vibrations.
-//! The eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
 //! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
 //! The eigenvalues of a single shifted problem ([`Resolvent`]) are accurate only for magnitudes near the shift.

@@ -7,7 +7,6 @@ use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
 /// Residual at which no further correction is made, because the squared frequency is then accurate to all digits.
-/// The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;

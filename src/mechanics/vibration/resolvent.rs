@@ -22,7 +22,6 @@ const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 const CORRECTIONS: usize = 4;
 
 /// Largest relative change of an eigenvalue by an accepted correction, including the effect of rounding.
-/// A correction with a larger change leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
 /// Largest relative change of an eigenvalue by an accepted correction, without the effect of rounding.

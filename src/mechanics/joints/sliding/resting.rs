@@ -6,7 +6,6 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
 /// Sliding law for an equilibrium without friction. The potential energy of the contact is stationary (docs/theory.md, section 14.1).
-/// Without a [`Kink`](super::Kink), the axis is smooth.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 

@@ -1,5 +1,4 @@
-//! Location and execution of the events of sliders within a step.
-//! Events are arrivals at the ends of masters, landings, take-offs and friction transitions.
+//! Location and execution of slider events in a step: arrivals at the ends of masters, landings, take-offs and friction transitions.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -27,8 +26,7 @@ const SHORT: f64 = 1e-4;
 /// Largest error of the time of a friction transition or take-off, as a fraction of the step length.
 const RESOLUTION: f64 = 1e-7;
 
-/// Largest number of halvings of a step that starts with a slider at an end of its master.
-/// The halvings search for a shorter step in which the slider moves away from the end.
+/// Largest number of halvings in the search for a shorter step in which a slider at an end of its master moves away from the end.
 const PROBES: i32 = 12;
 
 /// If this number of impacts at the same end occurs within the same number of steps, the stop holds the slider.

@@ -51,8 +51,7 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // The interpolation starts at the point of the segment with the smaller force.
-                // An interpolation from the point with the larger force would have the rounding error of the larger force.
+                // The interpolation starts at the end of the segment with the smaller force, which has the smaller rounding error.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)

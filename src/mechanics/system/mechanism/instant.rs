@@ -87,7 +87,6 @@ impl System {
     }
 
     /// Computes the present contact forces and stores them in `self.step.present`.
-    /// Nothing is allocated after the first call, unless the number of contacts grows.
     pub(super) fn compute_present_forces(&mut self) -> Result<(), SystemError> {
         let mut present = self.step.present.take().unwrap_or_default();
         present.residual.clear();

@@ -79,7 +79,6 @@ impl System {
     }
 
     /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// The new position is that about which the bodies would oscillate if the kink began without load.
     /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {

@@ -1,6 +1,5 @@
 //! Statics of a mechanism: residual of the static equations, and derivatives of the residual.
 //!
-//! Displacements are relative to the present configuration.
 //! Rotation increments are increments of the angle, so that the stiffness is the Hessian of the potential energy.
 
 use super::System;

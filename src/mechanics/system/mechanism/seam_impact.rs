@@ -132,7 +132,6 @@ impl System {
 
     /// Adjusts the velocities of sliders at the ends of masters with a kink.
     /// The velocity along the kinked axis is rotated to the smooth axis.
-    /// The kink has no energy at an end. The motion of the kink becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {

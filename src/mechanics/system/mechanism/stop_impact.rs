@@ -59,7 +59,6 @@ impl Arriving {
 
 impl System {
     /// Limits that sliders reach simultaneously with the given limit, in the order of the scene.
-    /// Sliders that arrive simultaneously are at an end within rounding, and move beyond it.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {

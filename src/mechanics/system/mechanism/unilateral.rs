@@ -159,8 +159,7 @@ impl System {
     }
 
     /// Impact law across the master for a slider that is in contact during an impact.
-    /// A slider that has taken off and landed too often within a step stays in contact.
-    /// Without this rule, two sliders could push each other off their masters alternately without end.
+    /// A slider that took off and landed too often within a step stays in contact, to prevent an endless alternation of two sliders.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

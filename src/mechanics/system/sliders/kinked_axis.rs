@@ -181,7 +181,6 @@ impl KinkedAxis {
     /// Removes the component along the tangent of the axis, which is the force of a stop, from the contact force.
     ///
     /// If the axis is compliant, the force is not changed, because the displacement of the axis determines it.
-    /// An axis can be compliant although the slider is at an end, because rounding errors separate the slider from the end.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);

@@ -50,8 +50,7 @@ impl SpringDamper {
     }
 
     /// Target force of the spring for a linearisation.
-    /// After several iterations, the spring is linearised at the intersection of its law with a straight line.
-    /// The straight line is the response of all other objects to the force of the spring. An increasing law intersects this line once.
+    /// After several iterations, the spring is linearised at the intersection of its law with the response line of all other objects.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

@@ -8,7 +8,6 @@ use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
 /// Largest number of take-offs, landings and passages of the axis since the last step without such an event.
-/// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
 const MOST_ITERATIONS: usize = 64;
@@ -231,7 +230,7 @@ impl SliderContact {
     }
 
     /// Distance of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the contact's length scale [-].
-    /// The distance is negative if the slave has not reached the axis, and `None` if the slave is on the axis within rounding.
+    /// The distance of the slave is negative before the slave reaches the axis, and `None` on the axis within rounding.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;

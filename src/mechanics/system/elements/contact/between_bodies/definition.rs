@@ -175,7 +175,7 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
 }
 
 /// Parts of the axis of a beam that each contact point of the same beam can touch.
-/// A contact point cannot touch parts of the axis closer along the axis than half the circumference of a circle with twice the radius.
+/// A contact point cannot touch parts of the axis within an arc length of half the circumference of a circle with twice the radius.
 /// Parts of the axis near the contact point are excluded, because a bent beam would touch itself there.
 fn allowed_parts(
     basis: &Basis,

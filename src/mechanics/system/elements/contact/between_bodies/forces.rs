@@ -2,7 +2,6 @@
 //!
 //! A pair of a contact point and a body is created in the first iterate with contact, and removed at the end of a step in which the contact opens.
 //! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
-//! Boxes around bodies and spans exclude bodies that are far from each other.
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
 use super::shape::{Bounds, CrossingPath, Foot, NearestSearch, Shape};
@@ -53,7 +52,6 @@ pub(super) struct PairForces {
     /// The bound is zero if the boxes around two bodies overlap.
     clearance: f64,
     /// True if the configuration `start` of the shapes is that at the start of the present step.
-    /// The configuration may be older if no bodies can touch.
     is_current: bool,
     watch: ContactWatch,
     last_rate: f64,
@@ -116,7 +114,6 @@ impl PairForces {
     }
 
     /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
-    /// The configuration is not changed if no bodies can touch.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.is_current = false;
         if self.is_clear_with(bodies, &[]) {

@@ -3,7 +3,6 @@
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
-//! Linearisation at the intersection makes the number of iterations independent of the stiffness of the contact.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
