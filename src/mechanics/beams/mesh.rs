@@ -193,7 +193,7 @@ impl Mesh {
     }
 
     /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions.
-    /// For a positive difference, the mesh locks. For a negative difference, each missing point leaves two zero-energy modes.
+    /// The mesh locks if the difference is positive, and has two zero-energy modes for each missing point if it is negative.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize

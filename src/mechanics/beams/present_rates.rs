@@ -38,7 +38,7 @@ impl RateMismatch {
 const KEPT: f64 = 0.8;
 
 /// Largest ratio of the errors `off` and `apart`, which are stored squared, for which the steps count as resolving the rate.
-/// For a vibration with angular frequency `ω`, the ratio of `off` to `apart` is below this limit if the step length `h` satisfies `ω h < 2`.
+/// For a vibration of angular frequency `ω`, the ratio of `off` to `apart` is below the limit if the step length `h` satisfies `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 #[derive(Debug, Clone, Default)]

@@ -1,8 +1,8 @@
 //! Elementary functions with identical results on every machine.
 //!
 //! Results of the standard library, which calls the C library of the machine, may differ in the last bit between machines.
-//! The functions of this module use additions, multiplications, divisions and square roots only, which IEEE 754 defines exactly.
-//! All other code uses this module; `clippy.toml` rejects the functions of the standard library.
+//! This module uses only additions, multiplications, divisions and square roots, which IEEE 754 defines exactly.
+//! All other code uses the module `elementary`; `clippy.toml` rejects the functions of the standard library.
 
 mod digits;
 mod functions;

@@ -90,7 +90,7 @@ impl Basis {
     /// Basis functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
     ///
     /// # Panics
-    /// May panic if the span does not belong to this basis.
+    /// May panic if the given span does not belong to this basis.
     pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         match self {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),

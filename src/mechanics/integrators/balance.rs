@@ -10,7 +10,7 @@ use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms,
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
-/// If the master rotates by about π in a step, this chord is almost zero, and the contact equations have spurious solutions.
+/// A master that rotates by about π in a step has an almost zero chord, and the contact equations have spurious solutions.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,7 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// With these lengths, slow loads do not excite vibrations with a phase of 2π or 4π per step (docs/theory.md, section 8.3).
+/// With the substep lengths `SHARES`, slow loads do not excite vibrations with a phase of 2π or 4π per step (docs/theory.md, section 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 

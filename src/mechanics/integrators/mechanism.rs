@@ -16,7 +16,7 @@ pub enum Stage {
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces that belong to a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
-    /// The value of this variant is the dissipation parameter `χ` [-].
+    /// The value of the variant `DampedMidpoint` is the dissipation parameter `χ` [-].
     DampedMidpoint(f64),
     /// End of the step. The load has the value of the linear function of [`Start`](Self::Start) at the end of the step.
     End,

@@ -138,7 +138,7 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate: a support if the direction is parallel to an axis, `None` for a zero vector.
+    /// Roller that is free along a direction and free to rotate; a support for a direction parallel to an axis, `None` for a zero vector.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -147,7 +147,7 @@ impl JointKind {
         })
     }
 
-    /// Guide that is free along a direction, with fixed rotation: a support if the direction is parallel to an axis, `None` for a zero vector.
+    /// Guide that is free along a direction, with fixed rotation; a support for a direction parallel to an axis, `None` for a zero vector.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),

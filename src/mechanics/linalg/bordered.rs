@@ -115,7 +115,7 @@ impl Border {
     }
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
-    /// In a border of blocks, all border unknowns of one call must belong to the same block.
+    /// In a border of blocks, all border unknowns of one call of `add_couplings` must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,
@@ -198,7 +198,7 @@ impl BorderedMatrix {
 
     /// Returns the matrix with joint elimination, which eliminates the band and the border together.
     /// Joint elimination is needed if the band without the border may be singular.
-    /// The last `full` rows and columns may have entries everywhere. These rows and columns are eliminated after all others.
+    /// The last `full` rows and columns may have entries everywhere, and are eliminated after all others.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),

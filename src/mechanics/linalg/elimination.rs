@@ -52,8 +52,7 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Elimination of a matrix with a symmetric profile.
-/// The profile gives, for each index, the last row with an entry in this column, which is also the last column with an entry in this row.
-/// The values of the profile never decrease.
+/// The profile gives, for each index, the last row with an entry in the column of this index. The profile never decreases.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {

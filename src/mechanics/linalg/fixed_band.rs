@@ -5,7 +5,7 @@ use pulp::Simd;
 use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
 /// Eliminates the columns of a panel from the rows below, if earlier row exchanges have created no additional nonzero entries.
-/// Returns false without any change of the matrix if rows should be exchanged.
+/// Returns false without any change of the matrix if the panel needs row exchanges.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,

@@ -62,7 +62,7 @@ pub enum Schedule {
     /// Command of a digital controller, constant until the next command.
     /// The caller sets the command of the controller when the command starts to act.
     DigitalController {
-        /// Cell that contains the present command.
+        /// Cell with the present command of the controller.
         value: Rc<Cell<f64>>,
         /// Clock of the controller.
         clock: SampleClock,

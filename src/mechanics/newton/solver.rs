@@ -17,11 +17,10 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// A perturbation of a parameter changes the residual norm by about 1e-5, far more than this limit.
+/// A perturbation of a parameter changes the residual norm by about 1e-5, far more than the limit `FOLLOWED`.
 const FOLLOWED: f64 = 1e-14;
 
-/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-].
-/// A larger ratio is attributed to rounding.
+/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-]. Rounding causes larger ratios.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.

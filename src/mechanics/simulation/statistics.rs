@@ -61,7 +61,7 @@ impl TimeSeries {
     }
 
     /// Time derivative at every row, of second order also for uneven spacing.
-    /// The derivative is the slope of the parabola through the row and its neighbours.
+    /// The derivative at a row is the slope of the parabola through the row and its neighbours.
     /// In the first and the last row, the derivative is a one-sided difference quotient.
     /// A jump consists of two rows of equal time. Each row of a jump uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {

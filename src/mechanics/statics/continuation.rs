@@ -59,7 +59,7 @@ struct PathDirection {
 
 impl PathDirection {
     /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
-    /// Otherwise, the next step may have reached another branch of the path, for example near the buckling load of a column.
+    /// A step that turns by more than a right angle may have reached another branch, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -175,7 +175,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Distance from the last point of the path to the turning point of the load factor.
-    /// Returns `None` unless the path crosses the requested load factor before the turning point and again after it.
+    /// The distance is `None` unless the path crosses the requested load factor before the turning point and again after it.
     /// The required equilibrium is the first point at which the path crosses the requested load factor.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
@@ -251,7 +251,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a fraction of the loads, starting from the present configuration, and returns the number of iterations.
-    /// A positive `rate` adds viscous damping with this rate [1/time²].
+    /// With a positive `rate`, viscous damping with this rate acts [1/time²].
     ///
     /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
@@ -273,7 +273,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
-    /// Returns 1 if no force is unbalanced. Dynamic relaxation may then start with any rate.
+    /// The result is 1 if no force is unbalanced, because dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();

@@ -11,7 +11,7 @@ const FAR: f64 = 0.15;
 const NEAR: f64 = 1e-2;
 
 /// Largest displacement in a pass that counts as zero, as a fraction of the size of the scene.
-/// After a pass with zero displacement, Newton's method is tried even if the configuration is unstable.
+/// After a pass of dynamic relaxation without displacement, Newton's method is tried even if the configuration is unstable.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor by which the damping rate is multiplied after a pass with a small displacement.
@@ -25,7 +25,7 @@ const MOST_FIRST_PASSES: usize = 60;
 const MOST_PASSES: usize = 400;
 
 /// Largest total displacement over all passes, as a multiple of the size of the scene.
-/// After a larger displacement, the scene counts as a mechanism.
+/// A scene with a larger total displacement counts as a mechanism.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.

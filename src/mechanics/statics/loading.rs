@@ -38,7 +38,7 @@ pub enum Control {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
     /// Longest distance between consecutive equilibria [-, rad].
-    /// The distance is the root mean square of displacements and rotations over all control points.
+    /// The distance between equilibria is the root mean square of displacements and rotations over all control points.
     /// Displacements are divided by the length of the longest beam.
     pub longest: f64,
     /// Largest number of points of the path.

@@ -199,7 +199,7 @@ impl System {
     }
 
     /// Returns true if the present velocity of a slider at a limit points beyond the limit.
-    /// The velocity of a slider that has just left a stop is zero within rounding, so its sign has no meaning.
+    /// The velocity of a slider that has just left a stop is zero within rounding, so the sign of the velocity has no meaning.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];
         let rate = slider.rate(&self.bodies, &self.motion.rates);

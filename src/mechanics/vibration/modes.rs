@@ -182,7 +182,7 @@ impl Modes {
 }
 
 /// Number of degrees of freedom that are unrestrained in the present configuration without loads.
-/// Returns 0 for scenes without sliders that are too large for the computation.
+/// The result is 0 for scenes without sliders that are too large for the computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

@@ -16,7 +16,7 @@ use crate::elementary::square;
 const MOST_SWEEPS: usize = 40;
 
 /// Largest subdiagonal entries that the Schur decomposition treats as zero, relative to the diagonal entries.
-/// If the decomposition does not converge with the first limit, the next limit is used.
+/// If the decomposition does not converge with the first limit of the list, the next limit is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
@@ -30,11 +30,11 @@ const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// With this distance, the matrix of the inverse iteration is not singular.
+/// At the distance `BESIDE`, the matrix of the inverse iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Largest damping that is an entry of the matrix. The forces of stronger dashpots are unknowns.
-/// Larger matrix entries would reduce the accuracy of weakly damped modes.
+/// Larger damping entries in the matrix would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {

@@ -1,7 +1,6 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
-//! Velocity errors of the slave across the master change their sign in every step.
-//! The contact force that reverses these velocity errors is excluded from the friction limit.
+//! The friction limit excludes the contact force that reverses velocity errors of the slave across the master in every step.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};

@@ -3,8 +3,7 @@
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Largest gap that is attributed to rounding, as a fraction of the length of the master per unit of its parameter.
-/// The direction of a gap below this limit is not used.
+/// Largest gap that is attributed to rounding, as a fraction of the master length per parameter. The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law: the mean of the gap over each step is zero. The gap at the end of a step need not be zero.

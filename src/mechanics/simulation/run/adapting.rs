@@ -120,7 +120,7 @@ impl Simulation {
     }
 
     /// Takes a whole step and its two halves.
-    /// If one of the three steps has no solution, all three are repeated with constant kinks under contact forces.
+    /// If the whole step or a half step has no solution, all three steps are repeated with constant kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,

@@ -20,7 +20,7 @@ const MOST_TRIES: usize = 60;
 const NEAR: f64 = 1e-10;
 
 /// Shortest duration from the start of a step to a friction transition or take-off, and from there to the end of the step, as a fraction of the step length.
-/// In a shorter step, rounding errors of positions would become contact forces.
+/// In a step shorter than `SHORT`, rounding errors of positions would become contact forces.
 const SHORT: f64 = 1e-4;
 
 /// Largest error of the time of a friction transition or take-off, as a fraction of the step length.

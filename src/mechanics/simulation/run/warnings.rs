@@ -45,7 +45,7 @@ const MOST_UNKNOWNS: usize = 1200;
 const MODES: [usize; 3] = [4, 8, 16];
 
 /// Largest strain of the elastic wave of an impact that counts as zero [-].
-/// The tolerance covers the errors of rates of prescribed motions, which are computed by finite differences.
+/// A strain below this limit may be an error of the rates of prescribed motions, which are computed by finite differences.
 const NEGLIGIBLE_STRAIN: f64 = 1e-8;
 
 const RECENT_STEPS: usize = 200;
@@ -60,7 +60,7 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Largest ratio, without a warning, of the step size that resolves the motion of the scene to the mean step size [-].
-/// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps at the limit `MUCH_SHORTER` resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 const SLIDERS: usize = 6;
@@ -214,7 +214,7 @@ impl Simulation {
     }
 
     /// Warning about alternating long and short steps in scenes with persistent velocity errors.
-    /// In steps of different lengths, the position errors due to velocity errors of alternating sign do not cancel.
+    /// In steps of different lengths, position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {

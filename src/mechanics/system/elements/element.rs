@@ -14,7 +14,7 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// A new type of element needs a variant of this enum and a file in `system/elements` with its [`ElementDef`].
+/// A new type of element needs a variant of `Element` and a file in `system/elements` with its [`ElementDef`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.

@@ -74,7 +74,7 @@ pub trait ExternalForce {
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
     /// Work and impulse of the element in the step whose increments are stored in the bodies.
-    /// The work does not include changes of the potential.
+    /// The work in the result does not include changes of the potential.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Potential energy at the start of the step [energy].

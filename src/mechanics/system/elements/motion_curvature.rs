@@ -18,7 +18,7 @@ pub struct MotionCurvature {
 impl MotionCurvature {
     /// Detects a kink of a script function at the start of a step or within it.
     /// For a smooth motion, the rates at the end of a step and at the start of the next step agree up to the fifth power of the step length.
-    /// The two rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks of the function are exempt.
+    /// The two rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks are not kinks.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,

@@ -208,7 +208,7 @@ impl System {
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
     /// Velocity differences below `negligible` are ignored [length/time].
-    /// Without the adjustment, the difference between link and drive velocities would change its sign in every step.
+    /// Without the adjustment, the velocity difference between rigid links and drives would change its sign in every step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -231,7 +231,7 @@ impl System {
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
     /// Without the impact at a jump, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
-    /// Returns true if a prescribed rate jumps.
+    /// The returned flag is true if a prescribed rate jumps.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
@@ -300,7 +300,7 @@ impl System {
     }
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
-    /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
+    /// If both bodies respond rigidly to an impulse, all deformations are included for the direction of the impulse.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,
@@ -327,7 +327,7 @@ impl System {
 
     /// Creates the impact problem for the given contact directions.
     /// The impact changes the velocity violation of each rigid link by `links` times the violation.
-    /// With the factor -2, the impact reverses the violations, and the links do no work.
+    /// With `links` equal to -2, the impact reverses the violations, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

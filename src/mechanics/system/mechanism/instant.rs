@@ -226,7 +226,7 @@ impl System {
 
     /// Adds the friction that a force across the master causes at a slipping slider to the response to this force.
     /// The direction of friction depends on the sign of the force across the master in the solution without friction.
-    /// Returns true if a slider slips.
+    /// The returned flag is true if a slider slips.
     fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {
         let PresentForces { directions, responses, magnitudes, .. } = present;
         let mut slips = false;

@@ -79,7 +79,7 @@ impl System {
     }
 
     /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
+    /// The result is `None` if contacts cannot be opened independently, or if points of rigid bodies would follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {
             return Some(());

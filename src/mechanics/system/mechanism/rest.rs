@@ -81,7 +81,7 @@ impl System {
     }
 
     /// Holds sliders that a displacement moves beyond stops, and releases sliders whose stop force is tensile.
-    /// Returns true if the state of a slider has changed.
+    /// The returned flag is true if the state of a slider has changed.
     ///
     /// # Errors
     /// Returns the slider and the end of its master, if a slider would leave its master.

@@ -1,6 +1,6 @@
 //! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The impulses of section forces are separate unknowns. Their sum over a beam is zero, so their rounding does not affect the momenta.
+//! The impulses of section forces are separate unknowns, whose sum over a beam is zero, so their rounding does not affect the momenta.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;

@@ -9,7 +9,7 @@ use crate::system::sliders::SliderState;
 use crate::system::state::Prediction;
 
 /// State of a [`System`], which can be restored in the same system.
-/// The state contains everything that determines the later motion, and the accumulated work and impulse.
+/// The state of a system determines the later motion, and contains the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
@@ -100,7 +100,7 @@ impl System {
     /// Restores a [`state`](Self::state) of this model bit for bit.
     ///
     /// # Panics
-    /// Panics if the state does not belong to this model.
+    /// Panics if the given state does not belong to this model.
     pub fn restore(&mut self, state: &SystemState) {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");

@@ -90,7 +90,7 @@ impl System {
 
     /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
     /// The impact duration follows from wave speeds if at least one of the bodies is deformable and light enough.
-    /// The ratio of step length to impact duration is recorded.
+    /// The function also records the ratio of step length to impact duration.
     pub(crate) fn resolves_impact(
         &mut self,
         limit: MasterLimit,
@@ -115,8 +115,8 @@ impl System {
     }
 
     /// Deformations that an impact at limits includes, for steps of length `dt` [time].
-    /// With a coefficient of restitution, axial waves and all vibrations faster than the impact are suppressed.
-    /// In an elastic contact, the deformations that the steps resolve are included.
+    /// An impact with a coefficient of restitution suppresses axial waves and all vibrations faster than the impact.
+    /// An elastic contact includes the deformations that the steps resolve.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {

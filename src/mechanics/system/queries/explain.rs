@@ -30,7 +30,7 @@ pub enum Usage {
 }
 
 impl SystemFeature {
-    /// Creates a used feature.
+    /// Creates the description of a feature that a simulation uses.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }

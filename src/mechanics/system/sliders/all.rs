@@ -114,7 +114,7 @@ impl Sliders {
     }
 
     /// Holds sliders that the displacement moves beyond stops, and releases sliders whose stop force is tensile.
-    /// Returns true if the state of a slider has changed.
+    /// The returned flag is true if the state of a slider has changed.
     /// If a slider would leave its master, the error contains the slider and the end of the master.
     pub fn update_stop_contacts(
         &mut self,

@@ -2,7 +2,7 @@
 //!
 //! `docs/theory.md`, section 9.7, derives the mean force of a step.
 //! The friction force is the mean over the exact path in the step. It never exceeds the friction limit, and a sticking contact does not creep.
-//! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
+//! If the coefficient of restitution is below 1, a viscous friction force acts in parallel with the elastic one.
 
 use std::array::from_fn;
 
@@ -178,8 +178,7 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Returns the relative difference between the friction force and the force that the friction law requires.
-    /// Returns zero if the difference can be a rounding error of the increments.
+    /// Returns the relative difference between the friction force and the force that the friction law requires; zero within rounding.
     pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);

@@ -40,7 +40,7 @@ impl ContactTime {
     }
 
     /// Weight of the force at the end of a step in the mean force of the step [-]; 1 at the other stages.
-    /// The damping force is divided by this weight, because it is evaluated only at the end of the step.
+    /// The damping force is divided by the weight, because it is evaluated only at the end of the step.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }
     }
@@ -124,7 +124,7 @@ impl NormalForce {
     }
 
     /// Largest tension in an iterate for which the mean tension of the step is not positive [force].
-    /// If the method evaluates forces at both ends of the step, the largest tension depends on the tension at the start.
+    /// For methods with forces at both ends of the step, the largest tension depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
@@ -133,7 +133,7 @@ impl NormalForce {
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
     /// The damping coefficient is limited to the value that it reaches in an impact of the effective mass on the contact.
-    /// Without the limit, the damping coefficient of a resting contact would be unbounded, because its approach speed is almost zero.
+    /// Without the limit, a resting contact would have an unbounded damping coefficient, because its approach speed is almost zero.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
@@ -173,8 +173,7 @@ impl NormalForce {
         }
     }
 
-    /// Returns the relative difference between the tension and the target that the contact law requires.
-    /// Returns zero if the difference can be a rounding error of the increments.
+    /// Returns the relative difference between the tension and the target that the contact law requires; zero within rounding.
     pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
         let stiffness = larger(target.stiffness, self.stiffness(law));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());

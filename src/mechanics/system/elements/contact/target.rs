@@ -7,7 +7,7 @@ use crate::geometry::Vec2;
 use crate::system::elements::element::SceneChecks;
 
 /// First three of the four points of a Gauss–Lobatto rule on `[-1, 1]`, with their weights (Abramowitz & Stegun 25.4.32).
-/// The rule has points at both ends, so that the ends of a beam are contact points.
+/// A Gauss–Lobatto rule has points at both ends, so that the ends of a beam are contact points.
 const LOBATTO: [(f64, f64); 3] = [
     (-1.0, 1.0 / 6.0),
     (-0.447_213_595_499_957_9, 5.0 / 6.0),

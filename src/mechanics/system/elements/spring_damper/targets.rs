@@ -11,8 +11,7 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law.
-    /// The size of the saved state depends on this result, so that the result must not change when the spring is released.
+    /// Returns true if the force is zero in a segment of the law, also after a release, because the size of saved states depends on it.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)

@@ -1,6 +1,6 @@
 //! Static friction of a slider: the force along the master at which a sticking slider starts to slip.
 //!
-//! The force drops at the start of the slip, so the time of the start must be accurate to second order.
+//! The force on a sticking slider drops at the start of the slip, so this time must be accurate to second order.
 //! The contact forces of a step are means. They are extrapolated linearly to the end of the step:
 //!
 //! ```text
@@ -11,7 +11,7 @@
 //! In the second step after a slip, `F_end` is extrapolated from `F₀` and `F₁`, and in the first step it is `F₀`.
 //! The force `F₀` itself must not exceed the limit, so that a slip starts at a jump of a load.
 //!
-//! The averages remove forces whose impulses change sign from step to step. Such forces belong to vibrations that the steps do not resolve.
+//! The averages remove forces whose impulses change sign from step to step, because the steps do not resolve such vibrations.
 
 /// Largest difference between the force along the master and its limit at the start of a slip, as a fraction of the force.
 const AT_LIMIT: f64 = 1e-9;

@@ -136,7 +136,7 @@ impl SliderContact {
 
     /// Finds the point of the master that is nearest to the slave, after the given increments of all bodies.
     /// Newton's method starts at the present parameter of the slider. If `increments` is empty, the bodies are in their present configuration.
-    /// A call of this function overwrites the path of the slider.
+    /// A call of `nearest_point` overwrites the path of the slider.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -230,7 +230,7 @@ impl SliderContact {
     }
 
     /// Distance of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the contact's length scale [-].
-    /// The distance of the slave is negative before the slave reaches the axis, and `None` on the axis within rounding.
+    /// Before the slave reaches the axis, the distance is negative. On the axis within rounding, the distance is `None`.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;

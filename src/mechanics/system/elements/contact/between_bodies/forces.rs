@@ -49,7 +49,7 @@ pub(super) struct PairForces {
     last_force: Vec2,
     dissipated: f64,
     /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
-    /// The bound is zero if the boxes around two bodies overlap.
+    /// The bound of the gap is zero if the boxes around two bodies overlap.
     clearance: f64,
     /// True if the configuration `start` of the shapes is that at the start of the present step.
     is_current: bool,

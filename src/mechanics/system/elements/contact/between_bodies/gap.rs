@@ -18,12 +18,12 @@ use crate::beams::RotationIncrement;
 use crate::geometry::{Dual, DualVector, Vec2, larger};
 
 /// Number of local coordinates: two components of each of four vectors.
-/// The first three vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
-/// The fourth vector is the derivative with respect to ξ, at `ξ₁`, of the displacement of the curve.
+/// The first three local vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
+/// The fourth local vector is the derivative with respect to ξ, at `ξ₁`, of the displacement of the curve.
 pub(super) const LOCAL: usize = 8;
 
 /// Smallest sum `A₀ + A₁` for which the share `θ` is computed, as a fraction of the squared distance.
-/// For a smaller sum, both feet coincide within rounding, and the share `θ` has no influence.
+/// If the sum `A₀ + A₁` is smaller, both feet coincide within rounding, and the share `θ` has no influence.
 const SAME_FOOT: f64 = 1e-14;
 
 pub(super) type Slope = [f64; LOCAL];

@@ -657,7 +657,7 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
 }
 
 /// Vector from the nearest point `from` to the nearest point `to` on an axis with the control points `points` [length].
-/// The second returned value is the length to which the rounding error of the vector is proportional [length].
+/// The second returned value is the length [length] to which the rounding error of the vector is proportional.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;
     if by == 0.0 {

@@ -220,7 +220,7 @@ impl Shape {
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass].
-    /// For a point of a rigid body without its own mass, the inverse mass of the whole body is returned.
+    /// At a point of a rigid body without mass of the point, the inverse mass of the whole body is returned.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }

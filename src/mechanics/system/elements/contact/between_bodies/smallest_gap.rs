@@ -26,7 +26,7 @@ impl<'s> GapSearch<'s> {
     }
 
     /// Smallest gap of the candidate pairs [length]. `closed` contains the gaps of closed contacts.
-    /// Without a smaller gap, the diagonal of the box around all bodies is returned.
+    /// If no gap is smaller, the diagonal of the box around all bodies is returned.
     pub(super) fn smallest(
         mut self,
         candidates: &[CandidatePair],
