@@ -10,7 +10,7 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// The divided differences of the basis functions are accurate for paths of any length, including zero, and across breaks.
 ///
 /// Every accessor returns one dimensionless value for each basis function that is nonzero somewhere on the path.
-/// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
+/// If an end of the path is a break, the span inside the path is used. A path of zero length uses the span on the right.
 /// Outside the domain, the polynomials of the first and the last span are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {

@@ -29,7 +29,7 @@ const MOST_PASSES: usize = 400;
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.
-/// A slider that crosses the end of its master in more passes counts as having left its master.
+/// A slider that crosses the end of its master in more than `MOST_LEAVES` passes counts as having left its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {

@@ -45,7 +45,7 @@ impl Equation {
     }
 
     /// Derivative of the value with respect to the increment of a control point of the master.
-    /// The argument contains the three weights of the control point in the order of `Contact::weights`.
+    /// The argument `(end, mean, difference)` contains the weights of the control point in the order of `Contact::weights`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

@@ -17,7 +17,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Largest ratio of two velocity responses to an impulse for which the bodies count as rigid in the direction of the impulse [-].
-/// The first response is computed with the included deformations only, the second response with all deformations.
+/// The ratio compares the response with only the included deformations to the response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
 pub(super) struct ImpulseResponse {

@@ -35,7 +35,7 @@ impl System {
     }
 
     /// Adds the internal forces for the present section forces, minus `load_factor` times the loads, and the contact equations.
-    /// The unknowns are displacements followed by contact unknowns.
+    /// The argument `unknowns` contains displacements, followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],

@@ -262,7 +262,7 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
-    /// All speeds have a common factor, whose square is proportional to the returned energy if the active contacts do not change.
+    /// The speeds of the sliders have a common factor, whose square is proportional to the energy that the stops return.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -205,7 +205,7 @@ impl ContactPoint {
         self.place.interpolate(body.dynamics.control_points())
     }
 
-    /// Gap at the start of the step.
+    /// Gap between body and obstacle at the start of the step [length].
     /// The gap of a closed contact is the sum of its increments, because the rounding error of positions would store energy.
     pub(super) fn present_gap(&self, surface: &Surface, body: &Body) -> f64 {
         match self.is_closed() {
