@@ -56,7 +56,7 @@ pub trait BodyDynamics: Send + Sync {
     fn span_starts(&self) -> Vec<usize>;
 
     /// Divides the body into at most `most` parts that threads evaluate concurrently. Small bodies are not divided. Results do not change.
-    /// Returns the first control point of each part except the first part.
+    /// Returns the first control point of each part of the body except the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].

@@ -66,7 +66,6 @@ impl KnotVector {
 
     /// Creates a knot vector with `spans` equal spans on `[0, 1]`.
     /// Splines have `continuity` continuous derivatives at interior knots.
-    /// The multiplicity of interior knots is therefore `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.

@@ -33,7 +33,7 @@ pub struct Tolerance {
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
     /// Largest residual norm that is attributed to rounding [-].
-    /// A converged solution with a larger residual norm is corrected again with the last factors.
+    /// A converged solution whose residual norm exceeds `polish` is corrected again with the last factors.
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,

@@ -17,7 +17,7 @@ use crate::system::{MasterEnd, Scene, System, UnknownKind};
 const MOST_HALVINGS: u32 = 8;
 
 /// Largest distance between two consecutive equilibria, as a multiple of the step length.
-/// Equilibria that are farther apart may lie on different parts of the path.
+/// Equilibria whose distance exceeds the limit `FAR` may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
 /// Largest ratio of the displacements per load increment in two consecutive steps that does not count as snap-through [-].

@@ -25,7 +25,7 @@ const MOST_FIRST_PASSES: usize = 60;
 const MOST_PASSES: usize = 400;
 
 /// Largest total displacement over all passes, as a multiple of the size of the scene.
-/// A scene with a larger total displacement counts as a mechanism.
+/// A scene whose total displacement exceeds `ENDLESS_MOVEMENT` counts as a mechanism.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.

@@ -23,7 +23,7 @@ const ROUNDING_REDUCTION: f64 = 1e-11;
 const SHRUNK: f64 = 1e-4;
 
 /// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.
-/// A vector with a larger component is orthogonalised again.
+/// A vector with a component above `TRACE` in the basis is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 const ORTHONORMAL: f64 = 1e-14;

@@ -25,7 +25,7 @@ const CORRECTIONS: usize = 4;
 const FAR: f64 = 1e-4;
 
 /// Largest relative change of an eigenvalue by an accepted correction, without the effect of rounding.
-/// A correction with a larger change shows that the shapes of several close eigenvalues are mixed.
+/// A correction that changes an eigenvalue by more than `NEAR` shows that the shapes of several close eigenvalues are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 

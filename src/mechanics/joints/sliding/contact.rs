@@ -140,7 +140,7 @@ impl Contact<'_> {
     }
 
     /// Product of the contact force and the tangent of the master at the end of the step [force·length].
-    /// The product is positive if the slave pushes outwards at an end of the master.
+    /// The product of force and tangent is positive if the slave pushes outwards at an end of the master.
     /// The argument `outward` is the sign of the parameter change towards the end of the master at which the slider is.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward

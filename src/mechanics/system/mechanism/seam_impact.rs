@@ -229,7 +229,7 @@ pub(super) fn deflect_at_corners(
 }
 
 /// Velocity response of each slider at a corner to its own impulse.
-/// The response includes the reactions of the contacts that keep slaves on their masters.
+/// The velocity response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
     problem: &ImpactProblem,
     corners: &[SeamCorner],

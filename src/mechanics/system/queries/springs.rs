@@ -73,7 +73,7 @@ impl System {
     }
 
     /// Energies dissipated since the start by elements other than springs and dampers, in the order of the scene [energy].
-    /// The elements are material damping, drag, contacts, impacts of sliders with restitution below 1, and friction.
+    /// The dissipating elements are material damping, drag, contacts, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

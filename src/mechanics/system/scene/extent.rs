@@ -33,7 +33,7 @@ impl Group {
 
 impl Scene {
     /// Largest initial extent of a group of connected particles and rigid bodies [length].
-    /// The extent does not depend on the location of the scene. The extent of isolated particles without size is zero.
+    /// The extent of a scene does not depend on its location. The extent of isolated particles without size is zero.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {

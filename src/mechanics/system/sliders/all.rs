@@ -280,8 +280,8 @@ impl Sliders {
     }
 
     /// Index of a slider and unit vector, for each component of a contact force that is an unknown at the present time [-].
-    /// The component across the master is an unknown unless the axis is compliant.
-    /// The component along the master is an unknown if the slider is held or sticks.
+    /// The component of a contact force across the master is an unknown unless the axis is compliant.
+    /// The component of a contact force along the master is an unknown if the slider is held or sticks.
     pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
         self.iter().enumerate().flat_map(|(at, slider)| {
             let (has_across, has_along) = match slider.state {

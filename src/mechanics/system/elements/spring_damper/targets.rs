@@ -37,7 +37,7 @@ impl SpringDamper {
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
                 // Only linear laws receive numerical damping, because numerical damping adds energy where the stiffness is negative.
-                // Separate x and y components receive none, because their numerical damping would rotate the force relative to the spring.
+                // Springs with separate x and y components receive no numerical damping, which would rotate the force relative to the spring.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),

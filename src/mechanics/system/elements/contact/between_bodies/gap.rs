@@ -45,7 +45,7 @@ pub(super) struct GapMovement {
     /// Largest increment from which the vector `slid` is computed [length]. The rounding error of `slid` is proportional to it.
     pub(super) increment: f64,
     /// Derivatives of the curve with respect to ξ at `c(ξ₁)` [length].
-    /// Order: first derivative at the start of the step, first and second derivative at the end of the step.
+    /// The order of the derivatives is: first derivative at the start of the step, first and second derivative at the end of the step.
     pub(super) tangents: [Vec2; 3],
 }
 
