@@ -1,6 +1,4 @@
 //! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity (docs/theory.md, section 9.2).
-//!
-//! The dashpot forces are independent unknowns, like section forces.
 
 use serde::{Deserialize, Serialize};
 

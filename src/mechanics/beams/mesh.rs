@@ -214,7 +214,6 @@ impl Mesh {
         Ok(spans)
     }
 
-    /// Spans grouped into smooth runs, which end at C⁰ knots. The strains of different runs are independent.
     fn runs(&self) -> Vec<Vec<Span>> {
         let spans = self.basis.spans();
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()

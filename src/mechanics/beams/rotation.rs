@@ -132,7 +132,6 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Vector `Λ a`: transforms `a` from the section frame to space.
     #[inline(always)]
     pub(crate) fn to_space<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();

@@ -98,7 +98,6 @@ impl Basis {
         }
     }
 
-    /// Point of a curve at `xi`, and its first and second derivative with respect to ξ, from the polynomials of `span`.
     pub(crate) fn curve_in(&self, span: &Span, xi: f64, points: &[Vec2]) -> [Vec2; 3] {
         match self.degree() {
             3 => self.evaluate_low::<4>(span, xi).combine(points),

@@ -134,7 +134,6 @@ impl ContactPath {
     }
 
     /// Divided differences of the basis functions: their mean derivatives over the path, accurate to rounding. The differences sum to zero.
-    /// The divided differences of a path of zero length are the derivatives of the basis functions at its start.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
@@ -178,7 +177,6 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans that the path between two parameters covers, including fractions of spans.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);

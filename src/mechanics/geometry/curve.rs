@@ -39,7 +39,6 @@ impl Curve {
     }
 
     /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad].
-    /// The parameter ξ of the arc runs from 0 to 1.
     /// The arc is counter-clockwise if `to_angle` is larger than the first angle.
     ///
     /// # Errors

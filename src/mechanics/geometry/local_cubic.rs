@@ -8,7 +8,6 @@ const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
 /// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle of every piece has the same value.
-/// The interpolating curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
 /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.

@@ -42,7 +42,6 @@ impl PiecewisePolynomial {
     }
 
     /// Creates the integral of a function over consecutive spans, starting at the first span.
-    /// On each span, the function is interpolated at `points` Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();

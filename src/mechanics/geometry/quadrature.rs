@@ -58,7 +58,6 @@ impl GaussRule {
     }
 }
 
-/// Legendre polynomial `P_n(x)` and its derivative `P'_n(x)` for `|x| < 1`, by the three-term recurrence.
 fn legendre_polynomial(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, x);
     for k in 2..=n {

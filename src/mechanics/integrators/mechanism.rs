@@ -24,7 +24,6 @@ pub enum Stage {
 
 impl Stage {
     /// Stages with separate load values, in the order of time.
-    /// The stage [`DampedMidpoint`](Self::DampedMidpoint) has the loads of [`Midpoint`](Self::Midpoint).
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 

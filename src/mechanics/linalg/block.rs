@@ -321,7 +321,6 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices: delayed unknowns first, then the coupled unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);

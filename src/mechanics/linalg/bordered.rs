@@ -149,7 +149,6 @@ impl Border {
         }
     }
 
-    /// Sets the units of the border row and the border unknown with the given index. The choice of pivots depends on the units.
     pub(crate) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_units(at, row, unknown),

@@ -1,7 +1,6 @@
 //! Double-double arithmetic.
 //!
 //! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, ARITH-15 (2001) 155–162.
-//! Products are split into two parts by fused multiply–add.
 //!
 //! Implementations of fused multiply–add in hardware and software give identical results, because IEEE 754 requires a single rounding.
 #![allow(clippy::disallowed_methods)]

@@ -90,7 +90,6 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
-/// Bisects an interval several times. Each bisection keeps the half with the larger difference.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;

@@ -69,7 +69,6 @@ impl Resampling {
         self.half_step = Some(HalfStep { plan, doubled });
     }
 
-    /// Repeats the second half of a paused step with new controller values.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

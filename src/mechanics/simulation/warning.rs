@@ -228,7 +228,6 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Severity of the warning. Only warnings of the same type have comparable severities.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {

@@ -298,8 +298,6 @@ impl<'s> Continuation<'s> {
     }
 
     /// Largest allowed distance of the next equilibrium from the last equilibrium.
-    /// With load control, the allowed distance is a multiple of the distance that the last displacement per load increment predicts.
-    /// With arc-length control, the allowed distance is a multiple of the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {

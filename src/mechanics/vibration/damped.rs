@@ -79,7 +79,6 @@ impl DampedMode {
     }
 }
 
-/// Damping matrix with a row for each mode shape and a column for each damped rate.
 fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {

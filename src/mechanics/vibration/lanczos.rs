@@ -216,7 +216,6 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// Eigenvalues and eigenvectors of the projected problem, in decreasing order of the eigenvalues.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();

@@ -132,7 +132,6 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Eigenvalue that is obtained from the approximation `start` by corrections, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();

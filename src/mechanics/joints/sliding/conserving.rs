@@ -7,7 +7,6 @@ use crate::geometry::{cross, perpendicular};
 
 /// Conserving sliding law on the smooth axis of a mesh.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
-/// The mesh represents the kink of the axis under the contact force only approximately.
 ///
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]

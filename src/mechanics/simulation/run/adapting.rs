@@ -158,7 +158,6 @@ impl Simulation {
     }
 
     /// Returns true if a step is paused in its middle to sample controllers.
-    /// A run stopped in a paused step can be continued. Alternatively, the start of the step can be [restored](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive

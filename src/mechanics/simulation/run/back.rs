@@ -116,7 +116,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Restores a snapshot of this simulation or of a copy. Later rows of the history are removed.
     pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.end_derivatives("going back");
         self.restore_releases(&snapshot.releases)?;

@@ -90,7 +90,6 @@ impl Simulation {
     }
 
     /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes).
-    /// A restored run continues bit for bit like the original run.
     ///
     /// # Errors
     /// Fails if the file is truncated or damaged, has a later format or a different type, or has invalid content.

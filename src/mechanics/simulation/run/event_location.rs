@@ -153,7 +153,6 @@ fn bracket_sign_change(
 }
 
 impl Simulation {
-    /// Takes a step that ends at the arrival of a slider. Over the whole interval, the slider would pass its limit.
     pub(super) fn locate_arrival(
         &mut self,
         interval: Interval,
@@ -220,7 +219,6 @@ impl Simulation {
         }
     }
 
-    /// Searches for a step that ends before the arrival. The given step ends after the arrival.
     fn bracket_arrival(
         &mut self,
         interval: Interval,
@@ -274,7 +272,6 @@ impl Simulation {
         Ok(ArrivalEstimate::at_once(number))
     }
 
-    /// Brackets the landing of a slider in flight. The given interval ends after the landing.
     fn bracket_landing(
         &mut self,
         interval: Interval,
@@ -347,7 +344,6 @@ impl Simulation {
         }
     }
 
-    /// Executes an arrival at an end, and all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     fn execute_arrivals(
         &mut self,
         limit: MasterLimit,

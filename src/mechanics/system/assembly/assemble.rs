@@ -57,7 +57,6 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at the start of a run.
     pub(crate) fn assemble_in_motion(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,

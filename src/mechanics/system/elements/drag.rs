@@ -100,7 +100,6 @@ impl ElementDef for Drag {
     }
 }
 
-/// Points at which the drag of a beam is evaluated: `degree + 1` Gauss points per span.
 fn points_of_beam(site: &dyn AssemblyContext, beam: usize) -> Result<Vec<DragPoint>, SystemError> {
     let basis = site.mesh(beam).basis();
     let rule = GaussRule::new(basis.degree() + 1).map_err(|error| site.wrong(beam, error))?;

@@ -51,7 +51,6 @@ enum Measure {
 }
 
 /// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
-/// A length changes by the x and y increments of its terminals, an angle by the rotation increments.
 /// The increments on which an elongation depends are called its coordinates.
 #[derive(Debug, Clone)]
 pub struct Elongation {

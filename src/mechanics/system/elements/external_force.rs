@@ -39,7 +39,6 @@ pub struct LoadAccount {
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate. Work and impulse are evaluated at the end of a step.
 /// If an element has a potential, the work of its forces is exactly the decrease of the potential (a discrete gradient).
 pub trait ExternalForce {
     fn name(&self) -> &str;

@@ -1,6 +1,5 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force (docs/theory.md, section 9.4).
 //!
-//! The linked point keeps its position in the body at the end of every step.
 //! With tangent-scaled rotation increments, the constraint force does no work in a step, and its moments balance.
 
 use std::ops::{Add, Div};
@@ -248,7 +247,6 @@ impl RigidLink {
 
     /// Calls `take` with the static stiffness of the link.
     /// The stiffness of the link is the geometric stiffness of its force plus a penalty stiffness [force/length].
-    /// The penalty stiffness holds the linked point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

@@ -40,7 +40,6 @@ impl ImpulseResponse {
         Self { forces, rates, touched, transmitted }
     }
 
-    /// Component of the relative velocity at the contact in the direction of the impulse, for given rates.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()

@@ -86,7 +86,6 @@ impl System {
         })
     }
 
-    /// Computes the present contact forces and stores them in `self.step.present`.
     pub(super) fn compute_present_forces(&mut self) -> Result<(), SystemError> {
         let mut present = self.step.present.take().unwrap_or_default();
         present.residual.clear();

@@ -1,6 +1,5 @@
 //! Consistent initial kinks: the initial kink is computed from the contact force of a rigid contact (docs/theory.md, section 10.1).
 //!
-//! A kink acts like an undamped spring under the slider.
 //! If the kink began without load, its force would oscillate between zero and twice the contact force.
 
 use super::System;

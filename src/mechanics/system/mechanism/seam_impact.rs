@@ -60,7 +60,6 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners of the section directions at all seams that are passed; empty if the section direction changes at none of them.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }

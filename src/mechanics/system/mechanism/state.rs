@@ -35,7 +35,6 @@ impl SystemState {
             && self.contacts.len() == other.contacts.len()
     }
 
-    /// Sets the state to the state `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders, contacts } = self;
         numbers.clear();
@@ -49,7 +48,6 @@ impl SystemState {
         contacts.extend(from.contacts.iter().zip(of_contacts).map(moved));
     }
 
-    /// Writes the difference between this state and the state `other`, divided by `distance`, to `change`.
     pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,

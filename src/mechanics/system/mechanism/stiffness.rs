@@ -93,7 +93,6 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of degrees of freedom with mass that the constraints of rigid links and contacts remove.
     pub(crate) fn constrained_movements(
         &self,
         order: &StaticOrder,

@@ -1,6 +1,5 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! A slider that comes to rest at a stop and is held there receives an impulse, which reduces its speed along the master to zero.
 //! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
 //! With a coefficient of restitution below one, the stop does not return the lost kinetic energy.
 
@@ -58,7 +57,6 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {

@@ -124,7 +124,6 @@ impl System {
     }
 
     /// Computes the impact of sliders that strike their masters. A slider without rebound then slides along its master.
-    /// The impact includes the deformations that the steps resolve.
     /// A second impact with all deformations removes the remaining velocities of sliders without rebound.
     fn solve_landing(&mut self, striking: &[usize], dt: f64) -> Result<(), LinearError> {
         let restitution = |model: &Self, at: usize| match model.sliders[at].has_many_events() {

@@ -375,7 +375,6 @@ fn explain_masses(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// Numbers of joints of each kind as text, such as `2 hinges, 1 clamp`.
 fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
     let mut kinds: Vec<(&str, usize)> = Vec::new();
     for joint in joints {

@@ -68,7 +68,6 @@ impl System {
     }
 
     /// Section forces along a beam from start to end, at the knots and at three positions between consecutive knots.
-    /// A joint inside the beam has two rows with the same arc length, one before and one after the joint.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -106,7 +106,6 @@ pub struct RigidBodyDefinition {
 }
 
 impl RigidBodyDefinition {
-    /// Index of the control point of a named point of the body. Points at the centre of mass share index 0.
     pub(crate) fn control_point(&self, name: &str) -> Option<usize> {
         let (at, (_, place)) = self.points.iter().enumerate().find(|(_, (own, _))| own == name)?;
         Some(if *place == Vec2::zeros() { 0 } else { at + 1 })

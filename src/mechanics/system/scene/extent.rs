@@ -1,5 +1,4 @@
 //! Length scale of a scene without beams, and rounding error of the energy of a scene.
-//! Length scale and rounding error are independent of the location of the scene.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};

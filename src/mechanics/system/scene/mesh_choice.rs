@@ -28,7 +28,6 @@ impl Scene {
     ///
     /// A beam on which sliders slide has twice as many spans as a beam without sliders.
     /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
-    /// An automatic mesh has at most 64 spans.
     pub fn choose_mesh(&mut self, beam: usize) {
         if !self.beams[beam].mesh.is_automatic() {
             return;

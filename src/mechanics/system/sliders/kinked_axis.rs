@@ -94,7 +94,6 @@ impl KinkedAxis {
     }
 
     /// Returns true if the kink is kept constant: close to an end, at speeds close to the speed of shear waves, or after a call of `freeze`.
-    /// A loaded kink that moves slowly away from an end is kept constant only very close to the end.
     pub fn is_frozen(&self) -> bool {
         let [length, slope, _] = self.compliance_derivatives;
         let leaves =

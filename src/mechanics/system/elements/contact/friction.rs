@@ -189,7 +189,6 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Linearises the friction law at the present iterate.
-    /// The law of a stiff contact is linearised at its intersection with the line that represents the impedance of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);

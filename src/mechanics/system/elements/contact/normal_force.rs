@@ -10,7 +10,6 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 use crate::system::elements::rate_history::RateHistory;
 
 /// Largest ratio of contact stiffness to impedance of the body for which the contact counts as soft [-].
-/// The law of a soft contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
 #[derive(Debug, Clone, Copy)]
@@ -150,7 +149,6 @@ impl NormalForce {
     }
 
     /// Tension and stiffness at the point where the contact law is linearised.
-    /// A stiff contact is linearised at the intersection of the contact law with the line that represents the impedance of the body.
     pub fn linearisation_target(
         &mut self,
         law: &NormalLaw,

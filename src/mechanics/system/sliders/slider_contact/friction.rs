@@ -140,7 +140,6 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that `restore` reads: the sign of the slip, the mean force, the longest step, the number of transitions, and the state of the static friction.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let sticking = self.static_friction.as_ref().map(StaticFriction::numbers);
         let own = [self.mode_number(), self.force, self.longest, self.transitions as f64];

@@ -28,7 +28,6 @@ pub struct StickingForces {
 }
 
 impl StickingForces {
-    /// Mean forces over two consecutive steps.
     fn joined(self, before: Self) -> Self {
         let duration = self.duration + before.duration;
         let mean = |now: f64, last: f64| (self.duration * now + before.duration * last) / duration;

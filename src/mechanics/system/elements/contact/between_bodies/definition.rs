@@ -77,7 +77,6 @@ impl PairContact {
         }
     }
 
-    /// Pairs of members that can touch. Two beams form one pair for each direction, with half of the stiffness each.
     fn candidates(&self, scene: &dyn SceneChecks) -> Vec<CandidatePair> {
         let count = self.members.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));

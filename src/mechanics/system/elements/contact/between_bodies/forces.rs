@@ -96,7 +96,6 @@ impl PairForces {
     }
 
     /// Returns true if no bodies can touch, because all control points are close to their positions in the configuration `start`.
-    /// The argument `movement` returns the displacement of a control point of a body in the step.
     fn is_clear(&self, bodies: &[Body], movement: impl Fn(&Body, usize) -> Vec2) -> bool {
         let is_near_start = |shape: &Shape| {
             let body = &bodies[shape.body];
@@ -113,7 +112,6 @@ impl PairForces {
         self.is_clear(bodies, |body, at| body.vector_at(at, increments))
     }
 
-    /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.is_current = false;
         if self.is_clear_with(bodies, &[]) {

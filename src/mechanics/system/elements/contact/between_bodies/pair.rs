@@ -272,7 +272,6 @@ impl ContactPair {
         }
     }
 
-    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         shapes: &[Shape],
@@ -637,8 +636,6 @@ impl LocalRows {
         &mut self.columns[at]
     }
 
-    /// Entries of the tangent for the collected unknowns, row by row.
-    /// `tangent` contains the derivatives of the generalised forces with respect to the first `N` local coordinates.
     pub(super) fn entries<const N: usize>(
         &self,
         tangent: &[[f64; N]; N],

@@ -127,7 +127,6 @@ struct PointInertia {
 }
 
 impl PointInertia {
-    /// Creates the inertia from the diagonal of the inertia matrix. A point of a rigid body has the whole mass of the body.
     fn new(place: &BodyPoint, body: &Body, diagonal: &[f64]) -> Self {
         let of = |degree: usize| diagonal.get(degree).copied().unwrap_or(f64::INFINITY);
         let sum = |component: usize| -> f64 {
@@ -312,7 +311,6 @@ impl ContactPoint {
         Vec2::new(x, y)
     }
 
-    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         surface: &Surface,
