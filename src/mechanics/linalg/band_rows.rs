@@ -9,7 +9,6 @@ pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
     pub(super) entries: &'a mut [f64],
     pub(super) stride: usize,
-    /// Index of the diagonal entry among the stored entries of a row.
     pub(super) centre: usize,
     pub(super) half_bandwidth: usize,
 }

@@ -23,7 +23,6 @@ pub(super) const UNTOUCHED: usize = usize::MAX;
 pub(super) struct BlockElimination<'a> {
     pub(super) blocks: &'a mut [Block],
     pub(super) band: &'a BandedMatrix,
-    /// Buffer whose entries are `UNTOUCHED` before and after each use.
     pub(super) places: &'a mut [usize],
 }
 
@@ -50,12 +49,10 @@ struct Coupling {
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     pub(super) own: Vec<usize>,
-    /// Couplings of the block with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
     pub(super) touched: Vec<usize>,
     front: Vec<f64>,
-    /// Buffer for a pivot row, divided into vectors of `LANES` entries. The entries up to the pivot are zero.
     pivot_row: Vec<[f64; LANES]>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,

@@ -33,7 +33,6 @@ const MOST_RESTARTS: usize = 60;
 /// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
-    /// Shapes `φ` of the pairs, four per strip.
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 

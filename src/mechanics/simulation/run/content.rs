@@ -30,7 +30,6 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// Number `n` for which the trajectory keeps every n-th recorded configuration.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,

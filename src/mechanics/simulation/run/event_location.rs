@@ -42,9 +42,7 @@ pub(super) struct EventStep {
 
 enum Event {
     Slider(SliderEvent),
-    /// A slider would pass a limit within the step, so the step ends just before the limit.
     JustBefore,
-    /// Stop forces have become tensile, so sliders are released from their stops.
     StopRelease,
 }
 
@@ -61,7 +59,6 @@ impl Event {
 
 enum ArrivalEstimate {
     Between(TimeBracket),
-    /// The event is at the end of a step that was taken, or at the start of the interval.
     Located(EventStep),
 }
 

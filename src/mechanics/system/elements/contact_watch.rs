@@ -22,7 +22,6 @@ pub struct ShortBounce {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// Number of steps since the contact began; zero while the spring is slack.
     steps: f64,
     /// Rate of elongation at the beginning of the contact [length/time, rad/time].
     entry: f64,

@@ -50,7 +50,6 @@ impl Scene {
     }
 }
 
-/// Largest absolute number of each field, over all objects with this field.
 type FieldScales<'v> = BTreeMap<&'v str, f64>;
 
 fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut FieldScales<'v>) {

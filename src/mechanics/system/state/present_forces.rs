@@ -26,7 +26,6 @@ pub struct PresentForces {
 
 #[derive(Default)]
 pub struct ContactResponse {
-    /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
     forces: Vec<f64>,
     /// Force on the slave per unit of the contact force, including friction [-].
     pub direction: Vec2,

@@ -44,7 +44,6 @@ impl StickingForces {
 pub struct StaticFriction {
     /// Coefficient of static friction [-].
     coefficient: f64,
-    /// Forces of the last step and of the step before it.
     last: [StickingForces; 2],
     /// Friction limit minus the force along the master, at the start of the step [force]; zero if the forces at the start are unknown.
     reserve: f64,

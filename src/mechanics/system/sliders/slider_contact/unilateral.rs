@@ -41,11 +41,9 @@ pub struct UnilateralContact {
     pub sign: f64,
     nearest: NearestPoint,
     may_land: bool,
-    /// Number of take-offs, landings and passages of the axis since the last step without such an event.
     events: usize,
     /// Number of attempted steps in which the slider stayed in contact because of too many events.
     pub kept_steps: usize,
-    /// Last take-off, landing or passage, until `take_contact_change` returns it.
     change: Option<ContactChange>,
 }
 

@@ -51,7 +51,6 @@ pub(super) struct PairForces {
     /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
     /// The bound of the gap is zero if the boxes around two bodies overlap.
     clearance: f64,
-    /// True if the configuration `start` of the shapes is that at the start of the present step.
     is_current: bool,
     watch: ContactWatch,
     last_rate: f64,

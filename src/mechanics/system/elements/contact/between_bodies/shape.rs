@@ -103,7 +103,6 @@ pub(super) struct ContactSite {
     pub(super) touched: Vec<usize>,
 }
 
-/// Configuration of a body: its control points, and the box around it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
@@ -134,7 +133,6 @@ enum Axis {
 struct SampledCurve {
     basis: Basis,
     spans: Vec<Span>,
-    /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
     /// Enlargement of the box around the control points of a span that makes it contain the curve, as a fraction of its size [-].
     growth: f64,

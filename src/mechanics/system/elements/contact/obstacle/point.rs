@@ -122,7 +122,6 @@ struct PointInertia {
     mobility: f64,
     /// Angular velocity due to a unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
     angular_mobility: f64,
-    /// True for a point off the centre of mass, which a rigid link connects to the centre.
     is_linked: bool,
 }
 
