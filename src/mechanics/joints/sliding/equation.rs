@@ -6,9 +6,9 @@ use crate::geometry::Vec2;
 /// Unit of the value of a contact equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Length.
+    /// Unit of a length.
     Length,
-    /// Force.
+    /// Unit of a force.
     Force,
 }
 

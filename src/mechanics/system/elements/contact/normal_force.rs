@@ -24,7 +24,7 @@ pub struct ContactTime {
     pub stage: Stage,
     /// Factor by which the contact force is multiplied in the balance of the step [-].
     pub weight: f64,
-    /// Coefficients of rates; `None` if damping is not evaluated.
+    /// Coefficients in the formula for rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
     /// Duration of the step [time]; infinite for a static increment, in which all rates are zero.
     pub duration: f64,
