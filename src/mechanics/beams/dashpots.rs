@@ -1,7 +1,4 @@
 //! Kelvin–Voigt dashpots at the quadrature points of a beam, parallel to its elasticity (docs/theory.md, section 9.2).
-//!
-//! The dashpot forces are independent unknowns, like section forces.
-//! The dashpots are separate from the elastic quadrature points, so that undamped beams need no additional time.
 
 use serde::{Deserialize, Serialize};
 
@@ -40,12 +37,10 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rate of a quantity in a step.
-/// The rate is `by_change` times the change of the quantity in the step, minus `by_last` times its rate in the previous step.
+/// Rule for the rate of a quantity in a step: `by_change` times its change in the step, minus `by_last` times its previous rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
     /// Fraction of the step at which the directions of forces are evaluated [-].
-    /// Positions and rotations are interpolated linearly between the start and the end of the step.
     pub fraction: f64,
     /// Factor by which the change in a step is multiplied in the formula for the rate of the step [1/time].
     pub by_change: f64,
@@ -82,7 +77,6 @@ struct SpanDashpots {
 }
 
 /// Dashpots of a beam at its quadrature points.
-/// The methods take and return increments, rates and forces of all control points of the beam.
 #[derive(Debug, Clone)]
 pub struct Dashpots {
     order: usize,
@@ -162,7 +156,7 @@ impl Dashpots {
     }
 
     /// Calls `give` with the dashpot forces on control points in the present iterate.
-    /// Returns the largest dashpot force, and its largest deviation from the damping law.
+    /// Returns the largest dashpot force, and the largest deviation of a dashpot force from the damping law.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,
@@ -204,8 +198,7 @@ impl Dashpots {
         }
     }
 
-    /// Calls `give` with the changes of the forces on control points that would make all dashpot forces satisfy their damping laws.
-    /// The directions of the force corrections are those of the last linearisation.
+    /// Calls `give` with the force changes on control points that would make all dashpot forces satisfy their damping laws.
     pub fn add_mismatch_forces(&self, give: &mut dyn FnMut(usize, Movement)) {
         for SpanDashpots { first, forces, moments } in &self.spans {
             forces.iter().for_each(|dashpot| dashpot.add_mismatch_forces(*first, give));
@@ -221,9 +214,8 @@ impl Dashpots {
         }
     }
 
-    /// Ends a step of the given duration [time] with the given increments.
-    /// The caller passes an infinite duration for a static increment, so that its rates are zero.
-    /// Returns the energy that the dashpots dissipate [energy].
+    /// Ends a step, and returns the energy that the dashpots dissipate in the step [energy].
+    /// For a static increment, the duration [time] must be infinite, so that the rates of the dashpots are zero.
     pub fn advance(
         &mut self,
         moved: &[Movement],

@@ -47,10 +47,7 @@ impl ForceSummary {
 /// Function that receives the first control point of a span and the rows of its tangent matrix.
 pub type BlockSink<'a> = &'a mut (dyn FnMut(usize, &[f64]) + Send);
 
-/// Dynamics of a beam, particle or rigid body.
-/// The implementing type stores the undeformed body, its state at the start of a step, and the present iterate of the step.
-///
-/// Increments, rates and forces are given for all control points.
+/// Dynamics of a beam, particle or rigid body. Increments, rates and forces are given for all control points.
 pub trait BodyDynamics: Send + Sync {
     /// Number of nonzero basis functions per span, degree + 1.
     fn order(&self) -> usize;
@@ -59,7 +56,7 @@ pub trait BodyDynamics: Send + Sync {
     fn span_starts(&self) -> Vec<usize>;
 
     /// Divides the body into at most `most` parts that threads evaluate concurrently. Small bodies are not divided. Results do not change.
-    /// Returns the first control point of each part except the first part.
+    /// Returns the first control point of each part of the body except the first part.
     fn divide(&mut self, most: usize) -> Vec<usize>;
 
     /// Positions of the control points at the start of the step [length].
@@ -81,12 +78,10 @@ pub trait BodyDynamics: Send + Sync {
     ) -> ForceSummary;
 
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
-    /// Passes the tangent matrix of each span, multiplied by `weight`, to a function in `tangents`.
-    /// Each part of a divided body has its own function in `tangents`.
+    /// Each function in `tangents` receives the tangent matrices of the spans of one part of a divided body, multiplied by `weight`.
     ///
+    /// A span in two parts is passed to the functions of both parts: last to the earlier part, first to the later part.
     /// The function of a part in `tangents` must use only the rows of control points of this part.
-    /// A span with control points in two parts is passed to the functions of both parts.
-    /// The function of the earlier part receives the shared span last, the function of the later part receives it first.
     fn add_linearised_forces(
         &mut self,
         at: Collocation,
@@ -96,8 +91,7 @@ pub trait BodyDynamics: Send + Sync {
         tangents: &mut [BlockSink<'_>],
     );
 
-    /// Adds `weight` times the force corrections that would remove the present strain residuals.
-    /// The derivatives of the strains are those of the last linearisation.
+    /// Adds `weight` times the force corrections that would remove the strain residuals, with the derivatives of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, forces: &mut [Movement]);
 
     /// Updates the section forces after an iteration has corrected the increments.
@@ -135,8 +129,7 @@ pub trait BodyDynamics: Send + Sync {
     /// The section of a tapered beam is its mean section.
     fn extent(&self) -> Option<(Section, f64)>;
 
-    /// Appends the unit normals of the sections at the start of the step, as vectors in space [-].
-    /// The list contains one section normal for each quadrature point of the axial and shear strain.
+    /// Appends the unit normals of the sections at the start of the step, at the quadrature points of axial and shear strain [-].
     fn write_normals(&self, normals: &mut Vec<Vec2>);
 
     /// Strain energy at the start of the step [energy].

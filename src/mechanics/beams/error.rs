@@ -7,14 +7,7 @@ use crate::geometry::GeometryError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BeamError {
     #[error("section: {name} is {value}, but must be a positive finite number [{dimension}]{hint}")]
-    SectionValue {
-        name: &'static str,
-        value: f64,
-        /// Dimension, such as `force`.
-        dimension: &'static str,
-        /// Additional advice; may be empty.
-        hint: &'static str,
-    },
+    SectionValue { name: &'static str, value: f64, dimension: &'static str, hint: &'static str },
     #[error("section: nu is {value}, but Poisson's ratio must lie in (-1, 0.5]")]
     PoissonRatio {
         /// Rejected value [-].
@@ -50,14 +43,13 @@ pub enum BeamError {
         /// Ratio of the longest span to the shortest [-].
         ratio: f64,
     },
-    /// Error of the axis or mesh.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
     #[error(
         "the axis has no tangent at parameter {parameter}: its derivative vanishes there; use more spans or elements, or move the control points apart"
     )]
     NoTangent {
-        /// Parameter of the point [-].
+        /// Parameter of the mesh at the point without a tangent [-].
         parameter: f64,
     },
 }

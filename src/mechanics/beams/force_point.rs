@@ -1,6 +1,4 @@
 //! Quadrature point for the axial and shear strain `Γ`, with its state between two steps and its static tangent stiffness.
-//!
-//! The module [`force_points`](super::force_points) evaluates the quadrature point within a step.
 
 use super::axis_point::AxisPoint;
 use super::span_stiffness::{SpanStiffness, StrainKind};
@@ -38,8 +36,6 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Adds the rows of axial and shear strain to the static stiffness of the span.
-    /// If the section force is not zero, the rows of the geometric stiffness are also added.
     pub(super) fn write_static_rows(&self, section: &Section, span: &mut SpanStiffness) {
         let w = self.axis.weight;
         let row = |by_gradient: Vec2, by_rotation: f64| -> [[f64; 3]; N] {
@@ -93,7 +89,6 @@ impl<const N: usize> ForcePoint<N> {
     pub(super) fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.gradient.x, self.gradient.y, self.rotation.cos, self.rotation.sin]);
         // The strain is stored because a strain computed from the configuration has rounding errors.
-        // The stored initial strain is exactly zero.
         state.extend([self.last_force.x, self.last_force.y, self.strain.x, self.strain.y]);
     }
 

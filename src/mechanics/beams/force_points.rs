@@ -1,8 +1,7 @@
 //! Quadrature points for the axial and shear strain in vector lanes.
 //! The section force is an independent unknown (docs/theory.md, section 11).
 //!
-//! Each quadrature point stores the derivative of its position and its rotation, and updates them by increments.
-//! Due to the updates by increments, the rounding errors of strains do not depend on the distance of a beam from the origin.
+//! The derivative of each position is updated by increments, so rounding errors of strains do not depend on the distance from the origin.
 
 use pulp::Simd;
 

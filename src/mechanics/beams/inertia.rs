@@ -1,5 +1,4 @@
 //! Inertia matrix of a beam, stored by diagonals.
-//! In a product, each diagonal multiplies the rates of all control points as one long vector.
 
 use std::ops::Range;
 
@@ -40,7 +39,6 @@ impl<const N: usize, I: MassIntegral> InertiaMatrix<N, I> {
         sums
     }
 
-    /// Adds `factor · M · rates` to the forces on a range of control points, where `M` is the inertia matrix.
     pub(super) fn add_product(
         &self,
         points: Range<usize>,
@@ -99,7 +97,6 @@ impl<const N: usize, I> WithSimd for Diagonals<'_, N, I> {
             let end = points.end.min(first + ROWS_PER_PASS);
             for offset in 1 - N as isize..N as isize {
                 let k = offset.unsigned_abs();
-                // Entries to the left of the main diagonal are transposed entries to its right.
                 let (first, columns) = if offset < 0 {
                     (first.max(k), first.max(k) - k..end.max(k) - k)
                 } else {

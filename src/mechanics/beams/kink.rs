@@ -1,9 +1,6 @@
 //! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
 //!
 //! A point force on a shear-flexible beam causes a jump of the tangent of its axis.
-//! A smooth mesh does not represent a part of the displacement under the point force.
-//! The missing displacement equals that of a string under a point force.
-//! The string has the same basis functions, quadrature points and weights as the beam.
 //! Derivation: docs/theory.md, section 10.1.
 
 mod running;
@@ -20,19 +17,15 @@ const ROUNDING: f64 = 1e-11;
 #[derive(Debug, Clone)]
 pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length].
-    /// The kink length is the compliance that is missing on the mesh, times the shear stiffness.
+    /// The kink length is the shear stiffness times the displacement per unit force that the mesh does not represent.
     pub length: PiecewisePolynomial,
     /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
     pub inertia: f64,
 }
 
-/// Computes the part of a kink that is missing on the mesh (docs/theory.md, section 10.1).
-/// The mesh underestimates the displacement under a force across the beam.
-/// The displacement that is missing on the mesh is the kink length times the force, divided by the shear stiffness.
+/// Computes the part of the kink under a point force that the mesh does not represent (docs/theory.md, section 10.1).
 ///
-/// The kink length is a polynomial of twice the degree of the basis on each span, and zero at knots where the basis is only C⁰.
-/// Returns `None` if the kink length is negative somewhere, by more than rounding.
-/// The kink length may be negative if the mesh has fewer quadrature points than the patch rule.
+/// The result is `None` for a negative kink length, which may occur on meshes with fewer quadrature points than the patch rule.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

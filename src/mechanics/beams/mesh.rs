@@ -10,9 +10,7 @@ use crate::geometry::{
 /// Quadrature of the axial and shear strain of a beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Quadrature {
-    /// Patch rule ([`patch_rule`]).
-    /// The number of points in each smooth section of the mesh equals the number of linearly independent derivatives of the basis functions.
-    /// The patch rule avoids locking and zero-energy modes, and passes the patch test.
+    /// Patch rule ([`patch_rule`]), which avoids locking and zero-energy modes, and passes the patch test.
     #[default]
     Patch,
     /// Fixed number of Gauss points per span. Too many points cause locking. Too few points leave zero-energy modes.
@@ -195,7 +193,7 @@ impl Mesh {
     }
 
     /// Number of quadrature points for the strain `Γ`, minus the number of linearly independent derivatives of the basis functions.
-    /// For a positive difference, the mesh locks. For a negative difference, each missing point leaves two zero-energy modes.
+    /// The mesh locks if the difference is positive, and has two zero-energy modes for each missing point if it is negative.
     fn excess_points(&self) -> isize {
         let wanted: usize = self.runs().iter().map(|run| self.derivatives(run)).sum();
         self.point_counts().force as isize - wanted as isize
@@ -216,7 +214,6 @@ impl Mesh {
         Ok(spans)
     }
 
-    /// Spans grouped into smooth runs, which end at C⁰ knots. The strains of different runs are independent.
     fn runs(&self) -> Vec<Vec<Span>> {
         let spans = self.basis.spans();
         spans.chunk_by(|a, b| self.is_smooth(a, b)).map(<[Span]>::to_vec).collect()
@@ -246,8 +243,7 @@ impl Mesh {
         }
     }
 
-    /// Number of quadrature points for the curvature `κ` per span of a smooth run.
-    /// If the run has full continuity, one point fewer than for a single polynomial is sufficient.
+    /// Number of quadrature points for the curvature `κ` per span. A run of full continuity needs one point fewer.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

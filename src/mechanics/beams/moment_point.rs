@@ -1,6 +1,4 @@
 //! Quadrature point for the curvature `κ`, with its state between two steps and its static tangent stiffness.
-//!
-//! The module [`moment_points`](super::moment_points) evaluates the quadrature point within a step.
 
 use super::Section;
 use super::axis_point::AxisPoint;

@@ -1,7 +1,6 @@
 //! Quadrature points for the curvature in vector lanes. The bending moment is an independent unknown (docs/theory.md, section 11).
 //!
-//! A bending moment computed from increments would have the rounding error of the increments times the bending stiffness.
-//! In a stiff beam, the rounding error of such a bending moment exceeds the forces in the balance.
+//! In a stiff beam, the rounding error of a bending moment computed from increments would exceed the forces in the balance.
 
 use pulp::Simd;
 

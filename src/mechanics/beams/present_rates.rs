@@ -1,6 +1,5 @@
 //! Strain rates at the end of a step, accurate even if the steps are longer than the relaxation time of the dashpots.
 //!
-//! In the energy–momentum method, a rate that decays within a step changes its sign from step to step.
 //! The mean rates of the last two steps are extrapolated to the end of the last step. The extrapolated rate has an error of second order.
 
 use super::Movement;
@@ -39,7 +38,7 @@ impl RateMismatch {
 const KEPT: f64 = 0.8;
 
 /// Largest ratio of the errors `off` and `apart`, which are stored squared, for which the steps count as resolving the rate.
-/// The ratio of the errors is smaller for vibrations whose angular frequency `ω` and step length `h` satisfy `ω h < 2`.
+/// For a vibration of angular frequency `ω`, the ratio of `off` to `apart` is below the limit if the step length `h` satisfies `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 #[derive(Debug, Clone, Default)]
@@ -52,8 +51,7 @@ pub(super) struct RateResolution {
 impl RateResolution {
     pub(super) fn fraction(&self, duration: f64) -> Option<f64> {
         let between = duration + self.before;
-        // A substep of the fourth-order method runs backwards in time.
-        // If the middles of a forward and a backward substep coincide, no interpolation between the two middles exists.
+        // No interpolation exists if the middles of a forward and a backward substep of the fourth-order method coincide.
         let is_there = duration.is_finite() && self.before * between > 0.0;
         is_there.then(|| self.before / between)
     }

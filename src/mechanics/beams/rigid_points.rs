@@ -9,7 +9,6 @@ use super::{Rotation, RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
 /// Body without elasticity: a particle, or the centre of mass of a rigid body followed by its other points.
-/// Rigid links connect the points of a rigid body to its centre of mass.
 #[derive(Debug, Clone)]
 pub struct RigidPoints {
     positions: Vec<Vec2>,

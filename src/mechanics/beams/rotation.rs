@@ -83,7 +83,7 @@ impl RotationIncrement {
 }
 
 /// Rotation `Λ = [[c, -s], [s, c]]` from the section frame to space.
-/// The type also stores the mean of two rotations, for which `c² + s²` is less than 1.
+/// A `Rotation` may also be the mean of two rotations, for which `c² + s²` is less than 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rotation<T = f64> {
     /// Cosine `c` of the angle, or a mean of two cosines.
@@ -132,7 +132,6 @@ impl<T: Number> Rotation<T> {
         }
     }
 
-    /// Vector `Λ a`: transforms `a` from the section frame to space.
     #[inline(always)]
     pub(crate) fn to_space<P: Planar<T>>(self, a: P) -> P {
         let (x, y) = a.components();

@@ -27,21 +27,21 @@ pub struct Section {
 pub enum SectionShape {
     /// Solid rectangle.
     Rectangle {
-        /// Width, out of the plane of motion [length].
+        /// Width of the rectangle, out of the plane of motion [length].
         width: f64,
-        /// Height, in the plane of motion [length].
+        /// Height of the rectangle, in the plane of motion [length].
         height: f64,
     },
     /// Solid circle.
     Circle {
-        /// Radius [length].
+        /// Radius of the circle [length].
         radius: f64,
     },
     /// Circular tube.
     Tube {
-        /// Outer radius [length].
+        /// Outer radius of the tube [length].
         outer: f64,
-        /// Inner radius [length].
+        /// Inner radius of the tube [length].
         inner: f64,
     },
 }
@@ -51,9 +51,9 @@ pub enum SectionShape {
 pub struct Solid {
     /// Young's modulus [force/length²].
     pub youngs_modulus: f64,
-    /// Poisson's ratio [-].
+    /// Poisson's ratio of the material [-].
     pub poisson: f64,
-    /// Density [mass/length³].
+    /// Density of the material [mass/length³].
     pub density: f64,
     /// Shape of the cross section.
     pub shape: SectionShape,

@@ -1,10 +1,7 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
-//! The forces at quadrature points satisfy the balance of a step only if integrals are replaced by sums over quadrature points.
-//! Near the ends of a beam, the error of the forces at quadrature points is of first order.
-//! This module computes section forces as weighted sums over the quadrature points.
-//! The computed section forces satisfy the balance with exact integrals.
-//! The computed section forces are projections of the exact section forces onto the derivatives of the basis functions.
+//! Near the ends of a beam, the forces at quadrature points have an error of first order.
+//! Section forces are therefore weighted sums over the quadrature points, which satisfy the balance with exact integrals.
 //! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
 
 use super::sections::{Interpolation, Sections};
@@ -18,7 +15,8 @@ const NO_WEIGHT: f64 = 1e-14;
 /// Section forces and strains at a cross section.
 ///
 /// Section forces are the forces that the following part of the beam exerts on the preceding part.
-/// The components refer to the section frame, whose first axis is the section normal. With material damping, section forces include viscous forces.
+/// Components of section forces refer to the section frame, whose first axis is the section normal.
+/// With material damping, section forces include viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
     /// Unit normal of the section [-]; zero on a particle, which has no section.

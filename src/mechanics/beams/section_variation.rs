@@ -102,7 +102,7 @@ impl SectionVariation {
     }
 
     /// Speed of the fastest axial wave, `√(EA/ρA)` [length/time].
-    /// The maximum over the positions of a taper is sufficient, because waves between these positions are not faster.
+    /// In a taper, the maximum over the given positions is used, because waves between these positions are not faster.
     pub fn axial_wave_speed(&self) -> f64 {
         self.sections().iter().map(Section::axial_wave_speed).fold(0.0, larger)
     }

@@ -1,7 +1,6 @@
 //! Vector lanes: values of consecutive quadrature points that one vector instruction processes together.
 //!
-//! Each vector lane performs the operations of one quadrature point in a fixed order, without fused multiply–add.
-//! Vectors of any width give identical results.
+//! Each vector lane performs the operations of one quadrature point in a fixed order, so that vectors of any width give identical results.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 

@@ -1,6 +1,4 @@
 //! Loops of a step over the spans of a beam, compiled for vector instructions.
-//!
-//! Several quadrature points are evaluated at once in vector lanes. The results are added span by span, in the order of the beam.
 
 use pulp::{Arch, Simd, WithSimd};
 

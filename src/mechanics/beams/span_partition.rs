@@ -1,9 +1,7 @@
 //! Division of the spans of a beam into parts that threads process concurrently, without an effect on the results.
 //!
 //! The beam is divided at control points, called cuts. A few spans have control points on both sides of a cut.
-//! The contributions of the spans at a cut are computed twice, because rounding depends on the order of additions.
-//! The first computation of a span at a cut adds only to the control points after the cut.
-//! The second computation adds only to the control points before the cut.
+//! Contributions of spans at a cut are computed twice, once for each side, because rounding depends on the order of additions.
 
 use std::ops::Range;
 

@@ -15,7 +15,7 @@ pub enum StrainKind {
 }
 
 /// Static stiffness of one span of a beam.
-/// Each row has an entry for each component (x, y, rotation) of each control point of the span.
+/// Each row of derivatives has an entry for each component (x, y, rotation) of each control point of the span.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
     /// First control point of the span.
@@ -27,8 +27,7 @@ pub struct SpanStiffness {
     pub stiffness: Vec<f64>,
     /// Type of the strain in each row; empty for bodies that are not beams.
     pub kinds: Vec<StrainKind>,
-    /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`, stored one after the other.
-    /// The rows are derivatives with respect to displacements and rotations. The unit of the product `p qᵀ` is that of a stiffness.
+    /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`. The product `p qᵀ` has the unit of a stiffness.
     pub twists: Vec<f64>,
     /// Largest relative rounding error of the section force in each pair of rows [-].
     pub rounding_fractions: Vec<f64>,

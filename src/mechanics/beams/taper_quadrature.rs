@@ -22,8 +22,7 @@ impl TaperQuadrature {
     pub const TOLERANCE: f64 = 5e-3;
 
     /// Computes the quadrature errors for the sections of a beam.
-    /// A position at a fraction of the length is evaluated at the same fraction of the parameter range.
-    /// The conversion of lengths to parameters is exact for spans of equal length.
+    /// Lengths along the beam are converted to parameters in proportion, which is exact for spans of equal length.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature.

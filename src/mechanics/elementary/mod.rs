@@ -1,10 +1,8 @@
 //! Elementary functions with identical results on every machine.
 //!
-//! The functions of the standard library call the C library of the machine, or another library at compile time.
-//! The last bit of the results of library functions may differ between machines and versions.
-//! The functions of this module use additions, multiplications, divisions and square roots only, which IEEE 754 defines exactly.
-//! All other code uses this module; `clippy.toml` rejects the functions of the standard library.
-//! Decimal rounding for messages is in `digits`.
+//! Results of the standard library, which calls the C library of the machine, may differ in the last bit between machines.
+//! This module uses only additions, multiplications, divisions and square roots, which IEEE 754 defines exactly.
+//! All other code uses the module `elementary`; `clippy.toml` rejects the functions of the standard library.
 
 mod digits;
 mod functions;

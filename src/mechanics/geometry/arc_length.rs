@@ -39,7 +39,6 @@ fn refine(
 }
 
 /// Parameter `ξ` in `[start, end]` for which the integral of `speed` from `start` to `ξ` equals `length`.
-/// The parameter is computed by Newton's method combined with bisection.
 pub(super) fn invert(
     speed: &impl Fn(f64) -> f64,
     start: f64,

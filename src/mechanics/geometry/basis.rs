@@ -88,10 +88,9 @@ impl Basis {
     }
 
     /// Basis functions of a span of this basis at any `xi`. Outside the span, their polynomials are extended.
-    /// At the ends of the span, the values of the basis functions are one-sided limits.
     ///
     /// # Panics
-    /// May panic if the span does not belong to this basis.
+    /// May panic if the given span does not belong to this basis.
     pub(crate) fn evaluate_in(&self, span: &Span, xi: f64) -> BasisValues {
         match self {
             Self::BSpline(knots) => bspline::evaluate(knots, span, xi),
@@ -99,7 +98,6 @@ impl Basis {
         }
     }
 
-    /// Point of a curve at `xi`, and its first and second derivative with respect to ξ, from the polynomials of `span`.
     pub(crate) fn curve_in(&self, span: &Span, xi: f64, points: &[Vec2]) -> [Vec2; 3] {
         match self.degree() {
             3 => self.evaluate_low::<4>(span, xi).combine(points),
@@ -137,7 +135,6 @@ impl Basis {
     }
 
     /// Interpolation parameter of each function: the Greville abscissae of splines, or the nodes of Lagrange elements.
-    /// The interpolation parameters increase strictly and include the ends of the domain.
     pub(crate) fn abscissae(&self) -> Vec<f64> {
         match self {
             Self::BSpline(knots) => knots.greville(),
@@ -147,7 +144,6 @@ impl Basis {
 
     /// Returns a basis of the same type with about `ratio` times as many spans.
     /// Breaks of reduced continuity are kept, with at least one span between two such breaks.
-    /// The spans between kept breaks have the same relative lengths as in this basis.
     ///
     /// # Errors
     /// Fails if the resulting basis has too many or too short spans.
@@ -179,8 +175,6 @@ impl Basis {
     }
 
     /// Returns the basis with continuity C⁰ at `xi`.
-    /// The multiplicity of the knot becomes `degree`, or the Lagrange element is split.
-    ///
     /// If a knot is closer to `xi` than 1e-10 of the domain, this knot is used instead of `xi`.
     /// The basis is not changed at the ends of the domain, or where it is already C⁰.
     ///

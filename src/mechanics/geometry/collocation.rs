@@ -10,7 +10,6 @@ pub(super) struct CollocationRow<R> {
 
 /// Solves a banded system by Gaussian elimination without row exchanges.
 /// The elimination is stable for the totally positive matrices of B-spline collocation (de Boor & Pinkus 1977, Numer. Math. 27).
-/// The elimination creates no additional nonzero entries, because the first and last nonzero columns never move left from one row to the next.
 pub(super) fn solve<R>(mut rows: Vec<CollocationRow<R>>) -> Vec<R>
 where
     R: Copy + Default + AddAssign + SubAssign + Mul<f64, Output = R> + Div<f64, Output = R>,

@@ -9,9 +9,8 @@ use super::{Basis, GaussRule, MAX_DEGREE, PiecewisePolynomial, Span};
 /// Basis functions along a path between two parameters of a beam, for a point that slides along the beam in a time step.
 /// The divided differences of the basis functions are accurate for paths of any length, including zero, and across breaks.
 ///
-/// Every accessor returns one value for each basis function that is nonzero somewhere on the path.
-/// Parameters and results are dimensionless.
-/// At a break, the path uses the span inside the path. A path of zero length uses the span on the right.
+/// Every accessor returns one dimensionless value for each basis function that is nonzero somewhere on the path.
+/// If an end of the path is a break, the span inside the path is used. A path of zero length uses the span on the right.
 /// Outside the domain, the polynomials of the first and the last span are extended.
 #[derive(Debug, Clone)]
 pub struct ContactPath {
@@ -23,8 +22,7 @@ pub struct ContactPath {
     numbers: Vec<f64>,
 }
 
-/// Quantity that is computed for each basis function along a path.
-/// The table of these quantities has one row for each variant, in this order.
+/// Quantity that is computed for each basis function along a path, in the order of the table rows.
 #[derive(Debug, Clone, Copy)]
 enum PathQuantity {
     Start,
@@ -42,7 +40,6 @@ struct PathSupport {
     basis: Basis,
     spans: Vec<Span>,
     kinks: Vec<usize>,
-    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the basis.
     rule: Vec<(f64, f64)>,
 }
 
@@ -63,7 +60,6 @@ struct PathPiece {
 
 impl ContactPath {
     /// Creates a path of zero length at the start of the domain of `basis`.
-    /// The constructor allocates the memory for all paths, so [`set_interval`](Self::set_interval) allocates none.
     pub fn new(basis: Basis) -> Self {
         let room = QUANTITIES * basis.functions();
         let (start, _) = basis.domain();
@@ -96,7 +92,6 @@ impl ContactPath {
         self.first = self.line.spans[low].first;
         self.length = self.line.spans[high].first + self.line.basis.degree() + 1 - self.first;
         if finite {
-            // Common polynomial degrees are compile-time constants, for speed.
             match self.line.basis.degree() {
                 1 => self.set_values::<2>(interval),
                 2 => self.set_values::<3>(interval),
@@ -139,7 +134,6 @@ impl ContactPath {
     }
 
     /// Divided differences of the basis functions: their mean derivatives over the path, accurate to rounding. The differences sum to zero.
-    /// The divided differences of a path of zero length are the derivatives of the basis functions at its start.
     pub fn difference(&self) -> &[f64] {
         self.row(PathQuantity::Difference)
     }
@@ -183,8 +177,6 @@ impl ContactPath {
         function.in_span(self.interval.arrival, self.interval.to)
     }
 
-    /// Number of spans that the path between two parameters covers, including fractions of spans.
-    /// For a path within one span, the number of spans is the length of the path divided by the length of the span.
     pub(crate) fn spans_between(&self, from: f64, to: f64) -> f64 {
         let (from, to) = if from <= to { (from, to) } else { (to, from) };
         let PathInterval { departure, arrival, .. } = self.interval(from, to);

@@ -39,7 +39,6 @@ impl Curve {
     }
 
     /// Returns the circular arc about `center` [length] with `radius` [length] between two angles from the first axis [rad].
-    /// The parameter ξ of the arc runs from 0 to 1.
     /// The arc is counter-clockwise if `to_angle` is larger than the first angle.
     ///
     /// # Errors
@@ -163,7 +162,6 @@ impl Curve {
         }
     }
 
-    /// Derivative `dx/dξ` of the curve. Fails if the derivative is zero.
     fn velocity(&self, xi: f64) -> Result<Vec2, GeometryError> {
         let velocity = self.derivative(xi, 1)?;
         let (start, end) = self.domain();

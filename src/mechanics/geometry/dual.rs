@@ -6,7 +6,7 @@ use super::Vec2;
 
 /// Number with its derivatives with respect to `SLOPES` variables.
 ///
-/// Numbers without derivatives are computed by the same operations, so that their values agree to the last bit.
+/// Numbers with and without derivatives are computed by the same operations, so that their values agree to the last bit.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dual<const SLOPES: usize> {
     pub value: f64,
@@ -25,7 +25,6 @@ impl<const SLOPES: usize> Dual<SLOPES> {
     }
 
     /// Dual number of the variable with the index `at`: its derivative with respect to this variable is one.
-    /// If the index is not below `SLOPES`, all stored derivatives are zero.
     pub fn variable(value: f64, at: usize) -> Self {
         let mut variable = Self::constant(value);
         variable.add_slope(at, 1.0);

@@ -4,7 +4,6 @@ use super::collocation::{CollocationRow, solve};
 use super::{Basis, Curve, GeometryError, Vec2};
 
 /// Returns the control points (splines) or nodes (Lagrange elements) that represent `curve` in `basis`, one per function [length].
-/// The parameter of the basis is mapped to the parameter of the curve by an affine map.
 ///
 /// The interpolation is exact for lines, and for splines with the same knots.
 /// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends of the curve.

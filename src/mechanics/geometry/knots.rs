@@ -15,8 +15,7 @@ pub const MAX_SPANS: usize = 400_000;
 const SHORTEST_SPAN: f64 = 1e-12;
 
 /// Open knot vector of degree `p`: knots `ξ_0 ≤ … ≤ ξ_m` on an interval `[a, b]`.
-/// The end knots are repeated exactly `p + 1` times.
-/// Interior knots are repeated at most `p` times, so that splines are at least continuous.
+/// End knots are repeated exactly `p + 1` times, interior knots at most `p` times, so that splines are at least continuous.
 /// Knots are dimensionless. See The NURBS Book, section 2.2.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
@@ -67,7 +66,6 @@ impl KnotVector {
 
     /// Creates a knot vector with `spans` equal spans on `[0, 1]`.
     /// Splines have `continuity` continuous derivatives at interior knots.
-    /// The multiplicity of interior knots is therefore `degree - continuity`.
     ///
     /// # Errors
     /// Fails for `spans` outside 1 to [`MAX_SPANS`], `degree` outside 1 to [`MAX_DEGREE`], or `continuity` not below `degree`.

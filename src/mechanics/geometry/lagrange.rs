@@ -11,7 +11,6 @@ use super::{GeometryError, Span};
 const LARGEST_DEGREE: usize = 3;
 
 /// Continuous piecewise Lagrange polynomials with `degree + 1` equally spaced nodes per element.
-/// Neighbouring elements share a node, so there are `elements · degree + 1` nodes and as many functions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "(usize, Vec<f64>)")]
 pub struct LagrangeBasis {

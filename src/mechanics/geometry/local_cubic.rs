@@ -8,7 +8,6 @@ const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
 /// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle of every piece has the same value.
-/// The interpolating curve is C¹ on `[0, 1]`, with `2n + 2` control points and double interior knots.
 ///
 /// # Errors
 /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
@@ -54,7 +53,6 @@ fn common_speed(chord: Vec2, tangent_sum: Vec2) -> f64 {
 
 /// Unit tangents at the points between consecutive `chords` and at both ends.
 /// Akima's rule computes a tangent from two chords on either side (The NURBS Book, equations 9.29 and 9.31).
-/// Equation 9.33 of The NURBS Book gives the additional chords beyond the ends of the curve.
 fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     let count = chords.len();
     let before = continued(chords[0], chords[1.min(count - 1)]);
@@ -63,10 +61,8 @@ fn tangents(chords: &[Vec2]) -> Vec<Vec2> {
     all.windows(4).map(|chords| akima_tangent(chords[0], chords[1], chords[2], chords[3])).collect()
 }
 
-/// Returns two additional chords beyond an end of the curve, extrapolated from the last two chords.
-/// The NURBS Book uses the chord `2 near - far`, computed from the chord `near` at the end and the next chord `far`.
-/// The function `continued` first scales the chord `far` to the length of `near`, which changes nothing for equally spaced points.
-/// Without the scaling of chords, a curve through unequally spaced points could start backwards.
+/// Two additional chords beyond an end of the curve, extrapolated from the last two chords (The NURBS Book, equation 9.33).
+/// The chord `far` is scaled to the length of `near`. Without scaling, a curve through unequally spaced points could start backwards.
 fn continued(near: Vec2, far: Vec2) -> [Vec2; 2] {
     let next = |near: Vec2, far: Vec2| 2.0 * near - near.norm() / far.norm() * far;
     let first = next(near, far);

@@ -9,7 +9,6 @@ pub struct PiecewisePolynomial {
     spans: Vec<(f64, f64)>,
     coefficients: Vec<f64>,
     count: usize,
-    /// Quadrature points and weights on `[0, 1]`, exact for polynomials of one degree less than the function.
     rule: Vec<(f64, f64)>,
 }
 
@@ -43,7 +42,6 @@ impl PiecewisePolynomial {
     }
 
     /// Creates the integral of a function over consecutive spans, starting at the first span.
-    /// On each span, the function is interpolated at `points` Gauss points.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);
         let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();

@@ -28,8 +28,7 @@ impl GaussRule {
         }
     }
 
-    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29).
-    /// The points are computed by Newton's method from Tricomi's estimate.
+    /// Gauss–Legendre rule with `n` points (Abramowitz & Stegun 25.4.29), computed by Newton's method from Tricomi's estimate.
     pub(super) fn legendre(n: usize) -> Self {
         let (mut points, mut weights) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n.div_ceil(2) {
@@ -59,7 +58,6 @@ impl GaussRule {
     }
 }
 
-/// Legendre polynomial `P_n(x)` and its derivative `P'_n(x)` for `|x| < 1`, by the three-term recurrence.
 fn legendre_polynomial(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (1.0, x);
     for k in 2..=n {

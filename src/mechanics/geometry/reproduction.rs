@@ -5,7 +5,6 @@ use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
 /// Function space spanned by the derivatives of the basis functions of a run of spans, with the matrix of their scalar products.
 ///
-/// The scalar products of a function with the elements of the space determine the projection of the function onto the space.
 /// For smooth functions, the projection error decreases as the span length to the power of the degree, up to the ends of the run.
 #[derive(Debug, Clone)]
 pub struct LowerSplines {
@@ -105,7 +104,6 @@ impl Reproduction<'_> {
         self.combine(&self.kernel, span, &self.splines.basis.evaluate_in(span, xi))
     }
 
-    /// Projection of the integral of the kernel onto the space, minus this integral, at a parameter of a span.
     pub(crate) fn projection_error(&self, span: &Span, xi: f64) -> f64 {
         let values = self.splines.basis.evaluate_in(span, xi);
         let functions = values.values().iter().zip(&self.integral[self.splines.first(span)..]);

@@ -13,7 +13,6 @@ const EQUAL: f64 = 1e-9;
 /// The patch rule has as many points as the basis functions have linearly independent derivatives, and integrates all derivatives exactly.
 ///
 /// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
-/// The quadrature points of a single span are the Gauss points.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the quadrature weights are positive. There is no proof.
 /// Returns `None` if rounding hides a zero, or if a weight is not positive. No such spans are known.
@@ -57,7 +56,6 @@ fn middles(run: &[Span]) -> Option<Vec<Vec<f64>>> {
 
 /// Values of the splines of one degree less, computed as sums of derivatives of the basis functions.
 /// Each spline of one degree less is a positive multiple of a B-spline, and its integral is one.
-/// If the basis functions `a` to `a + p` are nonzero on a span, the splines `a` to `a + p - 1` are nonzero on it.
 pub fn lower_splines(values: &BasisValues) -> impl Iterator<Item = f64> + '_ {
     let partial = values.slopes().iter().scan(0.0, |sum, slope| {
         *sum -= slope;
@@ -108,7 +106,6 @@ fn orthogonal_spline(basis: &Basis, run: &[Span]) -> Option<Vec<f64>> {
 }
 
 /// Parameters in a span, from -1 to 1, between which zeros are searched.
-/// The parameters are denser towards the ends of the span, like Gauss points, so that at most one zero lies between two of them.
 fn places(degree: usize) -> Vec<f64> {
     let count = 8 * (degree + 1);
     let place = |at: usize| {
@@ -182,8 +179,7 @@ impl Polynomial {
     }
 }
 
-/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run exactly.
-/// Returns `None` if no finite weights integrate all derivatives exactly.
+/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run exactly; `None` if they are infinite.
 /// Reference: F. Auricchio et al., Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);

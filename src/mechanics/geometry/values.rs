@@ -10,8 +10,7 @@ pub(super) type FunctionRow = [f64; WIDTH];
 
 const ZERO: FunctionRow = [0.0; WIDTH];
 
-/// The `degree + 1` nonzero basis functions of one span at one parameter, with all their derivatives with respect to ξ.
-/// All other basis functions are zero at this parameter. Values are dimensionless and need no allocated memory.
+/// The `degree + 1` nonzero basis functions of one span at one parameter, with all their derivatives with respect to ξ [-].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisValues {
     /// Index of the first nonzero basis function.
@@ -63,8 +62,7 @@ impl BasisValues {
 
 fn combine(order: usize, derivatives: &[f64], points: &[Vec2]) -> Vec2 {
     let points = &points[..derivatives.len()];
-    // The derivatives sum to zero, so the origin of the points affects rounding only.
-    // The rounding error is smallest for an origin near the points.
+    // The derivatives sum to zero, so the origin affects only the rounding error, which is smallest for an origin near the points.
     let origin = if order == 0 { Vec2::zeros() } else { points[0] };
     derivatives.iter().zip(points).map(|(n, point)| *n * (point - origin)).sum()
 }

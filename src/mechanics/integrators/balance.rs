@@ -6,13 +6,11 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest allowed rotation increment `Δω`, which is the mean angular velocity times the step length.
-/// For larger rotation increments, the direction of rotation is ambiguous.
+/// Largest allowed rotation increment `Δω`. For larger rotation increments, the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.
-/// If the master rotates by about π in a step, the chord in the mean configuration is short.
-/// The contact equations then have no defined direction, and spurious solutions exist.
+/// A master that rotates by about π in a step has an almost zero chord, and the contact equations have spurious solutions.
 const SHORTEST_CHORD: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]

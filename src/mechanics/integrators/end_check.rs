@@ -26,7 +26,6 @@ impl Integrator for EndCheck {
     }
 }
 
-/// Checks the state at the end of a step. If the check fails, the mechanism returns to its saved state.
 pub(super) fn accept_end(
     mechanism: &mut dyn Mechanism,
     interval: Interval,

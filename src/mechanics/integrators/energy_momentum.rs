@@ -6,7 +6,7 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Energy–momentum method, which conserves energy, linear and angular momentum to rounding for any step size.
 /// Conservation follows from midpoint kinematics with tangent-scaled rotations and averaged section forces.
-/// The method is of second order (docs/theory.md, section 6).
+/// The energy–momentum method is of second order (docs/theory.md, section 6).
 ///
 /// Reference: N. Stander & E. Stein, Eng. Comput. 13 (1996) 60–85 (planar finite beam element for flexible mechanisms).
 /// Reference: J. C. Simo, N. Tarnow & M. Doblaré, Int. J. Numer. Methods Eng. 38 (1995) 1431–1473.

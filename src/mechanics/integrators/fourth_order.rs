@@ -5,8 +5,7 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Lengths of the first three of seven substeps, as fractions of the step. The last three have the same lengths in reverse order.
 ///
-/// The selected substep lengths satisfy the conditions for a method of fourth order.
-/// With the selected substep lengths, slow loads do not excite vibrations with a phase of 2π or 4π per step (theory.md 8.3).
+/// With the substep lengths `SHARES`, slow loads do not excite vibrations with a phase of 2π or 4π per step (docs/theory.md, section 8.3).
 const SHARES: [f64; 3] =
     [0.161_052_153_814_088_86, 0.193_890_122_365_726_64, 0.426_192_546_250_769_94];
 
@@ -17,7 +16,7 @@ const ENDS: [f64; 7] = {
 };
 
 /// Fourth-order method. A step consists of seven energy–momentum substeps, of which the fourth runs backwards in time.
-/// Each substep conserves energy, linear and angular momentum to rounding. Therefore, the whole step conserves these quantities.
+/// Each substep, and therefore the whole step, conserves energy, linear and angular momentum to rounding.
 /// The leading errors of the substeps cancel, because the cubes of the substep lengths sum to zero (docs/theory.md, section 8.3).
 ///
 /// Reference for composition methods: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151–168.

@@ -8,10 +8,9 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Generalized-α method of second order: Newmark's formulas, with inertia and forces balanced at different times (docs/theory.md, section 8.4).
 /// The amplitudes of the highest frequencies are multiplied by about `ρ∞` in each step. The damping of low frequencies is very small.
-/// The method conserves neither energy nor momenta.
+/// Generalized-α conserves neither energy nor momenta.
 ///
-/// Accelerations are part of the state. Accelerations are unknown at the start, after an impact, and at a jump of a load.
-/// A step of the trapezoidal rule determines unknown accelerations.
+/// A step of the trapezoidal rule determines accelerations that are unknown: at the start, after an impact and at a jump of a load.
 ///
 /// Reference: J. Chung & G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375.
 #[derive(Debug, Clone)]
@@ -48,7 +47,6 @@ impl GeneralizedAlpha {
     pub const STAGES: &[Stage] = &[Stage::Start, Stage::End];
 
     /// Creates the method with the parameter `ρ∞` [-], and allocates memory for a mechanism.
-    /// After this call, the state of the mechanism includes accelerations.
     pub fn new(rho_infinity: f64, mechanism: &mut dyn Mechanism, tolerance: Tolerance) -> Self {
         mechanism.accelerated().enable_accelerations();
         Self {

@@ -3,9 +3,9 @@
 /// Interval of a step or of a substep [time].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Start [time].
+    /// Start time of the interval [time].
     pub start: f64,
-    /// End [time].
+    /// End time of the interval [time].
     pub end: f64,
     /// Duration of the interval, stored because the difference of two large times is less accurate [time].
     duration: f64,

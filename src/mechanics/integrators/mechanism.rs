@@ -7,18 +7,16 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step.
-    /// The factor of a load is replaced by a linear function of time whose mean and change in the step are those of the factor.
-    /// At the stage `Start`, the load has the value of the linear function at the start of the step.
+    /// Start of the step. A load has the start value of a linear function of time with the mean and the change of the load in the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
-    /// The work of the internal forces at this stage is exactly the change of the strain energy in the step.
+    /// At the midpoint stage, the work of the internal forces is exactly the change of the strain energy in the step.
     /// References: Stander & Stein 1996; Simo, Tarnow & Doblaré 1995.
     Midpoint,
     /// Middle of the step as for [`Midpoint`](Self::Midpoint), but with section forces that belong to a later strain.
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
-    /// The value of this variant is the dissipation parameter `χ` [-].
+    /// The value of the variant `DampedMidpoint` is the dissipation parameter `χ` [-].
     DampedMidpoint(f64),
     /// End of the step. The load has the value of the linear function of [`Start`](Self::Start) at the end of the step.
     End,
@@ -26,7 +24,6 @@ pub enum Stage {
 
 impl Stage {
     /// Stages with separate load values, in the order of time.
-    /// The stage [`DampedMidpoint`](Self::DampedMidpoint) has the loads of [`Midpoint`](Self::Midpoint).
     pub const ALL: [Self; 3] = [Self::Start, Self::Midpoint, Self::End];
 }
 
@@ -60,12 +57,10 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the force corrections that would remove the present strain residuals.
-    /// The derivatives of the strains are those of the last linearisation.
+    /// Adds `weight` times the force corrections that would remove the strain residuals, with the derivatives of the last linearisation.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments.
-    /// The derivatives of the section forces are those of the last linearisation.
     fn correct_section_forces(&mut self, correction: &[f64]);
 
     /// Largest force residual, as a fraction of the forces in this step [-].
@@ -140,10 +135,8 @@ pub trait Constraints {
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
 /// Vectors of increments and rates contain the unknown degrees of freedom, followed by the constraint unknowns.
-/// The constraint unknowns are contact forces and contact positions.
-/// The constraint unknowns have no inertia. There are as many constraint equations as constraint unknowns.
-/// Force vectors also have entries for supported degrees of freedom, which are fixed or prescribed.
-/// The residual at a supported degree of freedom is the support reaction.
+/// Constraint unknowns are contact forces and contact positions. They have no inertia, and each has one constraint equation.
+/// Force vectors also have an entry for each supported degree of freedom, where the residual is the support reaction.
 /// With prescribed motions, the vectors of increments and rates end with the prescribed degrees of freedom.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.

@@ -43,7 +43,6 @@ mod tests {
     use std::f64::consts::TAU;
 
     /// Phase per step of generalized-α for the vibration `q̈ = -ω² q` with `ω Δt = angle` [rad].
-    /// The phase is measured by the zero crossings of a simulation.
     fn turn_of_generalized_alpha(rho: f64, angle: f64) -> f64 {
         let (inertia, forces) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
         let (gamma, beta) = (0.5 - inertia + forces, 0.25 * (1.0 - inertia + forces).powi(2));

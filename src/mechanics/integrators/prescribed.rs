@@ -1,7 +1,6 @@
 //! Prescribed motions of degrees of freedom, which are not unknowns.
 
 /// Prescribed motions of a mechanism in the present step, numbered after the unknowns and the constraint multipliers.
-/// All vectors of this struct are empty without prescribed motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PrescribedKinematics {
     /// Increments in the step [length, rad]. The entries for constraint multipliers come first and are zero.

@@ -31,7 +31,7 @@ pub enum Method {
     },
 }
 
-/// Property of a method: conservation of energy.
+/// Conservation of energy by an integration method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EnergyClaim {
     /// The energy is conserved to rounding.
@@ -42,7 +42,7 @@ pub enum EnergyClaim {
     Unclaimed,
 }
 
-/// Properties of a method for nonlinear problems. The exchange of energy and momenta with loads and supports is included.
+/// Conservation properties of a method for nonlinear problems, where exchange with loads and supports is taken into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
     /// Order of convergence in time.
@@ -70,15 +70,15 @@ impl Claims {
 /// Parameter of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MethodParameter {
-    /// Name in scripts.
+    /// Name of the parameter in scripts.
     pub name: &'static str,
-    /// Description as a sentence.
+    /// Description of the parameter as a sentence.
     pub meaning: &'static str,
-    /// Smallest value [-].
+    /// Smallest allowed value of the parameter [-].
     pub least: f64,
-    /// Largest value of the parameter [-]; infinite without an upper limit.
+    /// Largest allowed value of the parameter [-]; infinite without an upper limit.
     pub most: f64,
-    /// Default value [-].
+    /// Default value of the parameter [-].
     pub default: f64,
 }
 
@@ -107,7 +107,7 @@ pub struct MethodError {
 pub struct IntegratorEntry {
     /// Method with the default of its parameter.
     pub method: Method,
-    /// Name in scripts and reports.
+    /// Name of the method in scripts and reports.
     pub name: &'static str,
     /// Recommended use of the method as a sentence.
     pub summary: &'static str,
@@ -115,7 +115,7 @@ pub struct IntegratorEntry {
     pub claims: Claims,
     /// Parameter of the method; `None` for methods without a parameter.
     pub parameter: Option<MethodParameter>,
-    /// Reference to the literature.
+    /// Reference to the literature about the method.
     pub source: &'static str,
 }
 
@@ -221,8 +221,7 @@ impl Method {
         }
     }
 
-    /// Step size for which the longest substep has the duration `duration` [time].
-    /// A negative duration refers to substeps backwards in time.
+    /// Step size for which the longest substep has the given duration [time]. A negative duration refers to substeps backwards in time.
     pub fn step_with_part(&self, duration: f64) -> f64 {
         let [onwards, back] = match self {
             Self::FourthOrder => FourthOrder::LONGEST,
@@ -266,7 +265,6 @@ impl Method {
     }
 
     /// Creates the integrator, and allocates memory for a mechanism.
-    /// After this call, the state of the mechanism includes the data that the method needs.
     pub fn build(
         &self,
         mechanism: &mut dyn Mechanism,

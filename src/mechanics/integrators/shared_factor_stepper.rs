@@ -11,7 +11,6 @@ use crate::newton::{NewtonReport, Tolerance};
 /// A companion is a mechanism with the structure of the leader, and slightly different parameters and states.
 ///
 /// The step of a companion is solved iteratively, with the matrix factors of the last Newton iteration of the leader.
-/// A few corrections without factorisation reduce the error of a companion to rounding.
 #[derive(Debug, Clone)]
 pub struct SharedFactorStepper {
     leader: StepSolver,
@@ -31,8 +30,6 @@ pub struct SharedFactorWork {
     /// Statistics of the leader, which do not depend on the companions.
     pub leader: NewtonReport,
     /// Statistics of all companions together, or the error of a companion that failed.
-    /// Each Newton iteration of a companion needs an additional factorisation.
-    /// A companion needs iterations if the factors of the leader do not reduce its error sufficiently.
     pub companions: Result<NewtonReport, StepError>,
 }
 

@@ -5,8 +5,7 @@ use super::{Integrator, Interval, Mechanism, Stage, StepError};
 use crate::newton::{NewtonReport, Tolerance};
 
 /// Trapezoidal rule in terms of the increments of a step: Newmark's method with β = 1/4 and γ = 1/2 (docs/theory.md, section 8.1).
-/// The rule is of second order. It conserves linear momentum, and for linear problems also energy and angular momentum.
-/// A load is replaced by a linear function of time with the same mean over the step and the same change in the step.
+/// The trapezoidal rule is of second order. It conserves linear momentum, and for linear problems also energy and angular momentum.
 ///
 /// Reference: N. M. Newmark, A method of computation for structural dynamics, J. Eng. Mech. Div. ASCE 85 (1959) 67–94.
 #[derive(Debug, Clone)]

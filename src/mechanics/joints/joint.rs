@@ -36,19 +36,19 @@ impl Component {
 /// Nonempty set of components of the displacement and rotation of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Components {
-    /// First axis.
+    /// Displacement along the first axis.
     X,
-    /// Second axis.
+    /// Displacement along the second axis.
     Y,
     /// Rotation.
     Rotation,
-    /// Both axes.
+    /// Displacements along both axes.
     Position,
-    /// First axis and rotation.
+    /// Displacement along the first axis, and rotation.
     XRotation,
-    /// Second axis and rotation.
+    /// Displacement along the second axis, and rotation.
     YRotation,
-    /// All components.
+    /// Both displacements and the rotation.
     All,
 }
 
@@ -87,12 +87,10 @@ pub enum JointKind {
     /// Hinge, which ties positions and leaves rotations free.
     Hinge,
     /// Rigid joint, which ties positions and rotations and keeps the initial angle between the sections.
-    /// A rigid joint to the ground is a clamp.
     Rigid,
     /// Support, which fixes some components of a station and leaves the other components free.
     Support(Components),
     /// Inclined roller, which fixes the station across a unit vector that is not parallel to an axis.
-    /// The station of an inclined roller is free along the unit vector, and free to rotate.
     InclinedRoller(Vec2),
     /// Inclined guide, which is an inclined roller with fixed rotation.
     InclinedGuide(Vec2),
@@ -110,7 +108,7 @@ pub enum Partner {
 /// Joint of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// Name in messages.
+    /// Name of the joint in messages.
     pub name: String,
     /// Type of the joint, which determines the tied components.
     pub kind: JointKind,
@@ -140,8 +138,7 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate; `None` for a zero vector.
-    /// For a direction parallel to an axis, the function returns a support.
+    /// Roller that is free along a direction and free to rotate; a support for a direction parallel to an axis, `None` for a zero vector.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),
@@ -150,8 +147,7 @@ impl JointKind {
         })
     }
 
-    /// Guide that is free along a direction, with fixed rotation; `None` for a zero vector.
-    /// For a direction parallel to an axis, the function returns a support.
+    /// Guide that is free along a direction, with fixed rotation; a support for a direction parallel to an axis, `None` for a zero vector.
     pub fn guide(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::YRotation),

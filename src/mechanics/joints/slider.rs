@@ -9,7 +9,7 @@ use crate::beams::Station;
 /// A slider with a given side can only push its master, and may leave the axis of the master on that side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
-    /// Name in messages and columns.
+    /// Name of the slider in messages and columns.
     pub name: String,
     /// Slave: the sliding point.
     pub slave: Station,
@@ -19,7 +19,7 @@ pub struct Slider {
     pub track: Option<usize>,
     /// Initial arc length of the slider along the master [length].
     pub arc_length: f64,
-    /// Sliding rule.
+    /// Sliding rule of the slider.
     pub rule: SlidingRule,
     /// Behaviour of the slider at the ends of the master or track.
     pub ends: EndAction,
@@ -101,7 +101,7 @@ pub enum EndAction {
     /// The slider bounces with its coefficient of restitution. The impact conserves momentum and angular momentum.
     Bounce,
     /// A stop holds the slider at the end until the contact force becomes tensile.
-    /// Waves in the elastic bodies determine the rebound. The steps must resolve these waves.
+    /// Waves in the elastic bodies determine the rebound, so the steps must resolve these waves.
     Contact,
     /// The slider is released from its master.
     Release,

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 /// Beams that meet end to end. A slider passes from one beam to the next. On a closed track, the number of rounds is not limited.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Track {
-    /// Name in messages.
+    /// Name of the track in messages.
     pub name: String,
     /// Beams in the order of the track; at least one beam.
     pub beams: Vec<TrackBeam>,
-    /// Behaviour of the track after the last beam.
+    /// Continuation of the track after its last beam.
     pub end: TrackEnd,
 }
 
@@ -31,7 +31,7 @@ pub enum TrackDirection {
     Backward,
 }
 
-/// Behaviour of a track after its last beam.
+/// Continuation of a track after its last beam.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackEnd {
     /// The track ends.

@@ -5,12 +5,10 @@ use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
 /// Largest accepted ratio of the elimination work to the work for the same band without blocks [-].
-/// If the elimination needs more work, the order of the band is replaced.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.
 ///
-/// The order depends only on the sets of unknowns that the blocks and the distant blocks couple, not on the values of the matrix.
 /// The delayed unknowns of a block follow the last unknown that the block touches, because they have a nonzero pivot there.
 #[derive(Debug, Clone)]
 pub(super) struct Arrangement {

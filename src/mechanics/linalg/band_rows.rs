@@ -9,7 +9,6 @@ pub struct BandRows<'a> {
     pub(super) rows: Range<usize>,
     pub(super) entries: &'a mut [f64],
     pub(super) stride: usize,
-    /// Index of the diagonal entry among the stored entries of a row.
     pub(super) centre: usize,
     pub(super) half_bandwidth: usize,
 }
@@ -78,7 +77,6 @@ impl BandRows<'_> {
     }
 
     pub(crate) fn add_block(&mut self, first: usize, width: usize, values: &[f64]) {
-        // The widths for spans of degree 1 to 3 are compile-time constants, for speed.
         match width {
             6 => self.add_fixed_block::<6>(first, values),
             9 => self.add_fixed_block::<9>(first, values),

@@ -1,7 +1,6 @@
 //! Square banded matrix, and its LU factorisation with row exchanges.
 //!
-//! Rows are stored one after the other, with space for the additional nonzero entries due to row exchanges.
-//! The elimination is then a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
+//! The elimination is a sequence of short vector operations (Golub & Van Loan, Matrix Computations, 4th ed., section 4.3.5).
 
 use pulp::Arch;
 
@@ -77,7 +76,6 @@ impl BandedMatrix {
         distant + self.in_band(row, column)
     }
 
-    /// Entry of the band at `(row, column)`; zero outside the band.
     pub(super) fn in_band(&self, row: usize, column: usize) -> f64 {
         if row.abs_diff(column) > self.half_bandwidth {
             0.0

@@ -1,5 +1,4 @@
 //! Block of a local border: a few unknowns outside a band, and the band unknowns that are coupled to them.
-//! Each block is eliminated separately from the other blocks.
 //!
 //! A block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
 //! The unknowns of a block are eliminated with complete pivoting, and the Schur complement is added to the band.
@@ -24,7 +23,6 @@ pub(super) const UNTOUCHED: usize = usize::MAX;
 pub(super) struct BlockElimination<'a> {
     pub(super) blocks: &'a mut [Block],
     pub(super) band: &'a BandedMatrix,
-    /// Buffer whose entries are `UNTOUCHED` before and after each use.
     pub(super) places: &'a mut [usize],
 }
 
@@ -51,12 +49,10 @@ struct Coupling {
 #[derive(Debug, Clone)]
 pub(super) struct Block {
     pub(super) own: Vec<usize>,
-    /// Couplings of the block with unknowns of the band. An unknown may occur several times.
     couplings: Vec<Coupling>,
     corner: [[f64; BLOCK]; BLOCK],
     pub(super) touched: Vec<usize>,
     front: Vec<f64>,
-    /// Buffer for a pivot row, divided into vectors of `LANES` entries. The entries up to the pivot are zero.
     pivot_row: Vec<[f64; LANES]>,
     row_at: Vec<usize>,
     column_at: Vec<usize>,
@@ -322,7 +318,6 @@ impl Block {
         }
     }
 
-    /// Rows of the Schur complement with their indices: delayed unknowns first, then the coupled unknowns of the band.
     pub(super) fn schur_complement(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let (size, stride, first) = (self.size(), self.stride(), self.pivots);
         let rows = self.front.chunks_exact(stride).map(move |row| &row[..size]).skip(first);

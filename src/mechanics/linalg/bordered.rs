@@ -15,9 +15,7 @@ use super::{BandedLu, BandedMatrix, BlockLayout, FullBorder, LinearError, LocalB
 pub struct BorderedMatrix {
     band: BandedMatrix,
     border: Border,
-    /// Elimination of band and border together, for matrices whose band alone may be singular.
     joint_elimination: Option<JointElimination>,
-    /// Elimination from both ends, for long bands without border.
     ends: Option<Box<TwoEnded>>,
 }
 
@@ -117,8 +115,7 @@ impl Border {
     }
 
     /// Adds the couplings of an unknown of the band with consecutive unknowns of the border, starting with `first`.
-    /// The couplings are entries in a row of the border columns `B` and in a column of the border rows `C`.
-    /// In a border of blocks, all border unknowns of one call must belong to the same block.
+    /// In a border of blocks, all border unknowns of one call of `add_couplings` must belong to the same block.
     pub(crate) fn add_couplings(
         &mut self,
         at: usize,
@@ -152,7 +149,6 @@ impl Border {
         }
     }
 
-    /// Sets the units of the border row and the border unknown with the given index. The choice of pivots depends on the units.
     pub(crate) fn set_units(&mut self, at: usize, row: BorderUnit, unknown: BorderUnit) {
         match self {
             Self::Full(border) => border.set_units(at, row, unknown),
@@ -201,7 +197,7 @@ impl BorderedMatrix {
 
     /// Returns the matrix with joint elimination, which eliminates the band and the border together.
     /// Joint elimination is needed if the band without the border may be singular.
-    /// The last `full` rows and columns may have entries everywhere. These rows and columns are eliminated after all others.
+    /// The last `full` rows and columns may have entries everywhere, and are eliminated after all others.
     pub(crate) fn with_joint_elimination(self, full: usize) -> Self {
         Self {
             joint_elimination: Some(JointElimination::new(self.size(), full)),

@@ -24,7 +24,6 @@ const NOTHING: f64 = 1e-13;
 /// The matrix `A` is given by its rows and need not be symmetric.
 /// The solution is unique if `A` is positive definite, at least after the elimination of the equality pairs.
 /// The method is block principal pivoting, which exchanges all violating pairs simultaneously (Júdice & Pires 1994).
-/// The solution does not depend on the order of the pairs.
 /// If block pivoting does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors

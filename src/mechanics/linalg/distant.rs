@@ -3,7 +3,6 @@
 #[derive(Debug, Clone, Default)]
 pub(super) struct DistantBlocks {
     unknowns: Vec<usize>,
-    /// End of the unknowns of each block in the list `unknowns`.
     ends: Vec<usize>,
     entries: Vec<f64>,
 }

@@ -1,10 +1,8 @@
 //! Double-double arithmetic.
 //!
 //! References: T. J. Dekker, Numer. Math. 18 (1971) 224–242; Y. Hida, X. S. Li & D. H. Bailey, ARITH-15 (2001) 155–162.
-//! Products are split into two parts by fused multiply–add.
 //!
-//! IEEE 754 requires that a fused multiply–add operation rounds once.
-//! As a consequence of IEEE 754, hardware and software implementations of fused multiply–add give identical results.
+//! Implementations of fused multiply–add in hardware and software give identical results, because IEEE 754 requires a single rounding.
 #![allow(clippy::disallowed_methods)]
 
 use pulp::Simd;

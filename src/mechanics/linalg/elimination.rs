@@ -1,11 +1,9 @@
 //! Gaussian elimination of a banded matrix by panels of columns.
 //!
-//! A panel of columns is eliminated without row exchanges if all multipliers are small.
-//! The size of the multipliers depends only on the panel (threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2).
-//! The rows below a panel are updated once for the whole panel, without additional nonzero entries.
+//! A panel of columns is eliminated without row exchanges if all multipliers are small. The multipliers depend only on the panel.
+//! Reference for threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! In a matrix with a profile, entries outside the profile are skipped.
 //! Row exchanges and additional nonzero entries stay inside the profile, because the ends of its rows do not decrease from row to row.
 
 use pulp::{Simd, WithSimd};
@@ -15,7 +13,7 @@ use super::{LinearError, fixed_band};
 
 const LANES: usize = 4;
 
-/// Number of columns that are eliminated together. It equals the vector length, so that panels read and write aligned vectors.
+/// Number of columns that are eliminated together, equal to the vector length, so that panels read and write aligned vectors.
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 
@@ -54,8 +52,7 @@ impl WithSimd for Elimination<'_> {
 }
 
 /// Elimination of a matrix with a symmetric profile.
-/// The profile gives, for each index, the last row with an entry in this column, which is also the last column with an entry in this row.
-/// The values of the profile never decrease.
+/// The profile gives, for each index, the last row with an entry in the column of this index. The profile never decreases.
 pub(super) struct ProfileElimination<'a>(pub(super) ActiveRows<'a>, pub(super) &'a [usize]);
 
 impl WithSimd for ProfileElimination<'_> {

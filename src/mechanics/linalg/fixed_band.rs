@@ -1,13 +1,11 @@
 //! Elimination and substitution without row exchanges. The half-bandwidth is a compile-time constant for common beams.
-//!
-//! Every entry is computed by the same operations in the same order as with a half-bandwidth given at run time.
 
 use pulp::Simd;
 
 use super::elimination::{PANEL, PanelFactors, is_small, subtract};
 
 /// Eliminates the columns of a panel from the rows below, if earlier row exchanges have created no additional nonzero entries.
-/// Returns false without any change of the matrix if rows should be exchanged.
+/// Returns false without any change of the matrix if the panel needs row exchanges.
 #[inline(always)]
 pub(super) fn eliminate_panel<
     S: Simd,
@@ -48,8 +46,7 @@ pub(super) fn eliminate_panel<
         let l1 = (head[1] - l0 * u01) * inverses[1];
         let l2 = (head[2] - l0 * u02 - l1 * u12) * inverses[2];
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
-        // Each value is written separately, because the following loops read single values.
-        // Reading a vector that was written in several pieces would stall the processor.
+        // Each value is written separately, because reading a vector that was written in several pieces would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
         let size = sizes_below[index];
         are_small &=

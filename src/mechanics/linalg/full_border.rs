@@ -6,7 +6,6 @@
 //! ```
 //!
 //! The border may have entries anywhere without changing the width of the band (Govaerts & Pryce, BIT 30 (1990) 490–507).
-//! The solution is not refined here. The caller can correct the solution with the same factors.
 
 use super::{BandedLu, BandedMatrix, BorderShape, BorderUnit, LinearError};
 use crate::elementary::square;
@@ -157,7 +156,6 @@ impl FullBorder {
         Ok(FullLu { width: *width, band, solved: strips, rows, complement })
     }
 
-    /// Replaces the border columns `B` by `Z = A⁻¹ B`, and the corner `D` by `D - C Z`.
     fn eliminate(&mut self, band: &BandedLu<'_>) {
         for strip in &mut self.strips {
             if let Some(first) = strip.first_row {
@@ -174,7 +172,6 @@ impl FullBorder {
 }
 
 impl FullLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let (x, z) = x.split_at_mut(x.len() - self.width);
         self.band.solve(x);

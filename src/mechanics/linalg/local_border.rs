@@ -1,6 +1,5 @@
 //! Border of many blocks. Each block is coupled to few unknowns of the band and is eliminated separately.
 //!
-//! The work of the elimination is proportional to the number of blocks and unknowns.
 //! In each factorisation, the blocks may be coupled to different unknowns of the band.
 
 use std::sync::Arc;
@@ -167,7 +166,6 @@ fn add_schur_complement(
 }
 
 impl LocalLu<'_> {
-    /// Replaces the right-hand side `x` by the solution. The entries of the border are last in `x`.
     pub(super) fn solve(&mut self, x: &mut [f64]) {
         let Arrangement { position, delayed, .. } = self.arrangement;
         let (x, z) = x.split_at_mut(position.len());

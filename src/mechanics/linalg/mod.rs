@@ -1,5 +1,4 @@
 //! Matrices of a time step: banded storage, LU factorisation with row exchanges, borders for couplings across the band, and bandwidth reduction.
-//! Matrices for vibrations: symmetric matrices, some with 32 digits.
 
 mod arrangement;
 mod band_rows;

@@ -1,7 +1,6 @@
 //! Symmetric band matrix with about 32 digits, and its elimination.
 //!
 //! The stiffness of a slender beam is a sum `Bᵀ C B` of terms with very different magnitudes. For soft modes, the large terms cancel.
-//! With 16 digits, rounding would destroy the small stiffness of soft modes.
 //! With 32 digits, the stiffness of soft modes and the signs of the pivots of `L D Lᵀ` are accurate.
 
 use pulp::{Arch, Simd, WithSimd};

@@ -1,7 +1,6 @@
 //! Matrix with a profile, and its LU factorisation with row exchanges.
 //!
-//! The profile can be changed without allocating memory, because the couplings of unknowns may change.
-//! Storage and elimination of rows are the same as those of a [`BandedMatrix`](super::BandedMatrix).
+//! The couplings of unknowns may change, so the profile can be changed without allocating memory.
 
 use pulp::Arch;
 
@@ -43,7 +42,6 @@ impl ProfileMatrix {
         self.storage.remake(ends.len(), reach);
     }
 
-    /// Adds `value` to the entry at `(row, column)`, which must lie in the profile.
     #[inline]
     pub(super) fn add(&mut self, row: usize, column: usize, value: f64) {
         debug_assert!(self.ends[row.min(column)] >= row.max(column), "({row}, {column})");

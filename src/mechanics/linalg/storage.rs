@@ -6,8 +6,7 @@ use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
 /// Upper limit of the squared size of a constraint row, as a multiple of the second largest squared scaled entry of the row [-].
-/// At this limit, the elimination loses at most half of the digits.
-/// Corrections with the same factors recover the lost digits.
+/// At the limit `LARGEST_RATIO`, the elimination loses at most half of the digits, which corrections with the same factors recover.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.
@@ -111,8 +110,7 @@ impl Storage {
 
     /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
     /// The row of a constraint has no diagonal entry. Its size is its largest scaled entry, limited by [`LARGEST_RATIO`].
-    /// Without the limit, a column with a negligible diagonal entry would use this inaccurate entry as pivot.
-    /// A row that is coupled only to constraints is treated like the row of a constraint.
+    /// Without the limit `LARGEST_RATIO`, a column with a negligible diagonal entry would use this inaccurate entry as pivot.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;

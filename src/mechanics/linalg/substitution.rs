@@ -35,7 +35,6 @@ impl WithSimd for Forward<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factors, x } = self;
-        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants, for speed.
         match factors.reach {
             6 => substitute_forward_fixed::<6, 22>(&factors, x),
             8 => substitute_forward_fixed::<8, 28>(&factors, x),

@@ -78,7 +78,6 @@ impl WithSimd for SymmetricElimination<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        // The half-bandwidths of beams of degree 1 to 3 are compile-time constants, for speed.
         match self.band.half_bandwidth {
             5 => self.run(simd, 5),
             8 => self.run(simd, 8),

@@ -68,7 +68,6 @@ impl BandCut {
 }
 
 impl TwoEnded {
-    /// Allocates the memory if the band is long enough. Returns `None` for shorter bands.
     pub(super) fn worthwhile(size: usize, half_bandwidth: usize) -> Option<Self> {
         (size >= FEWEST_ROWS && size > 16 * half_bandwidth).then(|| Self::new(size, half_bandwidth))
     }

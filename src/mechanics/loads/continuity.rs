@@ -1,6 +1,6 @@
 //! Check that prescribed motions given by script functions are continuous.
 //!
-//! At the start, the ratio of the changes at two small times distinguishes jumps, infinite rates and smooth functions.
+//! At the start, the ratio of the changes up to two small times distinguishes jumps, infinite rates and smooth functions.
 //! Within a step, the interval with the largest difference is bisected. For a jump, the remaining difference is constant.
 
 use super::{LimitSide, LoadError, Schedule};
@@ -13,15 +13,15 @@ const ROUNDINGS: f64 = 1e3;
 const CLOSE: [i32; 2] = [12, 13];
 
 /// Smallest ratio of the change up to the nearer sampling time to the change up to the farther one that counts as a jump.
-/// The ratio of the two changes is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
+/// The ratio of the changes up to the two sampling times is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
 /// Number of bisections before the first of two differences is recorded, and between the two records.
 const HALVINGS: usize = 15;
 
-/// Smallest ratio of the second recorded difference to the first one that counts as a jump.
-/// The ratio of the two differences is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// Smallest ratio of the difference after the second bisections to the difference after the first bisections that counts as a jump.
+/// The ratio of the differences after the bisections is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 const JUMP_RATIO: f64 = 1.05;
@@ -46,8 +46,7 @@ impl Jump {
     }
 }
 
-/// Jump or infinite rate of a schedule just after t = 0.
-/// Returns `None` if the schedule is smooth, has no script function, or if the values are too close for a decision.
+/// Jump or infinite rate of a schedule just after t = 0; `None` if it is smooth, has no script function, or a decision is impossible.
 pub(super) fn jump_at_start(schedule: &Schedule) -> Result<Option<Jump>, LoadError> {
     if !may_jump(schedule) {
         return Ok(None);
@@ -91,7 +90,6 @@ pub(super) fn jump_between(
     Ok(jumps.then_some(Jump { time, before, after, is_jump: true }))
 }
 
-/// Bisects an interval several times. Each bisection keeps the half with the larger difference.
 fn halve(schedule: &Schedule, ends: &mut [(f64, f64); 2]) -> Result<(), LoadError> {
     for _ in 0..HALVINGS {
         let [(t0, v0), (t1, v1)] = *ends;

@@ -49,11 +49,10 @@ pub enum LoadError {
         "table: the time of row {row} ({time}) is smaller than the previous one ({before}); times must not decrease (repeat a time for a jump)"
     )]
     DecreasingTimes {
-        /// Index of the row, counted from 0.
         row: usize,
-        /// Time of the row [time].
+        /// Time in the invalid row of a table [time].
         time: f64,
-        /// Time of the previous row [time].
+        /// Time in the previous row of the table [time].
         before: f64,
     },
     #[error("a stored schedule has missing or superfluous terms")]
@@ -78,9 +77,9 @@ pub enum LoadError {
     Function(FunctionError),
     #[error("the schedule is {value} at t = {}, but it must be finite", rounded_to(6, *time))]
     NotFinite {
-        /// Time of the value [time].
+        /// Time at which the value is not finite [time].
         time: f64,
-        /// Value of the schedule [-].
+        /// Value of the schedule that is not finite [-].
         value: f64,
     },
 }

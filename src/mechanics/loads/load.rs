@@ -59,7 +59,7 @@ impl LoadKind {
 /// Load of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Load {
-    /// Name in messages.
+    /// Name of the load in messages.
     pub name: String,
     /// Type of the load, with its station or beam.
     pub kind: LoadKind,

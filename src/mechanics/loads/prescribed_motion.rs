@@ -57,7 +57,7 @@ const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 2
 /// Largest jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
-/// Factor in the bound of the rounding error of a rate: the rounding error of the values of the motion is multiplied by it.
+/// Factor by which the rounding error of the values of a motion is multiplied in the bound of the rounding error of its rate.
 const ROUNDINGS: f64 = 1e3;
 
 /// Ratio of consecutive time spans in the computation of initial derivatives. The first time span is one unit of time.
@@ -86,7 +86,6 @@ impl PrescribedMotion {
     ///
     /// A prescribed rate is integrated by [`Schedule::mean`].
     /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
-    /// If the function of time has kinks at the ends of a step, values beyond the kinks do not affect the rate.
     ///
     /// # Errors
     /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.

@@ -38,11 +38,11 @@ pub enum Schedule {
     Table(Vec<(f64, f64)>),
     /// Factor `amplitude · sin(rate · t + phase)` at the time `t`.
     Sine {
-        /// Amplitude [-].
+        /// Amplitude of the sine [-].
         amplitude: f64,
-        /// Angular frequency [rad/time].
+        /// Angular frequency of the sine [rad/time].
         rate: f64,
-        /// Phase at time zero [rad].
+        /// Phase of the sine at time zero [rad].
         phase: f64,
     },
     /// Pulse `16/5 sin⁶(π t/duration)` for 0 < t < duration, otherwise 0. Its mean is one, and five derivatives are continuous.
@@ -52,27 +52,26 @@ pub enum Schedule {
     },
     /// Function of time with declared breaks.
     Function {
-        /// Function of time.
+        /// Script function that gives the factor at a time.
         function: ScheduleFunction,
-        /// Times of jumps and kinks [time].
+        /// Times of jumps and kinks of the function [time].
         breaks: Vec<f64>,
     },
-    /// Command of a controller that is sampled at every step, constant within the step.
-    /// The caller sets the command at the start of the step.
+    /// Command of a controller that is sampled at the start of every step, constant within the step.
     Sampled(Rc<Cell<f64>>),
     /// Command of a digital controller, constant until the next command.
     /// The caller sets the command of the controller when the command starts to act.
     DigitalController {
-        /// Cell that contains the present command.
+        /// Cell with the present command of the controller.
         value: Rc<Cell<f64>>,
         /// Clock of the controller.
         clock: SampleClock,
     },
     /// Sum or product of two schedules.
     Combined {
-        /// Operation.
+        /// Operation on the two schedules.
         operation: Operation,
-        /// Operands.
+        /// The two schedules.
         parts: Rc<(Schedule, Schedule)>,
         /// Number of elementary schedules in both operands together.
         size: usize,

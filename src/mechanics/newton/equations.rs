@@ -37,10 +37,10 @@ impl ResidualNorms {
     }
 }
 
-/// Part of the residual.
+/// Part of the residual of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ResidualPart {
-    /// Force balance.
+    /// Residual of the force balance.
     Force,
     /// Strain residual.
     Strain,
@@ -52,13 +52,12 @@ pub enum ResidualPart {
 ///
 /// The internal unknowns (section forces) are eliminated from the linear system.
 /// The elimination is the "mixed integration point" Newton method (Magisano, Leonetti & Garcea 2017).
-/// [`linearise`](Equations::linearise) eliminates the internal unknowns, and [`correct`](Equations::correct) updates them.
 pub trait Equations {
     /// Computes residual and tangent at the unknowns `u`, with the internal unknowns eliminated.
     /// Residual and tangent must be zero on entry.
     fn linearise(&mut self, u: &[f64], residual: &mut [f64], tangent: &mut BorderedMatrix);
 
-    /// Eliminates internal unknowns from a residual. A correction with earlier matrix factors needs the result.
+    /// Eliminates internal unknowns from a residual, for a correction with earlier matrix factors.
     /// The residual must be the result of the last call of [`imbalance`](Equations::imbalance).
     fn condense(&mut self, residual: &mut [f64]);
 

@@ -8,27 +8,13 @@ use crate::linalg::LinearError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NewtonError {
     #[error("Newton's method did not converge in {} iterations ({})", history.len(), describe(history))]
-    NotConverged {
-        /// Residual norms after each iteration.
-        history: Vec<ResidualNorms>,
-    },
+    NotConverged { history: Vec<ResidualNorms> },
     #[error("Newton's method produced a number that is not finite after {} iterations ({})", history.len(), describe(history))]
-    NotFinite {
-        /// Residual norms after each iteration.
-        history: Vec<ResidualNorms>,
-    },
-    /// The tangent could not be factorised.
+    NotFinite { history: Vec<ResidualNorms> },
     #[error("{source} (after {} Newton iterations)", history.len())]
-    Linear {
-        source: LinearError,
-        /// Residual norms after each iteration.
-        history: Vec<ResidualNorms>,
-    },
+    Linear { source: LinearError, history: Vec<ResidualNorms> },
     #[error("interrupted after {} Newton iterations", history.len())]
-    Interrupted {
-        /// Residual norms after each iteration.
-        history: Vec<ResidualNorms>,
-    },
+    Interrupted { history: Vec<ResidualNorms> },
 }
 
 impl NewtonError {

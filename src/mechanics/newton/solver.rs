@@ -17,11 +17,10 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// The perturbation of a parameter changes the residual norm by about 1e9 times this value.
+/// A perturbation of a parameter changes the residual norm by about 1e-5, far more than the limit `FOLLOWED`.
 const FOLLOWED: f64 = 1e-14;
 
-/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-].
-/// A larger ratio is attributed to rounding.
+/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-]. Rounding causes larger ratios.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.
@@ -34,7 +33,7 @@ pub struct Tolerance {
     /// Tolerance of the relative constraint violation [-].
     pub constraint: f64,
     /// Largest residual norm that is attributed to rounding [-].
-    /// A converged solution with a larger residual norm is corrected again with the last factors.
+    /// A converged solution whose residual norm exceeds `polish` is corrected again with the last factors.
     pub polish: f64,
     /// Largest number of iterations.
     pub iterations: usize,
@@ -183,7 +182,6 @@ impl Newton {
     }
 
     /// Solves the equations almost to rounding error with the factorised tangent of similar equations.
-    /// The iteration starts from the solution of the similar equations.
     /// If the iteration with shared factors does not converge, it is continued by [`solve`](Self::solve).
     pub(crate) fn solve_with_shared_factors(
         &mut self,

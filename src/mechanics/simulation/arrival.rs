@@ -58,7 +58,6 @@ impl ArrivalKind {
 
 impl Arrival {
     /// Description of the arrival, such as `slider 'ring' bounced off the end of its beam at t = 1.5`.
-    /// For sliders on tracks, the description contains the name of the beam.
     pub fn describe(&self, slider: &str, beam: Option<&str>) -> String {
         let end = self.end.map_or_else(String::new, |end| format!("the {} of ", end.name()));
         let beam = beam.map_or_else(|| "its beam".to_owned(), |name| format!("beam '{name}'"));

@@ -80,7 +80,6 @@ impl AxisStation {
     }
 
     /// Elongation of the axis, `|r'| / |r0'| - 1` [-], with the derivatives `r'` and `r0'` of the present and the initial position.
-    /// For small shear, the elongation equals the axial strain.
     pub fn stretch(&self, points: &[Vec2]) -> f64 {
         self.values.combine(1, points).norm() / self.drawn_slope.norm() - 1.0
     }

@@ -5,11 +5,11 @@ use super::Sample;
 /// Standard column of every history.
 #[derive(Debug, Clone, Copy)]
 pub struct Column {
-    /// Name of the column.
+    /// Name of the column of the history.
     pub name: &'static str,
-    /// Dimension of the values.
+    /// Dimension of the values of the column.
     pub dimension: &'static str,
-    /// True if the values describe the motion of the scene. False if they describe its computation.
+    /// True if the values describe the motion of the scene. False if they describe the computation of the motion.
     pub is_of_motion: bool,
     /// Function that reads the value of the column from a row.
     pub value: fn(&Sample) -> f64,
@@ -20,7 +20,7 @@ pub struct Column {
 pub struct ExtraColumn {
     /// Name of the column: object and quantity, such as `slider1.force`.
     pub name: String,
-    /// Dimension of the values.
+    /// Dimension of the values of the column.
     pub dimension: &'static str,
 }
 

@@ -4,11 +4,9 @@ use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
 /// Branches on which springs with sharp corners in their laws are at the start, in the middle and at the end of a step.
-/// At the end of a step, the whole step and the two half steps may give different branches.
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its branch within a step, the error of the step is increased.
-/// The increase is the difference of the rates after the whole step and after the half steps, times the duration of the step.
+/// If a spring changes its branch in a step, the rate difference after whole and half steps, times the duration, is added to the error.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

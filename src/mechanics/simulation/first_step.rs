@@ -16,8 +16,7 @@ const SHORTEST_WAY: f64 = 1e-3;
 /// For isolated particles, the scale is the distance `v²/g`, in which gravity `g` generates the start speed `v`.
 /// If the distance `v²/g` is very short, the length scale is the largest distance of a body from the origin.
 ///
-/// A scene may have no length scale, for example a particle that starts at the origin almost at rest.
-/// Without a length scale, the function returns 1 [length]. Only for such a scene, the steps depend on the unit of length.
+/// For a scene without length scale, such as a particle that starts at the origin almost at rest, the function returns 1 [length].
 pub(super) fn length_of(scene: &Scene) -> f64 {
     let is_length = |length: &f64| *length > 0.0 && length.is_finite();
     let places = scene.particles.iter().map(|particle| particle.position);

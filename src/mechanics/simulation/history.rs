@@ -81,7 +81,6 @@ pub struct DriftScales {
 pub struct History {
     samples: Vec<Sample>,
     extra_columns: Vec<ExtraColumn>,
-    /// Values of the additional columns, row by row.
     extra: Vec<f64>,
     scales: DriftScales,
 }

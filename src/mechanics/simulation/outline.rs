@@ -22,7 +22,7 @@ pub struct Outline {
 /// Configuration of a scene for drawing, given by the coordinates of points [length].
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnConfiguration {
-    /// Time [time].
+    /// Time of the configuration [time].
     pub time: f64,
     /// Polyline of each beam [length].
     pub lines: Vec<Vec<Vec2>>,

@@ -14,13 +14,12 @@ use crate::newton::NewtonReport;
 pub struct WorkCounts {
     /// Number of successful steps. Two half steps that are compared with a whole step count as one step.
     pub steps: usize,
-    /// Number of Newton iterations of successful steps. Each iteration has a new factorisation.
+    /// Number of Newton iterations of successful steps.
     /// For variable steps, the Newton iterations of the whole step and its two halves are included.
     pub newton_iterations: usize,
     /// Number of corrections in successful steps. Corrections reuse earlier factors of the matrix.
     pub corrections: usize,
-    /// Largest number of Newton iterations in one step.
-    /// For variable steps, the Newton iterations of the whole step and its two halves are added.
+    /// Largest number of Newton iterations in one step. The iterations of a whole variable step and its two halves are added.
     pub newton_max: usize,
     /// Number of factorisations, including those of failed attempts.
     pub factorisations: usize,

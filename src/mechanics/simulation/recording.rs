@@ -5,8 +5,6 @@ use std::num::NonZeroUsize;
 use serde::{Deserialize, Serialize};
 
 /// Rule that selects the recorded states of a run. The start, the ends of runs and the arrivals of sliders are always recorded.
-///
-/// Energies and sensors are evaluated only for recorded states. In addition, the present state has a temporary row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Recording {
     /// Every n-th step is recorded.

@@ -8,12 +8,12 @@ use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
 /// Allowed difference between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
-/// The value 4 makes the sampling error that accumulates over the time scale of a motion about half the tolerance (theory.md 13.1).
+/// The multiple 4 makes the accumulated sampling error about half the tolerance (docs/theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
 /// Error estimate for steps in which controllers are sampled at the start of each half (docs/theory.md, section 13.1).
 ///
-/// The error of the method is the difference between a whole step and two half steps with the same controller values.
+/// The error of the integration method is the difference between a whole step and two half steps with the same controller values.
 /// The second half step is repeated with controller values that are sampled in the middle of the step.
 /// The difference between the two results of the second half step is the error due to sampling.
 pub(super) struct Resampling {
@@ -69,8 +69,6 @@ impl Resampling {
         self.half_step = Some(HalfStep { plan, doubled });
     }
 
-    /// Repeats the second half of a paused step with new controller values.
-    /// The error of the step is the larger of the error of the method and the error due to sampling.
     pub(super) fn resume(
         &mut self,
         doubling: &mut StepDoubling,

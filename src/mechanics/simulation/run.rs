@@ -45,7 +45,7 @@ const MOST_SAMPLES: f64 = 1e4;
 /// Integrator, step size and tolerance of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SimulationSettings {
-    /// Integrator.
+    /// Time integrator of the simulation.
     pub method: Method,
     /// Fixed step size, or tolerance of variable steps.
     pub dt: StepSize,
@@ -174,9 +174,7 @@ impl Simulation {
         Ok(started)
     }
 
-    /// Sets the largest number of threads for large scenes.
-    /// The default number of threads is the number of cores.
-    /// Results do not depend on the number of threads.
+    /// Sets the largest number of threads for large scenes (default: the number of cores). Results do not depend on this number.
     pub fn use_threads(&mut self, most: usize) {
         self.model.divide(most);
     }

@@ -132,7 +132,6 @@ impl Sensitivities {
 
     /// Applies a release of the main run to the perturbed runs.
     /// Positions and rates are continuous at the release, and the time of the release does not depend on parameters.
-    /// A release changes only the numbering of the derivatives of the state.
     pub(super) fn release(
         &mut self,
         release: usize,

@@ -1,10 +1,8 @@
 //! Frequency spectrum of a column over time.
 //!
 //! The mean is subtracted, and the rows are weighted with a Blackman–Harris window (F. J. Harris 1978: side lobes of -92 dB).
-//! Zeros are appended to the weighted rows before the Fourier transform.
 //! A parabola through the logarithms of the three values around each maximum gives the frequency and amplitude of the maximum.
-//! The Fourier transform is computed by the algorithm of Cooley and Tukey (1965).
-//! The Fourier transform uses the sines of this crate, so that results are identical on all machines.
+//! The Fourier transform (Cooley and Tukey 1965) uses the sines of this crate, so that results are identical on all machines.
 
 use std::f64::consts::TAU;
 
@@ -129,7 +127,7 @@ impl TimeSeries {
     }
 }
 
-/// Computes the Fourier transform in place. The length must be a power of two.
+/// Computes the Fourier transform in place. The number of values must be a power of two.
 fn transform(numbers: &mut [(f64, f64)]) {
     let size = numbers.len();
     let bits = size.trailing_zeros();

@@ -5,7 +5,7 @@
 /// Time series of a quantity, with nondecreasing times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimeSeries {
-    /// Times [time].
+    /// Times of the values [time].
     pub times: Vec<f64>,
     /// Values, one for each time.
     pub values: Vec<f64>,
@@ -14,11 +14,11 @@ pub struct TimeSeries {
 /// Summary statistics of a quantity over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Summary {
-    /// Smallest value.
+    /// Smallest value of the quantity.
     pub min: f64,
     /// Time at which the smallest value first occurs [time].
     pub min_at: f64,
-    /// Largest value.
+    /// Largest value of the quantity.
     pub max: f64,
     /// Time at which the largest value first occurs [time].
     pub max_at: f64,
@@ -26,7 +26,7 @@ pub struct Summary {
     pub mean: f64,
     /// Root mean square `√(∫ f² dt / T)` of the quantity `f` over the duration `T`.
     pub rms: f64,
-    /// Integral `∫ f dt`.
+    /// Integral `∫ f dt` of the quantity `f` over time.
     pub integral: f64,
 }
 
@@ -61,7 +61,7 @@ impl TimeSeries {
     }
 
     /// Time derivative at every row, of second order also for uneven spacing.
-    /// The derivative is the slope of the parabola through the row and its neighbours.
+    /// The derivative at a row is the slope of the parabola through the row and its neighbours.
     /// In the first and the last row, the derivative is a one-sided difference quotient.
     /// A jump consists of two rows of equal time. Each row of a jump uses the difference quotient on its side of the jump.
     pub fn derivative(&self) -> Vec<f64> {

@@ -21,7 +21,6 @@ impl StepRetry {
         Self { whole, covered: 0, halvings: 0, retries: 0 }
     }
 
-    /// End of the whole step [time].
     pub(super) fn end(&self) -> f64 {
         self.whole.end
     }

@@ -22,7 +22,6 @@ pub struct StepControl {
     /// The allowed error of a position is relative to the length of the scene [-]. The allowed error of an angle is in rad.
     ///
     /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
-    /// The step size is proportional to the tolerance to the power `1/p`, and the accumulated error is proportional to the tolerance.
     pub tolerance: f64,
     /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
     pub first: Option<f64>,

@@ -17,7 +17,6 @@ const MOST_POINTS: u64 = 1 << 60;
 pub struct TimeGrid {
     start: f64,
     dt: f64,
-    /// Largest difference of two times that count as equal, unless their rounding error is larger.
     slack: f64,
     cuts: Vec<f64>,
     clocks: Vec<SampleClock>,

@@ -51,7 +51,6 @@ impl Trajectory {
 
     /// Restores the trajectory to the time when `offered` configurations had been passed to it.
     /// Configurations that were discarded because of the limit of stored values are not restored.
-    /// If the run is repeated after the restoration, the trajectory becomes the same as in the original run.
     pub fn truncate(&mut self, offered: usize) {
         self.offered = offered;
         let kept = offered.div_ceil(self.every);

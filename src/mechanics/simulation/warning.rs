@@ -42,8 +42,6 @@ impl fmt::Display for RateChangeCause {
 }
 
 /// Motion that the time steps do not resolve.
-///
-/// A new type of warning needs a variant, a message, and a condition in `Simulation::warnings`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Unresolved vibration with a large fraction of the kinetic energy.
@@ -230,7 +228,6 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Severity of the warning. Only warnings of the same type have comparable severities.
     fn measure(&self) -> f64 {
         match self {
             Self::Motion { unresolved_fraction, .. } | Self::Beam { unresolved_fraction, .. } => {

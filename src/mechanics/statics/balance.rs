@@ -78,7 +78,6 @@ impl Equations for UnderLoad<'_> {
 }
 
 /// Equations of equilibrium with the load factor as the last unknown.
-/// The additional equation describes a plane at a given distance from the last equilibrium.
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     pub(super) normal: &'a [f64],

@@ -17,7 +17,7 @@ use crate::system::{MasterEnd, Scene, System, UnknownKind};
 const MOST_HALVINGS: u32 = 8;
 
 /// Largest distance between two consecutive equilibria, as a multiple of the step length.
-/// Equilibria that are farther apart may lie on different parts of the path.
+/// Equilibria whose distance exceeds the limit `FAR` may lie on different parts of the path.
 const FAR: f64 = 2.0;
 
 /// Largest ratio of the displacements per load increment in two consecutive steps that does not count as snap-through [-].
@@ -59,7 +59,7 @@ struct PathDirection {
 
 impl PathDirection {
     /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
-    /// Otherwise, the next step may have reached another branch of the path, for example near the buckling load of a column.
+    /// A step that turns by more than a right angle may have reached another branch, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
         let along: f64 = ways.map(|((weight, before), now)| weight * before * now).sum();
@@ -175,7 +175,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Distance from the last point of the path to the turning point of the load factor.
-    /// Returns `None` unless the path crosses the requested load factor before the turning point and again after it.
+    /// The distance is `None` unless the path crosses the requested load factor before the turning point and again after it.
     /// The required equilibrium is the first point at which the path crosses the requested load factor.
     fn distance_to_turning_point(&self, goal: f64, factor: f64, distance: f64) -> Option<f64> {
         let [.., before, last] = self.path.points() else { return None };
@@ -207,7 +207,6 @@ impl<'s> Continuation<'s> {
     }
 
     /// Returns true if the last point continues the path, or if the step cannot be halved again.
-    /// With arc-length control, the path may turn and become unstable.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -252,7 +251,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a fraction of the loads, starting from the present configuration, and returns the number of iterations.
-    /// A positive `rate` adds viscous damping with this rate [1/time²].
+    /// With a positive `rate`, viscous damping with this rate acts [1/time²].
     ///
     /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
@@ -274,7 +273,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
-    /// Returns 1 if no force is unbalanced. Dynamic relaxation may then start with any rate.
+    /// The result is 1 if no force is unbalanced, because dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);
         self.model.begin_movement();
@@ -299,8 +298,6 @@ impl<'s> Continuation<'s> {
     }
 
     /// Largest allowed distance of the next equilibrium from the last equilibrium.
-    /// With load control, the allowed distance is a multiple of the distance that the last displacement per load increment predicts.
-    /// With arc-length control, the allowed distance is a multiple of the longest step.
     fn farthest(&self, factor: f64) -> f64 {
         let [.., before, last] = self.path.points() else { return f64::INFINITY };
         match self.loading.control {
@@ -359,7 +356,7 @@ pub(super) fn update_stop_contacts(
 }
 
 /// Tangent matrix of a model with `full` additional dense rows.
-/// In models with sliders, the band without contacts may be singular. Contact between bodies couples distant unknowns.
+/// Joint elimination is used in models with sliders, whose band alone may be singular, and in models with contact between bodies.
 pub(super) fn tangent(model: &System, full: usize) -> BorderedMatrix {
     let (unknowns, contacts) = (model.unknowns(), model.constraint_shape());
     let border = BorderShape {

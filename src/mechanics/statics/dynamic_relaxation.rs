@@ -11,7 +11,7 @@ const FAR: f64 = 0.15;
 const NEAR: f64 = 1e-2;
 
 /// Largest displacement in a pass that counts as zero, as a fraction of the size of the scene.
-/// After a pass with zero displacement, Newton's method is tried even if the configuration is unstable.
+/// After a pass of dynamic relaxation without displacement, Newton's method is tried even if the configuration is unstable.
 const STATIONARY: f64 = 1e-13;
 
 /// Factor by which the damping rate is multiplied after a pass with a small displacement.
@@ -25,17 +25,16 @@ const MOST_FIRST_PASSES: usize = 60;
 const MOST_PASSES: usize = 400;
 
 /// Largest total displacement over all passes, as a multiple of the size of the scene.
-/// After a larger displacement, the scene counts as a mechanism.
+/// A scene whose total displacement exceeds `ENDLESS_MOVEMENT` counts as a mechanism.
 const ENDLESS_MOVEMENT: f64 = 30.0;
 
 /// Largest number of passes in which a slider may cross the end of its master.
-/// A slider that crosses the end of its master in more passes counts as having left its master.
+/// A slider that crosses the end of its master in more than `MOST_LEAVES` passes counts as having left its master.
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
     /// Finds an equilibrium under a fraction of the loads, which the unloaded scene approaches under viscous damping.
     /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
-    /// Every pass reduces the potential energy.
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     pub(super) fn find_equilibrium(
         &mut self,

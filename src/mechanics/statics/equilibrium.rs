@@ -136,7 +136,6 @@ impl Equilibrium {
     }
 
     /// Stability of the equilibrium, determined from the signs of the pivots of the stiffness.
-    /// If the signs of the pivots are uncertain, the lowest mode determines the stability.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;

@@ -28,7 +28,6 @@ impl fmt::Display for InTime {
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StaticsError {
-    /// The scene cannot be built.
     #[error(transparent)]
     Model(#[from] SystemError),
     #[error("load '{load}': {source}")]
@@ -69,7 +68,6 @@ pub enum StaticsError {
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepFailure {
-    /// Newton's method did not converge.
     #[error(transparent)]
     Newton(#[from] NewtonError),
     #[error("the next equilibrium is far from the last one (limit point, snap-through)")]
@@ -77,9 +75,5 @@ pub enum StepFailure {
     #[error("the motion under the loads does not end (a mechanism or a missing support)")]
     Mechanism,
     #[error("slider '{slider}' would leave its beam at its {end}")]
-    LeavesMaster {
-        slider: String,
-        /// End of the master that the slider passed, such as `start`.
-        end: &'static str,
-    },
+    LeavesMaster { slider: String, end: &'static str },
 }

@@ -11,7 +11,7 @@ pub(super) const LEAST_PATH: usize = 3;
 pub struct Loading {
     /// Time at which the schedules of loads are evaluated [time]. If a schedule jumps, its value after the jump is used.
     pub time: f64,
-    /// Final load factor; 1 for the loads of the scene [-].
+    /// Final load factor [-]; 1 for the loads of the scene.
     pub factor: f64,
     /// Number of equal load steps. With arc-length control, only the first load step has this size.
     pub steps: usize,
@@ -38,7 +38,7 @@ pub enum Control {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArcLength {
     /// Longest distance between consecutive equilibria [-, rad].
-    /// The distance is the root mean square of displacements and rotations over all control points.
+    /// The distance between equilibria is the root mean square of displacements and rotations over all control points.
     /// Displacements are divided by the length of the longest beam.
     pub longest: f64,
     /// Largest number of points of the path.

@@ -5,12 +5,12 @@ use crate::system::SystemState;
 /// Equilibrium on a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPoint {
-    /// Load factor [-].
+    /// Load factor of the equilibrium [-].
     pub load_factor: f64,
-    /// Strain energy [energy].
+    /// Strain energy of the equilibrium [energy].
     pub strain_energy: f64,
     /// Distance of the equilibrium from the previous equilibrium [-, rad].
-    /// The distance is the root mean square of displacements and rotations over all control points.
+    /// The distance between equilibria is the root mean square of displacements and rotations over all control points.
     /// Displacements are divided by the length of the longest beam.
     pub distance: f64,
     /// Number of Newton iterations from the previous point of the path.

@@ -163,7 +163,6 @@ impl System {
     }
 
     /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
-    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.bodies.divide(threads)
     }
@@ -200,7 +199,7 @@ impl System {
     }
 
     /// Returns true if the present velocity of a slider at a limit points beyond the limit.
-    /// The velocity of a slider that has just left a stop is zero within rounding, so its sign has no meaning.
+    /// The velocity of a slider that has just left a stop is zero within rounding, so the sign of the velocity has no meaning.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];
         let rate = slider.rate(&self.bodies, &self.motion.rates);

@@ -11,9 +11,6 @@ const MOST_POLLS: usize = 2000;
 
 /// Runs all tasks concurrently: the first task on this thread, and the other tasks on threads of the pool.
 /// Tasks that have not been started by the pool also run on this thread.
-///
-/// Returns after every task is completed.
-/// Each call allocates a few hundred bytes. The function is suitable for tasks that take much longer than this allocation.
 pub fn run_concurrently<T: Send>(tasks: impl IntoIterator<Item = T>, work: impl Fn(T) + Sync) {
     let mut tasks = tasks.into_iter();
     let first = tasks.next();

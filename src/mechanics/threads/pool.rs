@@ -8,13 +8,12 @@ use std::time::{Duration, Instant};
 use rayon_core::{ThreadPool, ThreadPoolBuilder};
 
 /// Time during which an idle thread polls for new tasks before it sleeps.
-/// The tasks of a step follow each other immediately. Waking a thread takes as long as many of these tasks.
+/// The tasks of a step follow each other immediately, and waking a thread takes as long as many of these tasks.
 const POLLING_TIME: Duration = Duration::from_micros(300);
 
 static HANDED_OUT: AtomicUsize = AtomicUsize::new(0);
 
-/// Pool with one thread for each additional processor core, created at its first use.
-/// Returns `None` if the machine has only one core, or if the system provides no threads.
+/// Pool with one thread for each additional core, created at its first use; `None` for a single core, or if the system provides no threads.
 pub(super) fn pool() -> Option<&'static ThreadPool> {
     static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
     let start = || {

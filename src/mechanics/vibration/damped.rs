@@ -1,5 +1,4 @@
 //! Damped vibrations of a small model, computed in the basis of all its undamped modes (docs/theory.md, section 15).
-//! No mode is omitted, and the squared frequencies are as accurate as the modes.
 
 use nalgebra::{Complex, DMatrix};
 
@@ -13,7 +12,6 @@ use crate::integrators::Mechanism;
 use crate::system::{System, UnknownKind};
 
 /// Largest decay rate or frequency that counts as zero, as a fraction of the largest undamped frequency.
-/// Slow overdamped vibrations decay at much larger rates.
 const NOTHING: f64 = 1e-40;
 
 /// Damped natural vibration, which decays as `exp(-δ t)` with time `t`. An overdamped vibration has no frequency.
@@ -81,7 +79,6 @@ impl DampedMode {
     }
 }
 
-/// Damping matrix with a row for each mode shape and a column for each damped rate.
 fn dampers(model: &System, shapes: &[Vec<f64>]) -> DMatrix<f64> {
     let mut entries = Vec::new();
     for shape in shapes {

@@ -17,8 +17,7 @@ const ORTHOGONAL: f64 = 1e-15;
 /// Largest number of passes over all pairs of columns. About twelve passes are usual.
 const MOST_SWEEPS: usize = 60;
 
-/// Largest inertia that counts as zero, as a fraction of the diagonal entry of the inertia matrix.
-/// The inertia of a degree of freedom is compared with this limit after the elimination of other degrees of freedom.
+/// Largest inertia that counts as zero after elimination, as a fraction of the diagonal entry of the inertia matrix.
 const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.

@@ -93,7 +93,6 @@ impl Elastic {
         Arch::new().dispatch(ShapeCorrection { elastic: self, shapes, by })
     }
 
-    /// Rounding error of twice the strain energy for each of four vectors of displacements.
     pub(super) fn rounding_of(&self, movements: &VectorStrip) -> FourVectors {
         Arch::new().dispatch(Rounding { elastic: self, movements })
     }
@@ -176,7 +175,6 @@ impl WithSimd for ShapeCorrection<'_> {
         }
         shapes.internal_forces.fill([0.0; STRIP_WIDTH]);
         let mut energies = Energies::default();
-        // Array lengths for spans of degree 1 to 3 are compile-time constants, for speed.
         elastic.each_span(|span| match span.unknowns.len() {
             6 => correct_span::<6>(elastic, &span, shapes, by, &mut energies),
             9 => correct_span::<9>(elastic, &span, shapes, by, &mut energies),

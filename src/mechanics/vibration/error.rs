@@ -33,7 +33,6 @@ pub enum VibrationError {
         "the damped modes were not found: damping and stiffness differ too much in magnitude; use a coarser mesh or less damping, replace very strong dampers by joints or supports, or use damping_ratios of undamped modes (first order in the damping)"
     )]
     Damping,
-    /// The stiffness of some modes is so small that it is lost in rounding.
     #[error(
         "mode {modes} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request at most {modes} modes, use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
@@ -46,7 +45,6 @@ pub enum VibrationError {
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Uncounted,
-    /// The forces of the present configuration cannot be determined.
     #[error("{0}")]
     NoForces(String),
     #[error("interrupted during the search for modes")]

@@ -1,7 +1,6 @@
 //! Computation of the lowest modes by the block Lanczos method with a shifted and inverted stiffness.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
-//! All vectors of the search are orthogonal with respect to the inertia.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -24,7 +23,7 @@ const ROUNDING_REDUCTION: f64 = 1e-11;
 const SHRUNK: f64 = 1e-4;
 
 /// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.
-/// A vector with a larger component is orthogonalised again.
+/// A vector with a component above `TRACE` in the basis is orthogonalised again.
 const TRACE: f64 = 1e-8;
 
 const ORTHONORMAL: f64 = 1e-14;
@@ -34,7 +33,6 @@ const MOST_RESTARTS: usize = 60;
 /// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
-    /// Shapes `φ` of the pairs, four per strip.
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
@@ -130,8 +128,7 @@ impl<'a> Lanczos<'a> {
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
-            // The orthogonalised image is small in comparison with the removed components.
-            // Rounding leaves a fraction of the removed components in the image.
+            // Rounding leaves a fraction of the removed components in the orthogonalised image.
             let again = self.project(&mut image, None);
             self.pencil.inertia.times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
@@ -218,7 +215,6 @@ impl<'a> Lanczos<'a> {
         block
     }
 
-    /// Eigenvalues and eigenvectors of the projected problem, in decreasing order of the eigenvalues.
     fn ritz(&self) -> (Vec<f64>, DMatrix<f64>) {
         let symmetric = (&self.projected + self.projected.transpose()) * 0.5;
         let SymmetricEigen { eigenvalues, eigenvectors } = symmetric.symmetric_eigen();

@@ -24,7 +24,6 @@ pub struct Mode {
     /// Residual of the mode [-], a measure of its accuracy.
     /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
     /// The residual bounds the relative error of the sum of the squared frequency and the squared lowest bending frequency.
-    /// A second bound of the relative error is the square of the residual, divided by the relative distance to the next mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
@@ -183,7 +182,7 @@ impl Modes {
 }
 
 /// Number of degrees of freedom that are unrestrained in the present configuration without loads.
-/// Returns 0 for scenes without sliders that are too large for the computation.
+/// The result is 0 for scenes without sliders that are too large for the computation.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

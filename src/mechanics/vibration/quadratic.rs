@@ -1,5 +1,4 @@
 //! Quadratic eigenvalue problem of damped vibrations.
-//! The eigenvalues are computed in increasing order of magnitude, over a large range of magnitudes.
 //!
 //! The damping may have any strength. Decay rates may differ by a factor of 10¹⁴.
 //! The eigenvalues of a single shifted problem ([`Resolvent`]) are accurate only for magnitudes near the shift.
@@ -18,8 +17,7 @@ const LARGEST_RATIO: f64 = 1e6;
 /// Largest factor between two successive shifts.
 const FARTHEST: f64 = 1e12;
 
-/// Largest displacement of an unrestrained mode at a damper that counts as zero.
-/// This displacement is a fraction of the largest displacement of all modes at the damper.
+/// Largest displacement of an unrestrained mode at a damper that counts as zero, as a fraction of the largest displacement of all modes.
 const ROUNDING: f64 = 1e-13;
 
 pub(super) type ComplexNumber = Complex<f64>;
@@ -32,7 +30,7 @@ pub(super) struct Quadratic {
     /// Squared frequencies of the undamped modes [1/time²].
     pub(super) squares: Vec<f64>,
     /// Matrix with a row for each mode and a column for each damped rate [1/time^½].
-    /// The product of this matrix and its transpose is the damping matrix.
+    /// The product of the matrix `dampers` and its transpose is the damping matrix.
     pub(super) dampers: DMatrix<f64>,
 }
 

@@ -1,5 +1,4 @@
 //! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
-//! The residual of a pair is computed from the last correction.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -8,7 +7,6 @@ use super::pencil::Pencil;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, products, subtract_combination};
 
 /// Residual at which no further correction is made, because the squared frequency is then accurate to all digits.
-/// The error of the squared frequency is of the order of the squared residual.
 const SMALL: f64 = 1e-8;
 
 const MOST_CORRECTIONS: usize = 8;
@@ -30,7 +28,6 @@ pub(super) struct RefinedPair {
 
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
 /// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
-/// The residual includes these components.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,

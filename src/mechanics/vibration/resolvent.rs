@@ -16,26 +16,25 @@ use crate::elementary::square;
 const MOST_SWEEPS: usize = 40;
 
 /// Largest subdiagonal entries that the Schur decomposition treats as zero, relative to the diagonal entries.
-/// If the decomposition does not converge with the first limit, the next limit is used.
+/// If the decomposition does not converge with the first limit of the list, the next limit is used.
 const DECOUPLED: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 
 const CORRECTIONS: usize = 4;
 
 /// Largest relative change of an eigenvalue by an accepted correction, including the effect of rounding.
-/// A correction with a larger change leads to another eigenvalue.
 const FAR: f64 = 1e-4;
 
 /// Largest relative change of an eigenvalue by an accepted correction, without the effect of rounding.
-/// A correction with a larger change shows that the shapes of several close eigenvalues are mixed.
+/// A correction that changes an eigenvalue by more than `NEAR` shows that the shapes of several close eigenvalues are mixed.
 const NEAR: f64 = 1e-10;
 const ROUNDING_CHANGE: f64 = 1e-12;
 
 /// Distance between the shift of the inverse iteration and the eigenvalue, as a fraction of the eigenvalue.
-/// With this distance, the matrix of the inverse iteration is not singular.
+/// At the distance `BESIDE`, the matrix of the inverse iteration is not singular.
 const BESIDE: f64 = 1e-8;
 
 /// Largest damping that is an entry of the matrix. The forces of stronger dashpots are unknowns.
-/// Larger matrix entries would reduce the accuracy of weakly damped modes.
+/// Larger damping entries in the matrix would reduce the accuracy of weakly damped modes.
 const STRONG: f64 = 1e4;
 
 pub(super) struct Resolvent {
@@ -133,7 +132,6 @@ impl Resolvent {
         weighted * self.directions.transpose()
     }
 
-    /// Eigenvalue that is obtained from the approximation `start` by corrections, as a multiple of the shift.
     pub(super) fn corrected(&self, start: ComplexNumber) -> ComplexNumber {
         let complex = |value: f64| ComplexNumber::new(value, 0.0);
         let modes = self.scales.len();

@@ -29,15 +29,14 @@ const EQUAL: f64 = 1e-6;
 /// Largest squared frequency that counts as zero, as a multiple of its rounding error.
 const ROUNDING: f64 = 64.0;
 
-/// Largest squared frequency that counts as zero, as a fraction of the shift.
-/// Rounding gives rigid motions smaller squared frequencies than this limit.
+/// Largest squared frequency that counts as zero, as a fraction of the shift. Rounding gives smaller values for rigid motions.
 const HIDDEN: f64 = 1e-14;
 
 /// Largest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a smaller shift unnecessary.
 const LARGEST_SHIFT: f64 = 1e4;
 
 /// Smallest ratio of the shift to the lowest nonzero squared frequency that makes a second search with a larger shift unnecessary.
-/// This lower limit of the ratio applies only if some squared frequencies are zero.
+/// The limit `SMALLEST_SHIFT` applies only if some squared frequencies are zero.
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

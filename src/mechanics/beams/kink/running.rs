@@ -8,8 +8,7 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
-    /// The correction factor is averaged over positions of the kink in evenly spread spans (docs/theory.md, section 10.1).
+    /// Correction factor for the kinetic energy of a moving kink that is missing on the mesh (docs/theory.md, section 10.1) [-].
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -32,9 +31,7 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // In the exact motion, the velocity is one beyond the kink and zero before the kink.
-                            // The velocity of the mesh at the parameter `x` is `there`.
-                            // On the later spans, `missing` is the exact velocity minus `there`.
+                            // `missing` is the exact velocity (one beyond the kink, zero before it) minus the mesh velocity `there`.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

@@ -7,9 +7,7 @@ use crate::geometry::{cross, perpendicular};
 
 /// Conserving sliding law on the smooth axis of a mesh.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
-/// The mesh represents the kink of the axis under the contact force only approximately.
 ///
-/// The couple of least magnitude balances the moment of the contact forces. The sliding equation follows from the conservation of energy.
 /// Derivation: docs/theory.md, section 10.
 #[derive(Debug, Clone, Copy)]
 pub struct Conserving;

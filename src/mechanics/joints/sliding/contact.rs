@@ -46,9 +46,9 @@ impl ContactUnknowns {
 /// Position or tangent vector on the path of a slave along its master, with its derivative [length].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathVector {
-    /// Position or direction [length].
+    /// Position or tangent vector on the path [length].
     pub value: Vec2,
-    /// Derivative of the position or tangent with respect to the parameter at the end of the path [length].
+    /// Derivative of `value` with respect to the parameter of the master at the end of the path [length].
     pub by_end: Vec2,
 }
 
@@ -93,8 +93,7 @@ pub struct KinkMotion {
 pub struct Contact<'a> {
     /// Path of the slave along the master.
     pub path: &'a ContactPath,
-    /// Control points of the master whose basis functions are nonzero on the path, and their increments in the step [length].
-    /// The control points are given relative to the slave.
+    /// Control points with nonzero basis functions on the path, relative to the slave, and their increments in the step [length].
     pub master: (&'a [Vec2], &'a [Vec2]),
     /// Displacement of the slave in the step [length].
     pub slave_movement: Vec2,
@@ -141,8 +140,8 @@ impl Contact<'_> {
     }
 
     /// Product of the contact force and the tangent of the master at the end of the step [force·length].
-    /// The product is positive if the slave pushes outwards at an end of the master.
-    /// The argument `outward` is the sign of the parameter change towards this end of the master.
+    /// The product of force and tangent is positive if the slave pushes outwards at an end of the master.
+    /// The argument `outward` is the sign of the parameter change towards the end of the master at which the slider is.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }
@@ -189,9 +188,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
-    /// The first entry of a tuple is the derivative with respect to the force, the second with respect to the couple.
-    /// Both derivatives are factors of the identity matrix.
-    /// The third entry of a tuple is the derivative with respect to the sliding increment.
+    /// A tuple contains derivatives with respect to the force and the couple (factors of the identity matrix), and the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

@@ -8,7 +8,6 @@ use crate::geometry::{Dual, DualVector, Vec2};
 pub(super) const ALL_SLOPES: usize = 11;
 
 /// Number of derivatives if only the values of the equations are needed.
-/// The values are computed by the same operations as with derivatives, so that both agree to the last bit.
 pub(super) const NO_SLOPES: usize = 0;
 
 const OFFSET: usize = 0;

@@ -6,9 +6,9 @@ use crate::geometry::Vec2;
 /// Unit of the value of a contact equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Length.
+    /// Unit of a length.
     Length,
-    /// Force.
+    /// Unit of a force.
     Force,
 }
 
@@ -32,7 +32,6 @@ pub struct Equation {
 }
 
 impl Equation {
-    /// Creates the equation `value = 0` with zero derivatives.
     pub(super) fn new(value: f64, unit: Unit) -> Self {
         Self {
             value,
@@ -46,7 +45,7 @@ impl Equation {
     }
 
     /// Derivative of the value with respect to the increment of a control point of the master.
-    /// The argument contains the three weights of the control point in the order of `Contact::weights`.
+    /// The argument `(end, mean, difference)` contains the weights of the control point in the order of `Contact::weights`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference
     }

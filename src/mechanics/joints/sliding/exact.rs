@@ -3,8 +3,7 @@
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 
 /// Exact sliding law. The gap is closed at the end of every step. Energy and linear momentum are conserved, but not angular momentum.
-/// The exact law is that of Sibileau & Muñoz, equations 15 and 17, with a divided difference instead of a derivative.
-/// Because of the divided difference, the energy is conserved exactly.
+/// The exact law is that of Sibileau & Muñoz, equations 15 and 17, with a divided difference that conserves the energy exactly.
 #[derive(Debug, Clone, Copy)]
 pub struct Exact;
 

@@ -1,7 +1,6 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
-//! An error of the velocity across the master changes its sign from step to step, and has no effect on positions.
-//! The force that reverses the velocity error grows with the inverse of the step length. The friction limit excludes this force.
+//! The friction limit excludes the contact force that reverses velocity errors of the slave across the master in every step.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -97,7 +96,7 @@ impl Contact<'_> {
     }
 
     /// Sliding equation with friction, in place of the given frictionless equation.
-    /// The derivatives omit the rotation of the tangent at the end of the step, which has little effect.
+    /// The derivatives of the sliding equation omit the rotation of the tangent at the end of the step, which has little effect.
     pub fn with_friction(&self, friction: &Friction<'_>, frictionless: Equation) -> Equation {
         let FrictionMode::Slip(sign) = friction.mode else { return self.no_increment() };
         let (tangent, force) = (self.tangent(), self.unknowns.force);

@@ -8,8 +8,7 @@ use crate::geometry::{Dual, DualVector};
 /// Conserving sliding law for an axis with a kink at the slave.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
-/// The tangent of the axis jumps at the slave, and the kink moves along the master.
-/// The law adds the energy of the kink, which the mesh does not contain.
+/// The kinked law adds the energy of the kink, which the mesh does not contain.
 /// Without a [`Kink`], the law is [`Conserving`]. Derivation: docs/theory.md, sections 10 and 10.1.
 #[derive(Debug, Clone, Copy)]
 pub struct Kinked;

@@ -8,7 +8,6 @@ pub trait SlidingLaw {
     fn equations(&self, contact: &Contact<'_>) -> [Equation; CONTACT_UNKNOWNS];
 
     /// Values of the five contact equations with their units, for iterates that need no derivatives.
-    /// The values agree with those of [`equations`](Self::equations) to the last bit.
     fn values(&self, contact: &Contact<'_>) -> [(f64, Unit); CONTACT_UNKNOWNS] {
         self.equations(contact).map(|equation| (equation.value, equation.unit))
     }

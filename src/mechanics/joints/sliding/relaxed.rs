@@ -3,15 +3,14 @@
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Largest gap that is attributed to rounding, as a fraction of the length of the master per unit of its parameter.
-/// The direction of such a gap is not used.
+/// Largest gap that is attributed to rounding, as a fraction of the master length per parameter. The direction of such a gap is not used.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law: the mean of the gap over each step is zero. The gap at the end of a step need not be zero.
 /// The relaxed law conserves energy, linear and angular momentum.
 /// The relaxed law is that of Sibileau & Muñoz, equations 11 to 14.
 ///
-/// For a large gap, a step may have no solution. The direction of sliding is undefined in a step without sliding.
+/// With the relaxed law, a step may have no solution if the gap is large. The direction of sliding is undefined in a step without sliding.
 #[derive(Debug, Clone, Copy)]
 pub struct Relaxed;
 

@@ -6,12 +6,10 @@ use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw};
 use crate::geometry::Vec2;
 
 /// Sliding law for an equilibrium without friction. The potential energy of the contact is stationary (docs/theory.md, section 14.1).
-/// Without a [`Kink`](super::Kink), the axis is smooth.
 #[derive(Debug, Clone, Copy)]
 pub struct Resting;
 
 /// Sliding law for an equilibrium in which a stop holds the slider at an end of its master.
-/// The equations of the gap include the kink of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct AtStop {
     /// Sliding increment of the slider to the end of the master [-].
@@ -60,9 +58,7 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the static contact forces on the control points of the master with respect to the contact unknowns.
-    /// The first entry of a tuple is the derivative with respect to the force, as factor of the identity matrix.
-    /// The second entry is the derivative with respect to the couple, which is zero.
-    /// The third entry is the derivative with respect to the sliding increment.
+    /// A tuple contains derivatives with respect to the force (factor of the identity matrix), the couple (zero) and the sliding increment.
     pub fn master_force_slopes_at_rest(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
         let weights = self.path.end().iter().zip(self.path.slope());

@@ -35,13 +35,13 @@ pub struct RuleClaims {
 pub struct RuleEntry {
     /// Sliding rule of the entry.
     pub rule: SlidingRule,
-    /// Name in scripts and reports.
+    /// Name of the sliding rule in scripts and reports.
     pub name: &'static str,
     /// Recommended use of the sliding rule as a sentence.
     pub summary: &'static str,
-    /// Conservation properties of the law.
+    /// Conservation properties of the sliding rule.
     pub claims: RuleClaims,
-    /// Reference to the literature.
+    /// Reference to the literature about the sliding rule.
     pub source: &'static str,
 }
 
@@ -91,7 +91,7 @@ impl SlidingRule {
         }
     }
 
-    /// Sliding law with the equations of the sliding rule.
+    /// Sliding law that this rule selects.
     pub fn law(self) -> &'static dyn SlidingLaw {
         match self {
             Self::Kinked => &Kinked,

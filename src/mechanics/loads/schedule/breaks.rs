@@ -20,7 +20,6 @@ impl Schedule {
 
     /// Clock of a digital controller; `None` for other schedules.
     /// Steps should end at the samples of the clock and at the times when commands start to act.
-    /// Digital controllers cannot be combined with other schedules.
     pub(crate) fn sample_clock(&self) -> Option<SampleClock> {
         if let Self::DigitalController { clock, .. } = self { Some(*clock) } else { None }
     }

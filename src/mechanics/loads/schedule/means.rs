@@ -24,7 +24,7 @@ pub struct StepMean {
 const EXACT_DEGREE: usize = 5;
 
 /// Distance of the additional quadrature points from the middle of the step, on [-1, 1].
-/// The quadrature points are inside the step, because a jump at an end of the step does not affect the mean.
+/// The quadrature points are inside the step, so that a jump of the schedule at an end of the step does not affect the mean.
 const OUTER: f64 = 0.96;
 
 /// Weight of each additional quadrature point. The rule with these points and the middle point is exact for cubic polynomials.
@@ -167,7 +167,6 @@ struct Step {
 }
 
 impl Step {
-    /// Mean of the product of a wave and the schedules `factors`; `None` without a closed form.
     fn mean(&self, factors: Option<&ScheduleFactors>, wave: Wave) -> Option<f64> {
         let Some(ScheduleFactors { first, others }) = factors else { return Some(wave.mean()) };
         let Self { middle, half } = *self;
@@ -217,7 +216,6 @@ impl Step {
         }
     }
 
-    /// Mean of the product of a wave, `Re(amplitude exp(i turn x))` and the schedules `factors`.
     fn mean_of_product(
         &self,
         factors: Option<&ScheduleFactors>,

@@ -34,12 +34,7 @@ pub enum ArchiveError {
     #[error(
         "the file is damaged: its checksum is {found:08x}, but should be {right:08x}; use another copy"
     )]
-    Damaged {
-        /// Checksum stored in the file.
-        found: u32,
-        /// Checksum computed from the content.
-        right: u32,
-    },
+    Damaged { found: u32, right: u32 },
     #[error("the file is damaged: {trailing_bytes} bytes follow its end; use another copy")]
     TrailingBytes { trailing_bytes: u64 },
     #[error("its content is not a valid simulation: {reason}")]

@@ -120,7 +120,7 @@ impl Simulation {
     }
 
     /// Takes a whole step and its two halves.
-    /// If one of the three steps has no solution, all three are repeated with constant kinks under contact forces.
+    /// If the whole step or a half step has no solution, all three steps are repeated with constant kinks under contact forces.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,
@@ -158,7 +158,6 @@ impl Simulation {
     }
 
     /// Returns true if a step is paused in its middle to sample controllers.
-    /// A run stopped in a paused step can be continued. Alternatively, the start of the step can be [restored](Self::restore_step_start).
     pub fn is_paused_in_step(&self) -> bool {
         let adaptive = self.adaptive.as_ref();
         adaptive

@@ -11,7 +11,6 @@ use crate::system::SystemState;
 impl Simulation {
     /// Enables a snapshot after every step, within a memory limit [bytes].
     /// Above the memory limit, the oldest snapshots are discarded, except the first one. A limit of zero disables snapshots.
-    /// A reduced memory limit applies immediately.
     pub fn enable_snapshots(&mut self, limit: usize) {
         let mut snapshots = std::mem::take(&mut self.snapshots);
         snapshots.set_limit(limit, || self.snapshot(self.model.state()));
@@ -117,7 +116,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// Restores a snapshot of this simulation or of a copy. Later rows of the history are removed.
     pub(super) fn restore_snapshot(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
         self.end_derivatives("going back");
         self.restore_releases(&snapshot.releases)?;

@@ -30,7 +30,6 @@ struct Content<'a> {
     samples: Cow<'a, [Sample]>,
     permanent_rows: usize,
     extra: Cow<'a, [f64]>,
-    /// Number `n` for which the trajectory keeps every n-th recorded configuration.
     every: usize,
     times: Cow<'a, [f64]>,
     numbers: Cow<'a, [f64]>,
@@ -90,7 +89,6 @@ impl Simulation {
     }
 
     /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes).
-    /// A restored run continues bit for bit like the original run.
     ///
     /// # Errors
     /// Fails if the file is truncated or damaged, has a later format or a different type, or has invalid content.

@@ -9,7 +9,6 @@ use crate::system::{Scene, System};
 
 impl Simulation {
     /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters.
-    /// Each step also computes the derivatives. The other results of the step do not change.
     ///
     /// # Errors
     /// Fails in the same cases as [`start`](Self::start), if the method provides no derivatives, or if the scenes differ in more than numbers.

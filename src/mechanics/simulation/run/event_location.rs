@@ -1,5 +1,4 @@
-//! Location and execution of the events of sliders within a step.
-//! Events are arrivals at the ends of masters, landings, take-offs and friction transitions.
+//! Location and execution of slider events in a step: arrivals at the ends of masters, landings, take-offs and friction transitions.
 
 use super::Simulation;
 use crate::elementary::whole_power;
@@ -21,14 +20,13 @@ const MOST_TRIES: usize = 60;
 const NEAR: f64 = 1e-10;
 
 /// Shortest duration from the start of a step to a friction transition or take-off, and from there to the end of the step, as a fraction of the step length.
-/// In a shorter step, rounding errors of positions would become contact forces.
+/// In a step shorter than `SHORT`, rounding errors of positions would become contact forces.
 const SHORT: f64 = 1e-4;
 
 /// Largest error of the time of a friction transition or take-off, as a fraction of the step length.
 const RESOLUTION: f64 = 1e-7;
 
-/// Largest number of halvings of a step that starts with a slider at an end of its master.
-/// The halvings search for a shorter step in which the slider moves away from the end.
+/// Largest number of halvings in the search for a shorter step in which a slider at an end of its master moves away from the end.
 const PROBES: i32 = 12;
 
 /// If this number of impacts at the same end occurs within the same number of steps, the stop holds the slider.
@@ -44,14 +42,11 @@ pub(super) struct EventStep {
 
 enum Event {
     Slider(SliderEvent),
-    /// A slider would pass a limit within the step, so the step ends just before the limit.
     JustBefore,
-    /// Stop forces have become tensile, so sliders are released from their stops.
     StopRelease,
 }
 
 impl Event {
-    /// Event at the end of a step that ends before the target by less than the resolution of the search.
     fn just_before(target: SliderEvent) -> Self {
         match target {
             SliderEvent::Limit(_) | SliderEvent::Landing(_) => Self::JustBefore,
@@ -64,7 +59,6 @@ impl Event {
 
 enum ArrivalEstimate {
     Between(TimeBracket),
-    /// The event is at the end of a step that was taken, or at the start of the interval.
     Located(EventStep),
 }
 
@@ -101,8 +95,6 @@ impl TimeBracket {
         Self { shortest, ..self }
     }
 
-    /// Narrows the bracket of the arrival time by an attempted step.
-    /// The end of the step replaces the end of the bracket that is on the same side of the arrival.
     fn narrow(&mut self, duration: f64, distance: f64) {
         let side = if distance > 0.0 { BracketSide::After } else { BracketSide::Before };
         let is_again = self.last == Some(side);
@@ -117,7 +109,6 @@ impl TimeBracket {
         self.last = Some(side);
     }
 
-    /// Returns true if the event is closer to the start of the bracket than the shortest step.
     fn is_at_start(&self) -> bool {
         self.after.0 <= self.shortest
     }
@@ -159,7 +150,6 @@ fn bracket_sign_change(
 }
 
 impl Simulation {
-    /// Takes a step that ends at the arrival of a slider. Over the whole interval, the slider would pass its limit.
     pub(super) fn locate_arrival(
         &mut self,
         interval: Interval,
@@ -226,7 +216,6 @@ impl Simulation {
         }
     }
 
-    /// Searches for a step that ends before the arrival. The given step ends after the arrival.
     fn bracket_arrival(
         &mut self,
         interval: Interval,
@@ -280,7 +269,6 @@ impl Simulation {
         Ok(ArrivalEstimate::at_once(number))
     }
 
-    /// Brackets the landing of a slider in flight. The given interval ends after the landing.
     fn bracket_landing(
         &mut self,
         interval: Interval,
@@ -315,7 +303,7 @@ impl Simulation {
     }
 
     /// Returns true if the arrival of a slider at a limit may be an impact.
-    /// At a stop, the part of the velocity of the slider that the steps resolve must point beyond the limit for an impact.
+    /// At a stop, an impact requires that the part of the slider velocity that the steps resolve points beyond the limit.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -353,7 +341,6 @@ impl Simulation {
         }
     }
 
-    /// Executes an arrival at an end, and all simultaneous arrivals: the run stops, or sliders bounce, are held, or are released.
     fn execute_arrivals(
         &mut self,
         limit: MasterLimit,
@@ -448,7 +435,7 @@ impl Simulation {
     }
 
     /// Period [time] in which repeated impacts or oscillations count as not resolved by steps of length `dt` [time].
-    /// Variable steps become longer between impacts. Therefore, they use the time in which a wave passes a span if it is shorter than `dt`.
+    /// For variable steps, which become longer between impacts, the time in which a wave passes a span replaces `dt` if it is shorter.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {

@@ -19,7 +19,7 @@ const STRETCHED: f64 = 1.5;
 const FOLDING_FORCE: f64 = 0.1;
 
 /// Smallest distance of a slider from an end of its master that is not reported, as a fraction of the length of the master.
-/// With the sliding rule `kinked`, a step may fail if the slider is closer to the end.
+/// Very close to an end of the master, a step with the sliding rule `kinked` may fail.
 const END_DISTANCE: f64 = 5e-3;
 
 impl Simulation {

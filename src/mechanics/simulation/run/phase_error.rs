@@ -28,7 +28,7 @@ const OPPOSITE: f64 = 2.0;
 
 impl Simulation {
     /// Warning about the accumulated phase error of fixed steps.
-    /// The measures of resolution are attributed to a single vibration with a part of the kinetic energy.
+    /// The phase error is that of a single vibration, which has the measured mean frequency and a part of the kinetic energy.
     ///
     /// Scenes with drives and controllers are not checked, because drives and controllers impose the phase of the motion.
     pub(super) fn phase_error(&self) -> Option<Warning> {

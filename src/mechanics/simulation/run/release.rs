@@ -1,7 +1,6 @@
 //! Releases between two steps of a run.
 //!
 //! A release occurs at the start of a step. The stored state at the end of the previous step is the state before the release.
-//! A run that is continued after a rewind repeats the release.
 
 use std::rc::Rc;
 

@@ -64,7 +64,7 @@ impl Simulation {
     }
 
     /// Repeats the original run up to a row of its history in this copy.
-    /// Returns true if the row exists, and its energies, momenta, work and impulses agree bit for bit with the original run.
+    /// The returned flag is true if the row exists, and if energies, momenta, work and impulses agree bit for bit with the original run.
     /// The repeated run may differ from the original run if script functions were called during the original run.
     ///
     /// # Errors

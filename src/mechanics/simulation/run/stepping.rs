@@ -124,7 +124,7 @@ impl Simulation {
     }
 
     /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step.
-    /// Returns true if the equations of the step change.
+    /// The returned flag is true if the equations of the step change.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

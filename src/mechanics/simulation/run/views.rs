@@ -18,7 +18,6 @@ impl Simulation {
     }
 
     /// Returns true if a column of the history contains means over the last step, such as contact forces.
-    /// Returns false if the column contains present values.
     pub fn is_step_mean(&self, column: &str) -> bool {
         let mut sensors = self.record.sensors.iter();
         let sensor = sensors.find(|sensor| sensor.name == column);

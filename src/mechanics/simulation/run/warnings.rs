@@ -35,8 +35,7 @@ const LARGEST_DRIFT: f64 = 1e-7;
 /// Rounding error of dissipated energies, as a fraction of these energies.
 const DISSIPATION_ROUNDING: f64 = 1e-7;
 
-/// Smallest dissipated energy for which a damper is reported as a possible cause.
-/// The energy is a fraction of the sum of the dissipated energy and the largest kinetic energy.
+/// Smallest dissipated energy for which a damper is reported as a possible cause, as a fraction of dissipated plus largest kinetic energy.
 const MUCH: f64 = 0.3;
 
 /// Largest number of unknowns for which modes of the initial configuration are computed.
@@ -46,7 +45,7 @@ const MOST_UNKNOWNS: usize = 1200;
 const MODES: [usize; 3] = [4, 8, 16];
 
 /// Largest strain of the elastic wave of an impact that counts as zero [-].
-/// The tolerance covers the errors of rates of prescribed motions, which are computed by finite differences.
+/// A strain below this limit may be an error of the rates of prescribed motions, which are computed by finite differences.
 const NEGLIGIBLE_STRAIN: f64 = 1e-8;
 
 const RECENT_STEPS: usize = 200;
@@ -61,15 +60,13 @@ const MOST_TURNS: usize = 20;
 const MANY_STEPS: usize = 5000;
 
 /// Largest ratio, without a warning, of the step size that resolves the motion of the scene to the mean step size [-].
-/// Steps at this limit resolve a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Steps at the limit `MUCH_SHORTER` resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 const SLIDERS: usize = 6;
 
 impl Simulation {
     /// Warnings about motion that the steps so far do not resolve. Steps that were undone by a rewind are ignored.
-    ///
-    /// The lowest period of the scene is computed only when a warning needs it for the first time.
     pub fn warnings(&self) -> Vec<Warning> {
         let (dt, resolution) = (self.longest_step(), self.model.resolution());
         let mut notes = Vec::new();
@@ -203,9 +200,7 @@ impl Simulation {
             || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Warnings about damped beams.
-    /// The steps may not resolve the motion of a damped beam, although they resolve the motion of the whole scene.
-    /// `dt` is the step size [time].
+    /// Warnings about damped beams whose motion the steps of size `dt` [time] do not resolve, unlike the motion of the scene.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -219,8 +214,7 @@ impl Simulation {
     }
 
     /// Warning about alternating long and short steps in scenes with persistent velocity errors.
-    /// Each step multiplies the velocity errors by -1.
-    /// In steps of different lengths, the position errors due to velocity errors of alternating sign do not cancel.
+    /// In steps of different lengths, position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
         if !keeps || !matches!(self.settings.dt, StepSize::Fixed(_)) {
@@ -261,7 +255,6 @@ impl Simulation {
         lengths
     }
 
-    /// Warning about many adaptive steps, due to a method of first order or to steps much shorter than the motion of the scene requires.
     fn many_steps(&self) -> Option<Warning> {
         let Adaptive { tolerance, length, order, .. } = **self.adaptive.as_ref()?;
         let (steps, rows) = (self.counts().steps, self.history().samples());
@@ -303,7 +296,6 @@ impl Simulation {
     }
 
     /// Name of a method with numerical damping; `None` if such a method is already used or would have no effect.
-    /// Numerical damping acts on strains of beams and on springs with a linear law.
     fn damping_method(&self) -> Option<&'static str> {
         let entries = INTEGRATORS.iter();
         let damping = entries.filter(|entry| entry.claims.energy == EnergyClaim::NonIncreasing);
@@ -315,9 +307,7 @@ impl Simulation {
     }
 
     /// Warning that dampers added energy with the method `fourth_order`, whose backward substeps return energy.
-    /// The warning is given if the backward substeps returned more energy than the dampers dissipated in total.
-    /// The warning is also given if dampers added energy in a step. Differences within rounding are ignored.
-    /// The warning reports the step with the largest difference between returned and dissipated energy.
+    /// The warning is given if dampers added energy in a step, or if backward substeps returned more energy than dampers dissipated.
     fn energy_gain(&self) -> Option<Warning> {
         if self.settings.method != Method::FourthOrder {
             return None;

@@ -18,7 +18,6 @@ pub enum DerivativeError {
         "'{name}' has a controller, whose output has no derivatives with respect to parameters"
     )]
     Controlled { name: String },
-    /// The run records the mean force of a joint, which has no derivative because it is accumulated over the step.
     #[error(
         "'{sensor}' is a mean over a step, which has no derivatives with respect to parameters"
     )]

@@ -58,7 +58,6 @@ impl PerturbedRuns {
         plus.change_from(minus, 2.0 * *distance, derivative);
     }
 
-    /// Sets the states of the two perturbed runs to `state` plus and minus the derivative times the perturbation.
     pub(super) fn set_perturbed_states(&mut self, state: &SystemState) {
         let Self { runs, states, derivative, distance, .. } = self;
         for ((run, beside), amount) in

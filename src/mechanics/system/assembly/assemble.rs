@@ -18,8 +18,7 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// Strains are differences of coordinates, which may be much larger than a span.
-/// The rounding error of strains is therefore larger than the machine precision.
+/// Strains are differences of coordinates that may be much larger than a span, so their rounding error exceeds the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 pub struct Assembly<'a> {
@@ -58,8 +57,6 @@ impl System {
         Ok(model)
     }
 
-    /// Builds the mechanism of a scene at the start of a run.
-    /// The initial kinks under sliders are those of the initial contact forces.
     pub(crate) fn assemble_in_motion(
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,

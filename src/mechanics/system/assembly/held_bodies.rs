@@ -9,7 +9,6 @@ impl System {
     /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration is undetermined.
     ///
     /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point.
-    /// An object at a point of a rigid body restrains the angle of the body only if the point is off the centre or rotates with the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

@@ -11,7 +11,7 @@ const UNDETERMINED: f64 = 1e11;
 impl System {
     /// Rejects redundant constraints of rigid bodies and rollers.
     ///
-    /// The check closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
+    /// The check of constraints closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
     /// A unique constraint force is at most the gap times the square of the number of bodies in a chain.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {

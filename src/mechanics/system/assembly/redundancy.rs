@@ -1,6 +1,6 @@
 //! Check that the contact forces of sliders are unique. Redundant contacts have no unique forces.
 //!
-//! The check computes the velocities of slaves across their masters due to contact impulses.
+//! The check of contacts computes the velocities of slaves across their masters due to contact impulses.
 //! If the matrix of the velocity responses is singular, some contact impulses have no effect, and the contact forces are not unique.
 
 use crate::system::errors::SliderError;

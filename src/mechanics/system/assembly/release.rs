@@ -11,7 +11,7 @@ use crate::system::{Scene, System, SystemError};
 impl System {
     /// Releases an object of the scene at the present time. Positions and rates are continuous.
     /// `released` lists the objects released earlier. The energy stored in a released spring counts as dissipated.
-    /// The caller must allocate a new work space of the integrator afterwards.
+    /// After a release, the caller must allocate a new work space of the integrator.
     ///
     /// # Errors
     /// Fails if a station lies outside its beam, which cannot occur in a checked scene.

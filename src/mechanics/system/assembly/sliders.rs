@@ -160,7 +160,6 @@ impl System {
     }
 
     /// Sets a static model to a time. Prescribed motions receive the rates of their functions.
-    /// Points of rigid bodies receive the rates that follow from the rates of their bodies.
     ///
     /// # Errors
     /// Fails if a function has no value at the given time, or if velocities contradict the sliders.

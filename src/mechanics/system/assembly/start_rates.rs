@@ -11,7 +11,7 @@ use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 const SAME_VELOCITY: f64 = 1e-9;
 
 /// Largest accepted difference between a start velocity and the initial rate of a prescribed motion, as a fraction of this rate.
-/// The tolerance covers the error of the initial rate, which is computed by finite differences.
+/// The limit allows for the error of the initial rate, which is computed by finite differences.
 const SAME_START: f64 = 1e-6;
 
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
@@ -82,7 +82,7 @@ impl RequestedRate<'_> {
 impl Assembly<'_> {
     /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
     ///
-    /// The result contains the rates of the unknowns, zeros for the contact unknowns, and the rates of the prescribed degrees of freedom.
+    /// The vector contains the rates of the unknowns, zeros for the contact unknowns, and the rates of the prescribed degrees of freedom.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -102,7 +102,7 @@ impl Assembly<'_> {
         for (index, body) in (first..).zip(&self.scene.rigid_bodies) {
             let degrees = &numbering.degrees_of_freedom[index];
             // Differences of angular velocities are multiplied by the size of the body and compared with velocities.
-            // If all points of a body are at its centre, any size can be used, because nothing is tied to the rotation of the body.
+            // A body whose points are all at its centre may have any size here, because nothing is tied to its rotation.
             let size = if body.size() > 0.0 { body.size() } else { 1.0 };
             self.apply_rigid_motion(index, size, &body.motion, degrees, &mut shared, begun)?;
         }

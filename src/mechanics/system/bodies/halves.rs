@@ -2,7 +2,6 @@
 //!
 //! Sums are computed in the order of the bodies: each body accumulates its forces separately, and one thread adds these forces to the sum.
 //! In the tangent, the thread of the second half writes only the rows in which no body of the first half has entries.
-//! Contributions of bodies of the second half to rows of the first half are added afterwards by one thread.
 
 use super::Body;
 

@@ -8,7 +8,6 @@ use crate::threads::run_concurrently;
 
 impl Bodies {
     /// Sets the number of threads for a large body or many bodies, and returns the largest number of threads in use.
-    /// The number of threads does not change the results.
     pub fn divide(&mut self, threads: usize) -> usize {
         self.threads = threads;
         let parts = self.all.iter_mut().map(|body| body.divide(threads)).max().unwrap_or(1);

@@ -4,19 +4,18 @@
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
     /// Number of sharp corners of the law below the present elongation.
-    /// The number of corners below the elongation changes, for example, when the contact of a bumper begins.
     pub index: usize,
     /// Rate of the elongation [length/time, rad/time].
     pub rate: f64,
-    /// Quantity on which the law depends.
+    /// Quantity on which the law of the spring depends.
     pub along: Along,
 }
 
 /// Quantity on which the law of a spring depends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
-    /// Length.
+    /// Length of the spring.
     Length,
-    /// Angle.
+    /// Angle of the spring.
     Angle,
 }

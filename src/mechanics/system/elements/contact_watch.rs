@@ -3,8 +3,7 @@
 /// Largest number of steps during a contact for which the steps do not resolve the bounce.
 const FEW: f64 = 3.0;
 
-/// Largest change of the elongation rate during a contact that does not count as a bounce.
-/// The change is a fraction of the elongation rate at the start of the contact [-].
+/// Largest change of the elongation rate in a contact without a bounce, as a fraction of the rate at the start of the contact [-].
 const TURNED: f64 = 0.5;
 
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
@@ -23,7 +22,6 @@ pub struct ShortBounce {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
-    /// Number of steps since the contact began; zero while the spring is slack.
     steps: f64,
     /// Rate of elongation at the beginning of the contact [length/time, rad/time].
     entry: f64,
@@ -40,9 +38,8 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step.
-    /// The flags are true if the spring is slack at the start and at the end of the step.
-    /// `before` is the rate of elongation in the previous step. `rate` is the rate of elongation in the recorded step.
+    /// Records a step. The flags are true if the spring is slack at the start and at the end of the step.
+    /// The rates of elongation in the previous step and in the recorded step are `before` and `rate`.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

@@ -101,8 +101,7 @@ impl DampingLaw {
         *self != Self::Linear(0.0)
     }
 
-    /// Range of rates in which the law adds energy or has a force at zero rate.
-    /// Returns `None` if the law and its extrapolation dissipate energy at every rate.
+    /// Range of rates in which the law adds energy or has a force at zero rate; `None` if it dissipates energy at every rate.
     pub(crate) fn active_range(&self) -> Option<NegativeDamping> {
         let corners = self.corners();
         let (Some(first), Some(last)) = (corners.first(), corners.last()) else { return None };

@@ -35,7 +35,7 @@ pub enum Dragged {
 /// Drag force opposite to the velocity relative to a medium that moves at a uniform velocity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
-    /// Name in messages and columns.
+    /// Name of the drag element in messages and columns.
     pub name: String,
     /// Object that experiences drag.
     pub on: Dragged,
@@ -44,7 +44,7 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// Type and name for messages.
+    /// Type and name of the drag element for messages.
     pub fn object(&self) -> String {
         format!("drag '{}'", self.name)
     }
@@ -100,7 +100,6 @@ impl ElementDef for Drag {
     }
 }
 
-/// Points at which the drag of a beam is evaluated: `degree + 1` Gauss points per span.
 fn points_of_beam(site: &dyn AssemblyContext, beam: usize) -> Result<Vec<DragPoint>, SystemError> {
     let basis = site.mesh(beam).basis();
     let rule = GaussRule::new(basis.degree() + 1).map_err(|error| site.wrong(beam, error))?;

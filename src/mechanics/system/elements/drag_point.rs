@@ -1,7 +1,6 @@
 //! Drag at a point of a body in a step.
 //!
 //! The drag force is an independent unknown, in components across and along the line.
-//! A force computed from velocities would have the rounding error of the velocities times the damping coefficient `c`.
 //! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
@@ -102,7 +101,6 @@ impl DragPoint {
             .fold(Vec2::zeros(), |sum, (at, by)| sum + value(self.first + at) * *by)
     }
 
-    /// Sum of the magnitudes of the terms of a sum over the basis functions, to which the rounding error of the sum is proportional.
     fn size(&self, value: impl Fn(usize) -> Vec2) -> f64 {
         let sizes = self.shape.iter().enumerate();
         sizes.fold(0.0, |sum, (at, by)| sum + value(self.first + at).norm() * by.abs())
@@ -201,7 +199,6 @@ impl DragPoint {
     }
 
     /// Calls `give` with the derivatives of the nodal forces with respect to the nodal increments.
-    /// The derivatives include the rotation of the line under the present drag force.
     pub fn each_derivative(&self, mut give: impl FnMut((usize, usize), (usize, usize), f64)) {
         let DragTrial {
             tangent,

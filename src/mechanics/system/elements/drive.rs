@@ -28,7 +28,7 @@ impl DriveKind {
 /// Prescribed motion of a station, with a function for each prescribed component.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Drive {
-    /// Name in messages and columns.
+    /// Name of the drive in messages and columns.
     pub name: String,
     /// Type of the prescribed motion.
     pub kind: DriveKind,

@@ -14,8 +14,7 @@ use crate::system::SystemError;
 
 /// Element of a scene: a mass on a body, or forces on bodies.
 ///
-/// A new type of element needs a variant of this enum and a file in `system/elements` with its [`ElementDef`].
-/// The file of an element type also contains the [`ExternalForce`] or [`InternalForce`](super::InternalForce) of the built element.
+/// A new type of element needs a variant of `Element` and a file in `system/elements` with its [`ElementDef`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Element {
     /// Mass at a station.
@@ -86,7 +85,6 @@ pub trait ElementDef {
     }
 
     /// Groups of stations that the element couples.
-    /// The unknowns of a group of stations get neighbouring numbers, for a small bandwidth.
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
         Vec::new()
     }

@@ -51,7 +51,6 @@ enum Measure {
 }
 
 /// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
-/// The change of a length depends on the x and y increments of its terminals. The change of an angle depends on the rotation increments.
 /// The increments on which an elongation depends are called its coordinates.
 #[derive(Debug, Clone)]
 pub struct Elongation {

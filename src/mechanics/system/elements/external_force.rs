@@ -8,7 +8,6 @@ use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 /// Fractions of the step and type of rotation increments with which internal and external forces are evaluated at a stage.
-/// At the start and at the end of a step, rotation increments are increments of the angle.
 pub fn collocation(stage: Stage) -> Collocation {
     let (tau, sigma, rotations) = match stage {
         Stage::Start => (0.0, 0.0, RotationIncrement::Angle),
@@ -40,9 +39,7 @@ pub struct LoadAccount {
 
 /// Element that applies forces to bodies: a load or the weight.
 ///
-/// Forces are evaluated in every iterate. Work and impulse are evaluated at the end of a step.
 /// If an element has a potential, the work of its forces is exactly the decrease of the potential (a discrete gradient).
-/// Methods with a default implementation are optional. Each method is called dynamically, once per element and iterate.
 pub trait ExternalForce {
     fn name(&self) -> &str;
 
@@ -76,7 +73,7 @@ pub trait ExternalForce {
     fn add_tangent(&self, _at: TrialState<'_>, _unknowns: usize, _tangent: &mut BandedMatrix) {}
 
     /// Work and impulse of the element in the step whose increments are stored in the bodies.
-    /// The work does not include changes of the potential.
+    /// The work in the result does not include changes of the potential.
     fn exchange(&self, bodies: &[Body], duration: f64) -> WorkAndImpulse;
 
     /// Potential energy at the start of the step [energy].

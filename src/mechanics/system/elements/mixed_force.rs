@@ -21,7 +21,6 @@ struct IterationState {
 
 /// Factor by which the elongation is multiplied in the scale of force differences, for laws with corners [-].
 /// The scale of force differences is the larger of the force and the stiffness times the elongation.
-/// The factor is small, because iterations with a law with corners end with a force difference, unlike those with a linear law.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 
 /// Number of linearisations after which the impedance is estimated from secants. Smooth laws usually converge earlier.
@@ -80,7 +79,7 @@ const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
     /// Target force and slope at the intersection of an increasing law with a line of negative slope.
-    /// The line represents the response of all other objects of the scene: its slope is minus their impedance.
+    /// The line of negative slope represents the response of all other objects of the scene: its slope is minus their impedance.
     /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(
         change: f64,

@@ -1,5 +1,4 @@
 //! Elements that act on bodies: point masses, weight, loads, springs and supports.
-//! A new type of element needs a file in this folder and a variant of [`Element`].
 
 mod all;
 mod brake;

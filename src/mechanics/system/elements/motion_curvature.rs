@@ -3,14 +3,13 @@
 use crate::integrators::Interval;
 use crate::loads::{MotionInStep, PrescribedMotion};
 
-/// Largest jump of the rate of a motion from one step to the next that does not count as a kink.
-/// The jump is a fraction of the largest rate in the step [-].
+/// Largest jump of the rate of a motion between steps that does not count as a kink, as a fraction of the largest rate in the step [-].
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
 /// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
-    /// Start of the step [time].
+    /// Start time of the step with the kink [time].
     pub time: f64,
     /// Prescribed rates at the end of the previous step and at the start of this step [length/time, rad/time].
     pub rates: [f64; 2],
@@ -19,7 +18,7 @@ pub struct MotionCurvature {
 impl MotionCurvature {
     /// Detects a kink of a script function at the start of a step or within it.
     /// For a smooth motion, the rates at the end of a step and at the start of the next step agree up to the fifth power of the step length.
-    /// The two rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks of the function are exempt.
+    /// The two rates differ if the rate jumps, or if the motion is much faster than the step. Declared breaks are not kinks.
     pub fn of(
         motion: &PrescribedMotion,
         interval: Interval,
@@ -42,7 +41,7 @@ impl MotionCurvature {
         Self { time: interval.start, rates: [before, step.first_rate] }
     }
 
-    /// Change of the rate [length/time, rad/time].
+    /// Change of the rate at the kink [length/time, rad/time].
     pub fn size(&self) -> f64 {
         (self.rates[1] - self.rates[0]).abs()
     }

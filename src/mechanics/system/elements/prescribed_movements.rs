@@ -39,7 +39,7 @@ struct PresentMotion {
     /// Reaction of the drive [force, force·length]. A reaction moment is conjugate to the angle of the section.
     reaction: StepMean<f64>,
     impact_momentum: f64,
-    /// Static displacement from the initial position under the full load [length, rad].
+    /// Static displacement of the drive from the initial position under the full load [length, rad].
     goal: f64,
     /// Part of the displacement to `goal` that has already been applied [length, rad].
     placed: f64,

@@ -11,7 +11,7 @@ const SEGMENTS: usize = 32;
 const MOST_POINTS: usize = 20_000;
 
 /// Position of the second test point in a segment, as a fraction of the length of the segment [-].
-/// The second test point is needed, because an oscillating function may agree with the polygon in the middle of a segment by chance.
+/// One test point is not sufficient, because an oscillating function may agree with the polygon in the middle of a segment by chance.
 const SECOND_TEST_POINT: f64 = 0.381_966;
 
 /// Ratio of the allowed difference at the second test point to the allowed difference in the middle of a segment [-].

@@ -6,7 +6,6 @@ use crate::beams::SpanStiffness;
 use crate::system::bodies::Body;
 
 /// Degrees of freedom and static stiffness of a spring.
-/// The material stiffness follows from the slope of the law, the geometric stiffness from the force.
 pub fn static_law(
     law: &SpringLaw,
     elongation: &Elongation,

@@ -23,13 +23,11 @@ pub struct SpringDamper {
     name: String,
     elongation: Elongation,
     linearised: [Vec<f64>; 3],
-    /// Derivative of the force with respect to the coordinates of the elongation, row by row.
     tangent: Vec<f64>,
     /// Positions of terminals on the ground [length]; `None` for terminals on bodies.
     grounds: Vec<Option<Vec2>>,
     /// Force law as a function of the change of the elongation from the initial configuration.
     law: Option<SpringLaw>,
-    /// True if the law has corners and is monotonically increasing.
     rises: bool,
     /// Changes of the elongation from the initial configuration at which the stiffness of the law jumps [length, rad].
     corners: Vec<f64>,

@@ -51,8 +51,7 @@ impl SpringLaw {
         match self {
             Self::Linear { stiffness, natural } => stiffness * (q.value - natural),
             Self::Table { points } | Self::Sampled { points, .. } => {
-                // The interpolation starts at the point of the segment with the smaller force.
-                // An interpolation from the point with the larger force would have the rounding error of the larger force.
+                // The interpolation starts at the end of the segment with the smaller force, which has the smaller rounding error.
                 let [first, second] = segment(points, q);
                 let (at, force) = if first.1.abs() <= second.1.abs() { first } else { second };
                 force + self.slope(q) * q.difference(at)
@@ -93,8 +92,8 @@ impl SpringLaw {
     }
 
     /// Range of elongations in which the law is given. Outside the range, the law is extrapolated linearly.
-    /// A limit of the range is infinite if the force is constant at this limit of the table.
-    /// Returns `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
+    /// A limit of the range of a law is infinite if the force is constant at this limit of the table.
+    /// The range is `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Self::Linear { .. } => None,
@@ -278,7 +277,7 @@ fn zero((q0, f0): (f64, f64), (q1, f1): (f64, f64)) -> f64 {
 }
 
 /// Elongation of least energy, at which the force of a table or its extrapolation changes from negative to positive.
-/// If the force does not change from negative to positive, the function returns the abscissa of the first point.
+/// If the force of a law does not change from negative to positive, the function returns the abscissa of the first point.
 fn natural_elongation(points: &[(f64, f64)]) -> f64 {
     let passes = |pair: &&[(f64, f64)]| pair[0].1 <= 0.0 && pair[1].1 >= 0.0;
     let last = points.len() - 1;

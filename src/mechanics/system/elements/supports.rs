@@ -91,8 +91,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on the given nodes and on the angles of the rigid bodies `turning`.
-    /// Each node is a pair of body and control point. Returns `None` if none of the nodes and angles is supported.
+    /// Reaction force [force] and moment [force·length] on nodes and on angles of the rigid bodies `turning`; `None` without supports.
+    /// Each node is a pair of body and control point.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

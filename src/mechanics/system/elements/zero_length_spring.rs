@@ -2,7 +2,6 @@
 //!
 //! A linear spring of zero natural length is a pair of springs along x and y.
 //! A single force along the connecting vector would change its direction infinitely fast where the ends meet.
-//! Nonlinear force laws of the spring are functions of the distance between its ends.
 
 use super::damping_law::DampingLaw;
 use super::elongation::{Elongation, ElongationEnd};

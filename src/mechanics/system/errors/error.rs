@@ -131,7 +131,7 @@ pub enum Turning {
     RotaryInertia,
     /// Moment or follower force.
     Load,
-    /// Start spin.
+    /// Initial angular velocity.
     Spin,
     /// Torsion spring.
     TorsionSpring,

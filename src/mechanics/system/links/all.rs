@@ -194,7 +194,7 @@ impl Links {
     }
 
     /// Calls `take` with the static stiffness of each link and roller.
-    /// The constraint is replaced by a spring with the penalty stiffness `stiffness` [force/length].
+    /// Each constraint is replaced by a spring with the penalty stiffness `stiffness` [force/length].
     pub fn for_each_static_stiffness(
         &self,
         bodies: &Bodies,

@@ -1,5 +1,4 @@
 //! Constraints with force unknowns: inclined rollers, and rigid links between the points of rigid bodies and their centres.
-//! Joints that share unknowns need no link. Contacts of sliders are in the module `sliders`.
 
 mod all;
 mod inclined_roller;

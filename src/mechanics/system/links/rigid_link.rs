@@ -1,6 +1,5 @@
 //! Rigid link in a step: a point fixed in the frame of a rigid body, and its constraint force (docs/theory.md, section 9.4).
 //!
-//! The linked point keeps its position in the body at the end of every step.
 //! With tangent-scaled rotation increments, the constraint force does no work in a step, and its moments balance.
 
 use std::ops::{Add, Div};
@@ -224,7 +223,7 @@ impl RigidLink {
     }
 
     /// Velocity of the linked point, minus the velocity that follows from the rigid motion of the body [length/time].
-    /// At the end of a step, this difference is an error of second order, whose sign alternates from step to step.
+    /// At the end of a step, the velocity violation is an error of second order, whose sign alternates from step to step.
     /// If accelerations are given instead of velocities, the result does not contain the centripetal acceleration of the arm.
     pub fn velocity_violation(&self, bodies: &Bodies, rates: &[f64]) -> Vec2 {
         let body = &bodies[self.body];
@@ -248,7 +247,6 @@ impl RigidLink {
 
     /// Calls `take` with the static stiffness of the link.
     /// The stiffness of the link is the geometric stiffness of its force plus a penalty stiffness [force/length].
-    /// The penalty stiffness holds the linked point at its position in the body.
     pub fn at_rest(
         &self,
         bodies: &Bodies,

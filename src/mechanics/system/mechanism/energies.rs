@@ -5,25 +5,25 @@ use super::System;
 /// Energies of a body, including its point masses [energy].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BodyEnergy {
-    /// Kinetic energy.
+    /// Kinetic energy of the body [energy].
     pub kinetic: f64,
-    /// Axial strain energy.
+    /// Axial strain energy of the body [energy].
     pub axial: f64,
-    /// Shear strain energy, including kinks under sliders.
+    /// Shear strain energy of the body, including kinks under sliders [energy].
     pub shear: f64,
-    /// Bending strain energy.
+    /// Bending strain energy of the body [energy].
     pub bending: f64,
-    /// Potential energy in gravity, relative to the origin of coordinates.
+    /// Potential energy of the body in gravity, relative to the origin of coordinates [energy].
     pub potential: f64,
 }
 
 impl BodyEnergy {
-    /// Total strain energy.
+    /// Sum of the axial, shear and bending strain energies of the body [energy].
     pub fn strain(&self) -> f64 {
         self.axial + self.shear + self.bending
     }
 
-    /// Total energy.
+    /// Sum of the kinetic, strain and potential energies of the body [energy].
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain() + self.potential
     }

@@ -78,7 +78,6 @@ impl System {
         self.motion.accelerations.mark_unknown();
     }
 
-    /// Starts the sticking of all sliders whose velocity along the master is opposite to their slip.
     pub(crate) fn end_reversed_slips(&mut self) -> Result<(), SystemError> {
         let is_reversed =
             |at: &usize| self.sliders[*at].is_slip_reversed(&self.bodies, &self.motion.rates);

@@ -17,7 +17,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
 /// Largest ratio of two velocity responses to an impulse for which the bodies count as rigid in the direction of the impulse [-].
-/// The first response is computed with the included deformations only, the second response with all deformations.
+/// The ratio compares the response with only the included deformations to the response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
 pub(super) struct ImpulseResponse {
@@ -40,7 +40,6 @@ impl ImpulseResponse {
         Self { forces, rates, touched, transmitted }
     }
 
-    /// Component of the relative velocity at the contact in the direction of the impulse, for given rates.
     pub(super) fn velocity(&self, rates: &[f64]) -> f64 {
         let of_rates = self.touched.iter().filter(|at| **at < rates.len());
         of_rates.map(|&at| rates[at] * self.forces[at]).sum()
@@ -51,7 +50,7 @@ impl ImpulseResponse {
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
 /// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
-/// This mean velocity does not contain velocities across masters, whose signs alternate from step to step.
+/// The mean velocity in the law of a stop does not contain velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -208,7 +207,7 @@ impl System {
 
     /// Adjusts the velocities of points of rigid bodies to the initial rates of drives.
     /// Velocity differences below `negligible` are ignored [length/time].
-    /// Without this adjustment, the difference between the velocities would change its sign in every step.
+    /// Without the adjustment, the velocity difference between rigid links and drives would change its sign in every step.
     pub(in crate::system) fn fit_links_to_drives(&mut self, negligible: f64) {
         if self.links.count() == 0 || !self.supports.prescribed().has_start_rate() {
             return;
@@ -231,7 +230,7 @@ impl System {
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
     /// Without the impact at a jump, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
-    /// Returns true if a prescribed rate jumps.
+    /// The returned flag is true if a prescribed rate jumps.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;
@@ -300,7 +299,7 @@ impl System {
     }
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
-    /// If both bodies respond rigidly to an impulse direction, all deformations are included for this direction.
+    /// If both bodies respond rigidly to an impulse, all deformations are included for the direction of the impulse.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,
@@ -327,7 +326,7 @@ impl System {
 
     /// Creates the impact problem for the given contact directions.
     /// The impact changes the velocity violation of each rigid link by `links` times the violation.
-    /// With the factor -2, the impact reverses the violations, and the links do no work.
+    /// With `links` equal to -2, the impact reverses the violations, and the links do no work.
     pub(super) fn impact_problem(
         &mut self,
         met: &[ImpactSelection<'_>],

@@ -94,7 +94,7 @@ impl System {
     }
 
     /// Initialises all mean forces with the present forces.
-    /// If the present forces are unknown, for example because a load has no value, the first step reports the reason.
+    /// If the forces at the start are unknown, for example because a load has no value, the first step reports the reason.
     pub(crate) fn start_means(&mut self) {
         let has_drives = self.supports.prescribed().count() > 0;
         if self.sliders.is_empty() && !has_drives && self.exchanged.impulses.is_none() {
@@ -135,7 +135,7 @@ impl System {
     }
 
     /// Mean forces of joints and supports in the last step, including impacts. Before the first step, the present forces are returned.
-    /// Returns `None` unless the accumulation of impulses is [enabled](Self::accumulate_impulses).
+    /// The mean forces are `None` unless the accumulation of impulses is [enabled](Self::accumulate_impulses).
     pub fn mean_reactions(&self) -> Option<Reactions> {
         let Impulses { means, .. } = &**self.exchanged.impulses.as_ref()?;
         let (left, across) = means.split_at(means.len() - self.links.all_rollers().len());

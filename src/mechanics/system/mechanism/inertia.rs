@@ -43,7 +43,6 @@ impl System {
     }
 
     /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²].
-    /// A solution vector of the bordered matrix contains accelerations and link forces.
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());

@@ -42,7 +42,6 @@ impl Instant {
 
 impl System {
     /// Computes the accelerations and forces at the present time, with loads just after this time.
-    /// The state of motion does not change.
     ///
     /// # Errors
     /// Fails if a load has no value, or if the contact forces are not determined.
@@ -87,8 +86,6 @@ impl System {
         })
     }
 
-    /// Computes the present contact forces and stores them in `self.step.present`.
-    /// Nothing is allocated after the first call, unless the number of contacts grows.
     pub(super) fn compute_present_forces(&mut self) -> Result<(), SystemError> {
         let mut present = self.step.present.take().unwrap_or_default();
         present.residual.clear();
@@ -228,7 +225,7 @@ impl System {
 
     /// Adds the friction that a force across the master causes at a slipping slider to the response to this force.
     /// The direction of friction depends on the sign of the force across the master in the solution without friction.
-    /// Returns true if a slider slips.
+    /// The returned flag is true if a slider slips.
     fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {
         let PresentForces { directions, responses, magnitudes, .. } = present;
         let mut slips = false;

@@ -1,6 +1,5 @@
 //! Consistent initial kinks: the initial kink is computed from the contact force of a rigid contact (docs/theory.md, section 10.1).
 //!
-//! A kink acts like an undamped spring under the slider.
 //! If the kink began without load, its force would oscillate between zero and twice the contact force.
 
 use super::System;
@@ -15,8 +14,8 @@ use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
-    /// Slaves and masters are moved apart by the displacement of their kinks.
-    /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
+    /// Moves slaves and masters apart by the displacement of their kinks.
+    /// Rotates the relative velocity of a slider at an end of its master from the smooth axis onto the kinked axis.
     /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
@@ -63,7 +62,6 @@ impl System {
     }
 
     /// Rotates the relative velocities of sliders at ends of masters from the smooth axis onto the kinked axis, without work.
-    /// Sets the speeds of kinks to the speeds of their sliders.
     fn rotate_onto_kinks(&mut self, starting: &[usize]) -> Result<(), SystemError> {
         let at_ends = starting.iter().filter(|at| !self.sliders[**at].is_compliant());
         let corners = at_ends.map(|&at| {
@@ -80,8 +78,7 @@ impl System {
     }
 
     /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// The new position is that about which the bodies would oscillate if the kink began without load.
-    /// Returns `None` if contacts cannot be opened independently, or if points of rigid bodies would have to follow nonlinear constraints.
+    /// The result is `None` if contacts cannot be opened independently, or if points of rigid bodies would follow nonlinear constraints.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {
             return Some(());

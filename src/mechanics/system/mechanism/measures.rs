@@ -14,7 +14,7 @@ pub struct Energy {
     pub strain: f64,
     /// Potential energy of gravity, relative to the origin [energy].
     pub potential: f64,
-    /// Potential energy of springs and tendons.
+    /// Potential energy of springs and tendons [energy].
     pub stored: f64,
 }
 

@@ -1,6 +1,5 @@
 //! Statics of a mechanism: residual of the static equations, and derivatives of the residual.
 //!
-//! Displacements are relative to the present configuration.
 //! Rotation increments are increments of the angle, so that the stiffness is the Hessian of the potential energy.
 
 use super::System;
@@ -36,7 +35,7 @@ impl System {
     }
 
     /// Adds the internal forces for the present section forces, minus `load_factor` times the loads, and the contact equations.
-    /// The unknowns are displacements followed by contact unknowns.
+    /// The argument `unknowns` contains displacements, followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
         unknowns: &[f64],
@@ -82,7 +81,7 @@ impl System {
     }
 
     /// Holds sliders that a displacement moves beyond stops, and releases sliders whose stop force is tensile.
-    /// Returns true if the state of a slider has changed.
+    /// The returned flag is true if the state of a slider has changed.
     ///
     /// # Errors
     /// Returns the slider and the end of its master, if a slider would leave its master.
@@ -107,7 +106,6 @@ impl System {
 
     /// Accepts a static solution.
     /// The solution contains displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
-    /// Sets all velocities to zero.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);

@@ -1,6 +1,6 @@
 //! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The impulses of section forces are separate unknowns. Their sum over a beam is zero, so their rounding does not affect the momenta.
+//! The impulses of section forces are separate unknowns, whose sum over a beam is zero, so their rounding does not affect the momenta.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
@@ -11,7 +11,6 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Largest ratio of the stiffness with which a deformation is suppressed to the inertia of a degree of freedom [-].
-/// At the largest ratio, a suppressed deformation is smaller than 1e-5 of the same deformation without suppression.
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;
@@ -25,9 +24,9 @@ const NO_STRAIN: f64 = 1e-20;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     All,
-    /// Deformations that steps of the given length resolve [time].
+    /// Deformations that time steps resolve. The value of this variant is the length of the steps [time].
     Resolved(f64),
-    /// Deformations without axial strain that steps of the given length resolve [time].
+    /// Deformations without axial strain that time steps resolve. The value of this variant is the length of the steps [time].
     Inextensible(f64),
 }
 

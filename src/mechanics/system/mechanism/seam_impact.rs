@@ -2,7 +2,7 @@
 //!
 //! A corner of a track is the limit of a rounded corner: the contact impulses are normal to the rotating tangent and do no work.
 //! The relative velocity of the slave rotates with the tangent, in a metric that depends on the masses.
-//! The rotation of the velocity consists of the rotation of the section direction and of the difference of the shear angles.
+//! The velocity rotates by the rotation of the section direction and by the difference of the shear angles.
 //! For vibrations that the steps do not resolve, only the difference of the shear angles is applied.
 
 use super::System;
@@ -17,7 +17,7 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 const STRAIGHT: f64 = 1e-13;
 
 /// Largest determinant of the velocity response that counts as zero, as a fraction of its squared trace.
-/// If the determinant is zero, impulses change the velocity in one direction only, and the velocity is not rotated.
+/// If the determinant of the velocity response is zero, impulses change the velocity in one direction only, and it is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of iterations for the rotation angles of coupled sliders that pass corners simultaneously.
@@ -60,7 +60,6 @@ pub(super) struct SeamCrossings {
 }
 
 impl SeamCrossings {
-    /// Corners of the section directions at all seams that are passed; empty if the section direction changes at none of them.
     pub(super) fn corners_of_sections(&self) -> &[SeamCorner] {
         if self.sections.iter().all(SeamCorner::is_straight) { &[] } else { &self.sections }
     }
@@ -132,7 +131,6 @@ impl System {
 
     /// Adjusts the velocities of sliders at the ends of masters with a kink.
     /// The velocity along the kinked axis is rotated to the smooth axis.
-    /// The kink has no energy at an end. The motion of the kink becomes motion along the axis.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -185,7 +183,7 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 /// Computes the impulses of an impact in which corners rotate the velocities of sliders (docs/theory.md, section 10.3).
 /// All contacts without a corner follow their impact laws.
 /// The rotation angle of each corner is reached to 1e-12 rad, or as accurately as possible.
-/// Returns `None` if the rotation angles are not reached while sliders also strike stops.
+/// The result is `None` if the rotation angles are not reached while sliders also strike stops.
 pub(super) fn deflect_at_corners(
     problem: &ImpactProblem,
     corners: &[SeamCorner],
@@ -230,7 +228,7 @@ pub(super) fn deflect_at_corners(
 }
 
 /// Velocity response of each slider at a corner to its own impulse.
-/// The response includes the reactions of the contacts that keep slaves on their masters.
+/// The velocity response includes the reactions of the contacts that keep slaves on their masters.
 fn own_responses(
     problem: &ImpactProblem,
     corners: &[SeamCorner],

@@ -12,7 +12,7 @@ pub struct StartImpact {
     pub beam: usize,
     /// Component of the motion that the drive prescribes.
     pub component: Component,
-    /// Initial rate [length/time, 1/time].
+    /// Initial rate of the drive [length/time, 1/time].
     pub rate: f64,
 }
 

@@ -8,13 +8,12 @@ use crate::system::elements::{InternalForce, Penetration, TrialState};
 /// Largest ratio of the contact force on a body to its other forces for which the penetration counts as caused by the other forces [-].
 const EXPLAINED: f64 = 2.0;
 
-/// Largest penetration that is attributed to the approximation of the axis by the mesh.
-/// The penetration is a fraction of the largest coordinate of the body [-].
+/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest body coordinate [-].
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
     /// Name of the first contact whose force has no direction at the start, and the index of the body in the contact.
-    /// The force has no direction if the body lies on the axis of the body that it touches, or at the centre of a disc.
+    /// The contact force has no direction if the body lies on the axis of the body that it touches, or at the centre of a disc.
     pub(in crate::system) fn undirected_contact(&self) -> Option<(&str, usize)> {
         self.elements.resistances().find_map(|contact| {
             let inside = contact.penetrations(&self.bodies);

@@ -9,7 +9,7 @@ use crate::system::sliders::SliderState;
 use crate::system::state::Prediction;
 
 /// State of a [`System`], which can be restored in the same system.
-/// The state contains everything that determines the later motion, and the accumulated work and impulse.
+/// The state of a system determines the later motion, and contains the accumulated work and impulse.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SystemState {
     numbers: Vec<f64>,
@@ -35,7 +35,6 @@ impl SystemState {
             && self.contacts.len() == other.contacts.len()
     }
 
-    /// Sets the state to the state `from` plus `amount` times the vector `change`.
     pub(crate) fn displace(&mut self, from: &Self, change: &[f64], amount: f64) {
         let Self { numbers, prediction: trend, knows_accelerations, sliders, contacts } = self;
         numbers.clear();
@@ -49,7 +48,6 @@ impl SystemState {
         contacts.extend(from.contacts.iter().zip(of_contacts).map(moved));
     }
 
-    /// Writes the difference between this state and the state `other`, divided by `distance`, to `change`.
     pub(crate) fn change_from(&self, other: &Self, distance: f64, change: &mut Vec<f64>) {
         let per_unit = |(own, other): (&f64, &f64)| match own == other || own.is_nan() {
             true => 0.0,
@@ -100,7 +98,7 @@ impl System {
     /// Restores a [`state`](Self::state) of this model bit for bit.
     ///
     /// # Panics
-    /// Panics if the state does not belong to this model.
+    /// Panics if the given state does not belong to this model.
     pub fn restore(&mut self, state: &SystemState) {
         let mut numbers = state.numbers.iter().copied();
         let next = &mut || numbers.next().expect("the state is one of this model");

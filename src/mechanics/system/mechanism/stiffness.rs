@@ -1,8 +1,7 @@
 //! Stiffness, inertia and damping matrices of the present configuration.
 //!
 //! Rotations are increments of the angle, so that the stiffness is the Hessian of the strain energy.
-//! Loads of fixed direction have no stiffness.
-//! The stiffness of follower loads is neglected.
+//! Loads of fixed direction have no stiffness, and the stiffness of follower loads is neglected.
 
 use super::{StaticOrder, System};
 use crate::beams::SpanStiffness;
@@ -94,7 +93,6 @@ impl System {
         self.sliders.for_each_static_stiffness(&self.bodies, self.unknowns.count(), rigid, take);
     }
 
-    /// Number of degrees of freedom with mass that the constraints of rigid links and contacts remove.
     pub(crate) fn constrained_movements(
         &self,
         order: &StaticOrder,
@@ -162,7 +160,6 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the material and the geometric stiffness of a span.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

@@ -1,6 +1,5 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! A slider that comes to rest at a stop and is held there receives an impulse, which reduces its speed along the master to zero.
 //! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
 //! With a coefficient of restitution below one, the stop does not return the lost kinetic energy.
 
@@ -15,8 +14,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 
-/// Largest distance of a slider from an end of its master at which it counts as arriving simultaneously with another slider.
-/// The distance from the end is a fraction of the parameter range of the master [-].
+/// Largest distance from an end, as a fraction of the parameter range, at which sliders count as arriving simultaneously [-].
 const TOGETHER: f64 = 1e-12;
 
 /// Smallest number of steps per period of the vibrations that are included in an impact. Faster vibrations are suppressed.
@@ -59,8 +57,6 @@ impl Arriving {
 }
 
 impl System {
-    /// Limits that sliders reach simultaneously with the given limit, in the order of the scene.
-    /// Sliders that arrive simultaneously are at an end within rounding, and move beyond it.
     pub(crate) fn simultaneous_arrivals(&self, limit: MasterLimit) -> Vec<MasterLimit> {
         let limits = (0..self.sliders.len()).flat_map(MasterLimit::both);
         let arrives = |other: &MasterLimit| {
@@ -92,7 +88,7 @@ impl System {
 
     /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
     /// The impact duration follows from wave speeds if at least one of the bodies is deformable and light enough.
-    /// The ratio of step length to impact duration is recorded.
+    /// The function also records the ratio of step length to impact duration.
     pub(crate) fn resolves_impact(
         &mut self,
         limit: MasterLimit,
@@ -117,8 +113,8 @@ impl System {
     }
 
     /// Deformations that an impact at limits includes, for steps of length `dt` [time].
-    /// With a coefficient of restitution, axial waves and all vibrations faster than the impact are suppressed.
-    /// In an elastic contact, the deformations that the steps resolve are included.
+    /// An impact with a coefficient of restitution suppresses axial waves and all vibrations faster than the impact.
+    /// An elastic contact includes the deformations that the steps resolve.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -264,8 +260,7 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
-    /// All speeds have a common factor. While the set of active contacts does not change, the impulses are proportional to this factor.
-    /// The returned energy is proportional to the square of the common factor.
+    /// The speeds of the sliders have a common factor, whose square is proportional to the energy that the stops return.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -13,8 +13,7 @@ use crate::system::sliders::{ContactChange, SliderEvent};
 /// Largest tensile contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
-/// Largest distance of a slider from the axis at which it counts as landing simultaneously with another slider.
-/// The distance from the axis is a fraction of the length scale of the contact [-].
+/// Largest distance from the axis, as a fraction of the contact's length scale, at which sliders count as landing simultaneously [-].
 const TOGETHER: f64 = 1e-12;
 
 impl System {
@@ -125,7 +124,6 @@ impl System {
     }
 
     /// Computes the impact of sliders that strike their masters. A slider without rebound then slides along its master.
-    /// The impact includes the deformations that the steps resolve.
     /// A second impact with all deformations removes the remaining velocities of sliders without rebound.
     fn solve_landing(&mut self, striking: &[usize], dt: f64) -> Result<(), LinearError> {
         let restitution = |model: &Self, at: usize| match model.sliders[at].has_many_events() {
@@ -160,8 +158,7 @@ impl System {
     }
 
     /// Impact law across the master for a slider that is in contact during an impact.
-    /// A slider that has taken off and landed too often within a step stays in contact.
-    /// Without this rule, two sliders could push each other off their masters alternately without end.
+    /// A slider that took off and landed too often within a step stays in contact, to prevent an endless alternation of two sliders.
     pub(super) fn law_across(&self, slider: usize) -> ImpactLaw {
         let slider = &self.sliders[slider];
         match slider.unilateral.is_some() && !slider.has_many_events() {

@@ -8,8 +8,7 @@ use crate::geometry::{Vec2, corresponding};
 use crate::system::{Scene, System, SystemError};
 
 /// Positions along a beam, precomputed for repeated sampling: its knots, and equally spaced positions between consecutive knots.
-/// A joint inside the beam has two positions with the same arc length.
-/// At a joint inside the beam, the first position belongs to the part before the joint, the second position to the part after the joint.
+/// A joint inside the beam has two positions with the same arc length: the first before the joint, the second after the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamPlaces {
     beam: usize,
@@ -19,11 +18,11 @@ pub struct BeamPlaces {
 /// State of a beam at a sampled position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamSample {
-    /// Arc length in the initial configuration [length].
+    /// Arc length of the sampled point in the initial configuration [length].
     pub arc_length: f64,
-    /// Position [length].
+    /// Position of the sampled point [length].
     pub position: Vec2,
-    /// Velocity [length/time].
+    /// Velocity of the sampled point [length/time].
     pub velocity: Vec2,
     /// Section angle [rad] with whole turns, counted from the tracked angle at the start of the beam.
     pub angle: f64,

@@ -30,7 +30,7 @@ pub enum Usage {
 }
 
 impl SystemFeature {
-    /// Creates a used feature.
+    /// Creates the description of a feature that a simulation uses.
     pub fn used(name: impl Into<String>, how: impl Into<String>) -> Self {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
@@ -375,7 +375,6 @@ fn explain_masses(scene: &Scene) -> SystemFeature {
     }
 }
 
-/// Numbers of joints of each kind as text, such as `2 hinges, 1 clamp`.
 fn counted<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
     let mut kinds: Vec<(&str, usize)> = Vec::new();
     for joint in joints {

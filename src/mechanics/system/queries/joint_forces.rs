@@ -11,7 +11,6 @@ use crate::system::{Reactions, Scene, System, SystemError};
 
 type Node = Option<(usize, usize)>;
 
-/// Nodes on one side of a joint, and the sign with which their forces are added.
 #[derive(Debug, Clone, PartialEq)]
 struct JointSide {
     nodes: Vec<(usize, usize)>,

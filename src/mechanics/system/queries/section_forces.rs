@@ -46,7 +46,6 @@ impl System {
     /// Section forces of a beam in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
     /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at its start and end.
-    /// In a stiff beam, section forces may oscillate from step to step, but their mean over start and end of a step does not oscillate.
     ///
     /// The section forces include forces of material damping, which are computed from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {
@@ -69,7 +68,6 @@ impl System {
     }
 
     /// Section forces along a beam from start to end, at the knots and at three positions between consecutive knots.
-    /// A joint inside the beam has two rows with the same arc length, one before and one after the joint.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

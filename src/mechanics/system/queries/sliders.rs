@@ -41,8 +41,7 @@ impl System {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }
 
-    /// Largest speed along the master for which the kink varies with the contact force [length/time].
-    /// Returns `None` for sliding rules without a kink.
+    /// Largest speed along the master for which the kink varies with the contact force [length/time]; `None` for rules without a kink.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
@@ -65,9 +64,8 @@ impl System {
         self.slider(slider).friction_force()
     }
 
-    /// Distance of a slave from the axis of its master, for a slider that only pushes [length].
-    /// The distance is positive on the side to which the slider can lift off, and zero in contact.
-    /// Returns `None` for a slider that never leaves its master.
+    /// Distance of a slave from the axis of its master [length]; `None` for a slider that never leaves its master.
+    /// The distance of the slave is positive on the side to which the slider can lift off, and zero in contact.
     pub fn flight_gap(&self, slider: usize) -> Option<f64> {
         self.slider(slider).flight_gap(self.bodies())
     }
@@ -77,20 +75,17 @@ impl System {
         self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
     }
 
-    /// Position of a slider along its initial master or track, from 0 at the start to 1 at the end [-].
-    /// On closed tracks, the number of completed rounds is added.
+    /// Position of a slider along its initial master or track, from 0 to 1, plus completed rounds on a closed track [-].
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// Arc length of a slider from the start of its initial master or track [length].
-    /// On closed tracks, the lengths of completed rounds are added.
+    /// Arc length of a slider from the start of its initial master or track, including completed rounds on a closed track [length].
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its initial master or track, positive towards the end [length/time].
-    /// The speed of the slider is computed from the present velocities. It is zero for a slider that is held or released.
+    /// Speed of a slider along its initial master or track, positive towards the end, zero if held or released [length/time].
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }

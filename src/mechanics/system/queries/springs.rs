@@ -10,14 +10,14 @@ const ROUNDING: f64 = 1e-14;
 /// State of a spring or a damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringState {
-    /// Length [length], or angle of a torsion spring [rad].
+    /// Length of the spring [length], or angle of a torsion spring [rad].
     pub elongation: f64,
     /// Mean force (positive in tension) or mean moment in the last step [force, force·length].
     /// For integrators with forces at the ends of steps, the field contains the force at the end of the step.
     pub force: f64,
-    /// Stored energy [energy].
+    /// Stored energy of the spring [energy].
     pub stored: f64,
-    /// Dissipated energy since the start [energy].
+    /// Energy that the damper has dissipated since the start [energy].
     pub dissipated: f64,
 }
 
@@ -73,7 +73,7 @@ impl System {
     }
 
     /// Energies dissipated since the start by elements other than springs and dampers, in the order of the scene [energy].
-    /// The elements are material damping, drag, contacts, impacts of sliders with restitution below 1, and friction.
+    /// The dissipating elements are material damping, drag, contacts, impacts of sliders with restitution below 1, and friction.
     pub(crate) fn dissipations(&self) -> impl Iterator<Item = f64> {
         let others = self.elements().resistances().filter(|other| other.stretched().is_none());
         let losing = self.sliders().iter().filter(|slider| slider.dissipates());

@@ -11,7 +11,7 @@ use crate::system::SystemError;
 pub struct StartMotion {
     /// Velocity of the point `centre` [length/time].
     pub velocity: Vec2,
-    /// Angular velocity [1/time].
+    /// Angular velocity of the body [1/time].
     pub spin: f64,
     /// Centre of rotation [length]; the centre of mass if not given.
     pub centre: Option<Vec2>,
@@ -26,15 +26,15 @@ impl Default for StartMotion {
 /// Beam of a scene.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct BeamDefinition {
-    /// Name in messages and reports.
+    /// Name of the beam in messages and reports.
     pub name: String,
     /// Initial axis, which is free of stress [length].
     pub axis: Curve,
-    /// Mesh: basis and quadrature.
+    /// Mesh of the beam: basis and quadrature.
     pub mesh: Mesh,
     /// Sections along the beam: stiffness and inertia.
     pub section: SectionVariation,
-    /// Motion at the start.
+    /// Motion of the beam at the start.
     pub motion: StartMotion,
 }
 
@@ -81,9 +81,9 @@ impl BeamDefinition {
 /// Particle of a scene. Its mass is stored as a point mass of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParticleDefinition {
-    /// Name in messages and reports.
+    /// Name of the particle in messages and reports.
     pub name: String,
-    /// Initial position [length].
+    /// Initial position of the particle [length].
     pub position: Vec2,
 }
 
@@ -91,7 +91,7 @@ pub struct ParticleDefinition {
 /// The mass and the inertia of the body are stored as a point mass of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RigidBodyDefinition {
-    /// Name in messages and reports.
+    /// Name of the rigid body in messages and reports.
     pub name: String,
     /// Initial position of the centre of mass [length].
     pub position: Vec2,
@@ -101,12 +101,11 @@ pub struct RigidBodyDefinition {
     pub points: Vec<(String, Vec2)>,
     /// Corners of the polygon drawn in pictures, in the body frame relative to the centre of mass [length]. If empty, the points are drawn.
     pub outline: Vec<Vec2>,
-    /// Motion at the start.
+    /// Motion of the rigid body at the start.
     pub motion: StartMotion,
 }
 
 impl RigidBodyDefinition {
-    /// Index of the control point of a named point of the body. Points at the centre of mass share index 0.
     pub(crate) fn control_point(&self, name: &str) -> Option<usize> {
         let (at, (_, place)) = self.points.iter().enumerate().find(|(_, (own, _))| own == name)?;
         Some(if *place == Vec2::zeros() { 0 } else { at + 1 })

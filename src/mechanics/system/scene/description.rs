@@ -21,7 +21,7 @@ use crate::system::{Sensor, SystemError};
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "StoredScene")]
 pub struct Scene {
-    /// Name in messages and reports.
+    /// Name of the scene in messages and reports.
     pub name: String,
     /// Beams, in the order of addition.
     pub beams: Vec<BeamDefinition>,

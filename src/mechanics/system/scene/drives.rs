@@ -11,7 +11,7 @@ use crate::system::elements::{Drive, SceneChecks};
 const CLOSED_AT_START: f64 = 1e-12;
 
 /// Largest jump of a prescribed displacement at a declared break that counts as zero.
-/// The jump is a fraction of the displacement plus the length of the body, or plus 1 rad for rotations.
+/// The jump is a fraction of the displacement plus the length of the body (plus 1 rad for rotations).
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {

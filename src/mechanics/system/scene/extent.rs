@@ -1,5 +1,4 @@
 //! Length scale of a scene without beams, and rounding error of the energy of a scene.
-//! Length scale and rounding error are independent of the location of the scene.
 
 use super::{Scene, Ties};
 use crate::beams::{BodyIndex, Station};
@@ -33,7 +32,7 @@ impl Group {
 
 impl Scene {
     /// Largest initial extent of a group of connected particles and rigid bodies [length].
-    /// The extent does not depend on the location of the scene. The extent of isolated particles without size is zero.
+    /// The extent of a scene does not depend on its location. The extent of isolated particles without size is zero.
     pub fn extent(&self) -> f64 {
         let mut groups = self.groups();
         for (index, particle) in self.particles.iter().enumerate() {
@@ -55,7 +54,7 @@ impl Scene {
     }
 
     /// Length scale of a scene [length]: its longest beam, or its [extent](Self::extent) if it has no beams.
-    /// Returns `None` for isolated particles without size.
+    /// Isolated particles without size have no length scale (`None`).
     pub fn size(&self) -> Option<f64> {
         let extent = || Some(self.extent()).filter(|extent| *extent > 0.0 && extent.is_finite());
         self.longest_beam().or_else(extent)

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
     /// Returns true if all objects of both scenes are equal and have the same order. Only elements of different types may change their order.
-    /// Names, observed stations and outlines of rigid bodies are ignored.
+    /// The comparison of scenes ignores names, observed stations and outlines of rigid bodies.
     /// Scenes that contain script functions are never equal, because script functions cannot be compared.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self.without_names(), other.without_names()) {
@@ -50,7 +50,6 @@ impl Scene {
     }
 }
 
-/// Largest absolute number of each field, over all objects with this field.
 type FieldScales<'v> = BTreeMap<&'v str, f64>;
 
 fn add_scales<'v>(value: &'v Value, field: &'v str, scales: &mut FieldScales<'v>) {

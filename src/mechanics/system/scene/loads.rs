@@ -29,7 +29,6 @@ impl Scene {
     }
 
     /// Description of the element or drive to which a schedule belongs, from its name in [`schedules`](Self::schedules).
-    /// The description of a load contains its title.
     pub fn source_of_schedule(&self, name: &str) -> String {
         let titles = self.loads().filter(|load| load.name == name);
         let title = titles.filter_map(|load| load.title.as_ref()).next();

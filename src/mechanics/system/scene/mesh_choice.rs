@@ -28,8 +28,6 @@ impl Scene {
     ///
     /// A beam on which sliders slide has twice as many spans as a beam without sliders.
     /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
-    /// The largest number of spans is 64.
-    /// A mesh that cannot interpolate the axis is reported by the assembly.
     pub fn choose_mesh(&mut self, beam: usize) {
         if !self.beams[beam].mesh.is_automatic() {
             return;

@@ -1,5 +1,4 @@
 //! Definition of the simulated system, and checks of this definition.
-//! A scene contains no state and no numbering of unknowns; the module `assembly` builds the model.
 
 mod columns;
 mod definitions;

@@ -2,7 +2,7 @@
 //!
 //! The columns of every history and the quantities that are recorded on request are sensors.
 //! The name of a sensor consists of an object, a location and a quantity: `rod.end.x`, `rod[0.5].M`, `rod.energy`, `hinge1.force`.
-//! In the names of works and energies, the quantity precedes the object: `work.motor1`.
+//! In the names of works, the quantity precedes the object: `work.motor1`.
 
 pub(in crate::system) mod quantities;
 mod sensor;

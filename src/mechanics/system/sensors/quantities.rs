@@ -13,9 +13,9 @@ use crate::system::{BodyEnergy, System};
 /// Quantity with its name, dimension and the function that reads it.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantity {
-    /// Name as part of sensor names.
+    /// Name of the quantity as part of sensor names.
     pub name: &'static str,
-    /// Dimension of the values.
+    /// Dimension of the values of the quantity.
     pub dimension: &'static str,
     /// Time to which a value belongs.
     pub timing: ValueTime,
@@ -37,7 +37,6 @@ pub enum ValueTime {
     SummedMean,
 }
 
-/// Function that reads a value, by the type of its argument.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::system) enum QuantityReader {
     Motion(fn(&System, &BodyPoint) -> f64),
@@ -45,13 +44,9 @@ pub(in crate::system) enum QuantityReader {
     Angle,
     Section(fn(&SectionForces) -> f64),
     Energy(fn(&BodyEnergy) -> f64),
-    /// Force and moment of a joint or a slider.
     Force(fn(Vec2, f64) -> f64),
-    /// Value of an object of one type, read by the index of the object.
     Index(fn(&System, usize) -> f64),
-    /// Contribution of one object to a sum over all objects of the scene, such as the dissipated energy.
     Sum(fn(&System, SensorSource) -> Option<f64>),
-    /// The caller provides the value.
     External,
 }
 

@@ -9,7 +9,7 @@ use crate::integrators::Method;
 /// Measured quantity of an object.
 #[derive(Debug, Clone)]
 pub struct Sensor {
-    /// Name of the column.
+    /// Name of the column in histories.
     pub name: String,
     /// Object whose quantity is measured.
     pub source: SensorSource,
@@ -57,7 +57,7 @@ impl Sensor {
         Self { name: format!("{}.{object}", quantity.name), source, quantity }
     }
 
-    /// Returns true if the given integrator makes the values of the sensor means over the last step.
+    /// Returns true if the values of the sensor are means over the last step with the given integrator.
     pub(crate) fn is_step_mean(&self, method: Method) -> bool {
         match self.quantity.timing {
             ValueTime::StepMean | ValueTime::SummedMean => true,

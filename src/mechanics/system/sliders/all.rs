@@ -114,7 +114,7 @@ impl Sliders {
     }
 
     /// Holds sliders that the displacement moves beyond stops, and releases sliders whose stop force is tensile.
-    /// Returns true if the state of a slider has changed.
+    /// The returned flag is true if the state of a slider has changed.
     /// If a slider would leave its master, the error contains the slider and the end of the master.
     pub fn update_stop_contacts(
         &mut self,
@@ -280,8 +280,8 @@ impl Sliders {
     }
 
     /// Index of a slider and unit vector, for each component of a contact force that is an unknown at the present time [-].
-    /// The component across the master is an unknown unless the axis is compliant.
-    /// The component along the master is an unknown if the slider is held or sticks.
+    /// The component of a contact force across the master is an unknown unless the axis is compliant.
+    /// The component of a contact force along the master is an unknown if the slider is held or sticks.
     pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
         self.iter().enumerate().flat_map(|(at, slider)| {
             let (has_across, has_along) = match slider.state {

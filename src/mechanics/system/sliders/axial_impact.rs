@@ -21,7 +21,7 @@ pub struct ImpactBar {
 
 impl ImpactBar {
     /// Time that the wave of an impact takes from one end of the beam to the other [time].
-    /// If the beam is struck by a rigid `mass` that is lighter than the beam, the time in which the mass stops is returned.
+    /// For a rigid `mass` that strikes the beam and is lighter than the beam, the time in which the mass stops is returned.
     /// `cosine` is the cosine of the angle between the direction of the impact and the axis of the beam.
     /// An impact along the axis causes an axial wave, an impact across the axis a shear wave.
     pub fn wave_travel_time(&self, cosine: f64, mass: Option<f64>) -> f64 {

@@ -10,23 +10,22 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 const RIGID: f64 = 1e-14;
 
 /// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
-/// Near this speed, the stiffness of a moving kink is nearly zero. Above the limit, the kink is kept constant.
+/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. Above `FASTEST`, the kink is kept constant.
 const FASTEST: f64 = 0.8;
 
 /// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
-/// At the critical speed, the stiffness of the kink is zero.
-/// The critical speed is the speed of shear waves divided by the square root of the correction factor of the kinetic energy.
+/// The stiffness of a kink is zero at the critical speed: the shear wave speed divided by the square root of the kinetic energy factor.
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Smallest kink length at which a kink varies with the contact force, as a fraction of the largest kink length in the middle of the master.
-/// Near the ends of a master, kinks are shorter than this limit and are therefore kept constant.
+/// Near the ends of a master, kinks are shorter than `BESIDE_END` and are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
 /// Largest speed at which a kink starts with a load at an end of the master, as a fraction of the largest speed at which a kink varies.
 const SLOW: f64 = 0.25;
 
 /// Smallest kink length at which a loaded kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
-/// At shorter kink lengths, rounding errors of positions would determine the kink.
+/// At kink lengths below `FROM_END`, rounding errors of positions would determine the kink.
 const FROM_END: f64 = 0.01;
 
 /// Largest contact force with which a kink starts, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
@@ -95,7 +94,6 @@ impl KinkedAxis {
     }
 
     /// Returns true if the kink is kept constant: close to an end, at speeds close to the speed of shear waves, or after a call of `freeze`.
-    /// A loaded kink that moves slowly away from an end is kept constant only very close to the end.
     pub fn is_frozen(&self) -> bool {
         let [length, slope, _] = self.compliance_derivatives;
         let leaves =
@@ -105,7 +103,7 @@ impl KinkedAxis {
     }
 
     /// Returns true if a new kink may start with a load at the given speed along the master [length/time].
-    /// At larger speeds, waves near the end that the steps do not resolve would determine the load.
+    /// At larger speeds of the slider, waves near the end that the steps do not resolve would determine the load of a new kink.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
@@ -180,8 +178,7 @@ impl KinkedAxis {
 
     /// Removes the component along the tangent of the axis, which is the force of a stop, from the contact force.
     ///
-    /// If the axis is compliant, the force is not changed, because the displacement of the axis determines it.
-    /// An axis can be compliant although the slider is at an end, because rounding errors separate the slider from the end.
+    /// If the axis is compliant, the contact force is not changed, because the displacement of the axis determines it.
     pub fn remove_stop_force(&mut self, tangent: Vec2) {
         if !self.is_compliant() {
             self.keep_force_across(tangent);

@@ -11,9 +11,9 @@ pub const END_TOLERANCE: f64 = 4e-15;
 /// End of the master of a slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MasterEnd {
-    /// Start of the parameter range.
+    /// Start of the parameter range of the master.
     Start,
-    /// End of the parameter range.
+    /// End of the parameter range of the master.
     End,
 }
 
@@ -77,9 +77,9 @@ impl SliderState {
 /// End of a master, at which the motion of a slider along the master is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MasterLimit {
-    /// Index of the slider.
+    /// Index of the slider at the limit.
     pub slider: usize,
-    /// End of its master.
+    /// End of the master of the slider.
     pub end: MasterEnd,
 }
 

@@ -7,8 +7,7 @@ use crate::geometry::{Basis, ContactPath, Vec2};
 use crate::joints::{TrackDirection, TrackEnd};
 use crate::system::bodies::Body;
 
-/// Largest distance between the ends of two beams that count as the same point.
-/// The distance of the ends is a fraction of the length of the beam plus the distance of the ends from the origin.
+/// Largest distance of two beam ends that count as one point, as a fraction of the beam length plus the distance from the origin [-].
 const SAME: f64 = 1e-9;
 
 #[derive(Debug, Clone)]

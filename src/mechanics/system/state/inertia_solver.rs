@@ -5,7 +5,6 @@ use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 pub struct InertiaSolver {
     inertia: BandedMatrix,
     is_factorised: bool,
-    /// Generalised forces of a unit impulse on all degrees of freedom.
     forces: Vec<f64>,
     rates: Vec<f64>,
 }

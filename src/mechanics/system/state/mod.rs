@@ -1,5 +1,4 @@
 //! Motion of a model: rates, prediction of the next step, and force scales of the present step.
-//! Configurations of bodies are in the module `bodies`.
 
 mod accelerations;
 mod forecast;

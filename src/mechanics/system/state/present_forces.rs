@@ -5,7 +5,6 @@ use crate::geometry::Vec2;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
-/// The vectors are reused in the next step. They are enlarged only if the number of contacts increases.
 pub struct PresentForces {
     pub rates: Vec<Vec<Movement>>,
     /// Sum of all forces except inertia and contact forces, for each degree of freedom.
@@ -27,7 +26,6 @@ pub struct PresentForces {
 
 #[derive(Default)]
 pub struct ContactResponse {
-    /// Generalised forces of a unit force across or along the master, at all degrees of freedom.
     forces: Vec<f64>,
     /// Force on the slave per unit of the contact force, including friction [-].
     pub direction: Vec2,

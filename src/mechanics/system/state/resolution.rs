@@ -26,7 +26,6 @@ impl GuessErrors {
 const EQUALLY_LONG: f64 = 1e-3;
 
 /// Measures of the temporal resolution of the motion in the steps so far (docs/theory.md, section 13.3).
-/// The measures are part of the state, so that undone steps are not included.
 /// The energy of unresolved motion follows from the differences of the rates in consecutive steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {

@@ -3,10 +3,10 @@
 use crate::elementary::square;
 use crate::geometry::Vec2;
 
-/// Ratio of the length of a path to its longest chord in the disc that still counts as grazing the disc [-].
+/// Smallest ratio of the length of a path to its chord in the disc for which the path only grazes the disc [-].
 const LONGEST_PATH: f64 = 1e3;
 
-/// Upper limit of the longest chord that counts as grazing the disc, as a fraction of the radius of the disc [-].
+/// Largest chord of a path that only grazes the disc, as a fraction of the radius of the disc [-].
 const GRAZING: f64 = 0.1;
 
 pub struct DiscPath {

@@ -2,7 +2,7 @@
 //!
 //! `docs/theory.md`, section 9.7, derives the mean force of a step.
 //! The friction force is the mean over the exact path in the step. It never exceeds the friction limit, and a sticking contact does not creep.
-//! If the coefficient of restitution is below 1, a viscous force acts in parallel with the elastic force.
+//! If the coefficient of restitution is below 1, a viscous friction force acts in parallel with the elastic one.
 
 use std::array::from_fn;
 
@@ -209,8 +209,7 @@ impl<const N: usize> PointFriction<N> {
         }
     }
 
-    /// Returns the relative difference between the friction force and the force that the friction law requires.
-    /// Returns zero if the difference can be a rounding error of the increments.
+    /// Returns the relative difference between the friction force and the force that the friction law requires; zero within rounding.
     pub fn compare(&mut self, contact: NormalContact) -> f64 {
         let target = self.law(contact).mean_force(self.trial.slip).by_slip;
         let stiffness = larger(target.stiffness, self.stiffness);
@@ -221,7 +220,6 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Linearises the friction law at the present iterate.
-    /// The law of a stiff contact is linearised at its intersection with the line that represents the impedance of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);

@@ -8,7 +8,6 @@ use crate::elementary::ln;
 use crate::system::elements::mixed_force::ForceTarget;
 
 /// Smallest distance from the centre of a disc at which the contact law is evaluated, as a fraction of the radius.
-/// Smaller distances are replaced by this limit.
 const LEAST_DISTANCE: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq)]

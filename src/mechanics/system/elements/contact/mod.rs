@@ -1,5 +1,4 @@
 //! Compliant contact: the contact force follows from a potential of the gap.
-//!
 
 mod between_bodies;
 mod disc_path;

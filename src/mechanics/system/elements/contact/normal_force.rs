@@ -10,7 +10,6 @@ use crate::system::elements::mixed_force::{CORNER_TOLERANCE, ForceTarget, MixedF
 use crate::system::elements::rate_history::RateHistory;
 
 /// Largest ratio of contact stiffness to impedance of the body for which the contact counts as soft [-].
-/// The law of a soft contact is linearised at the present iterate.
 pub const SOFT: f64 = 1e-2;
 
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +24,7 @@ pub struct ContactTime {
     pub stage: Stage,
     /// Factor by which the contact force is multiplied in the balance of the step [-].
     pub weight: f64,
-    /// Coefficients of rates; `None` if damping is not evaluated.
+    /// Coefficients in the formula for rates; `None` if damping is not evaluated.
     pub rates: Option<RateCollocation>,
     /// Duration of the step [time]; infinite for a static increment, in which all rates are zero.
     pub duration: f64,
@@ -40,7 +39,7 @@ impl ContactTime {
     }
 
     /// Weight of the force at the end of a step in the mean force of the step [-]; 1 at the other stages.
-    /// The damping force is divided by this weight, because it is evaluated only at the end of the step.
+    /// The damping force is divided by the weight, because it is evaluated only at the end of the step.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }
     }
@@ -124,7 +123,7 @@ impl NormalForce {
     }
 
     /// Largest tension in an iterate for which the mean tension of the step is not positive [force].
-    /// If the method evaluates forces at both ends of the step, the largest tension depends on the tension at the start.
+    /// For methods with forces at both ends of the step, the largest tension depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
@@ -133,7 +132,7 @@ impl NormalForce {
     /// Damping coefficient at an elastic tension, and its derivative with respect to the change of the gap.
     ///
     /// The damping coefficient is limited to the value that it reaches in an impact of the effective mass on the contact.
-    /// Without the limit, the damping coefficient of a resting contact would be unbounded, because its approach speed is almost zero.
+    /// Without the limit, a resting contact would have an unbounded damping coefficient, because its approach speed is almost zero.
     pub fn damping(&self, law: &NormalLaw, elastic: ForceTarget, mass: f64) -> (f64, f64) {
         if elastic.force == 0.0 {
             return (0.0, 0.0);
@@ -150,8 +149,6 @@ impl NormalForce {
     }
 
     /// Tension and stiffness at the point where the contact law is linearised.
-    /// A stiff contact is linearised at the intersection of the contact law with the line that represents the impedance of the body.
-    /// In equilibria, the impedance of the body is estimated from secants.
     pub fn linearisation_target(
         &mut self,
         law: &NormalLaw,
@@ -174,8 +171,7 @@ impl NormalForce {
         }
     }
 
-    /// Returns the relative difference between the tension and the target that the contact law requires.
-    /// Returns zero if the difference can be a rounding error of the increments.
+    /// Returns the relative difference between the tension and the target that the contact law requires; zero within rounding.
     pub fn compare(&mut self, law: &NormalLaw, target: ForceTarget, moved: f64) -> f64 {
         let stiffness = larger(target.stiffness, self.stiffness(law));
         let extent = CORNER_TOLERANCE * larger(moved, self.gap.value.abs());

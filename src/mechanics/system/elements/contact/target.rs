@@ -7,7 +7,7 @@ use crate::geometry::Vec2;
 use crate::system::elements::element::SceneChecks;
 
 /// First three of the four points of a Gauss–Lobatto rule on `[-1, 1]`, with their weights (Abramowitz & Stegun 25.4.32).
-/// The rule has points at both ends, so that the ends of a beam are contact points.
+/// A Gauss–Lobatto rule has points at both ends, so that the ends of a beam are contact points.
 const LOBATTO: [(f64, f64); 3] = [
     (-1.0, 1.0 / 6.0),
     (-0.447_213_595_499_957_9, 5.0 / 6.0),
@@ -26,7 +26,7 @@ pub enum ContactTarget {
 }
 
 impl ContactTarget {
-    /// Type and name for messages.
+    /// Type and name of the body or point for messages.
     pub fn describe(&self, scene: &dyn SceneChecks) -> String {
         let described = scene.describe(&self.station());
         match self {
@@ -45,7 +45,6 @@ impl ContactTarget {
 }
 
 /// Parameters and quadrature weights [length] of the contact points of a beam.
-/// The contact points are the points of a Gauss–Lobatto rule with four points per span.
 pub fn contact_parameters(mesh: &Mesh, controls: &[Vec2]) -> Vec<(f64, f64)> {
     let basis = mesh.basis();
     let (mut points, mut at_end) = (Vec::new(), 0.0);

@@ -55,7 +55,7 @@ impl RelativeTurn {
         }
         let (difference, mean) = (b - a, 0.5 * (a + b));
         if difference.abs() < SAME_TURN {
-            // The mean of dθ/dω between two rotation increments ω is approximated by the value at the middle, where θ is the rotation angle.
+            // The mean of dθ/dω between two rotation increments ω of the angle θ is approximated by the value at the middle.
             let (rate, slope) = rotations.rates(mean);
             return Self { ratio: rate, derivatives: [0.5 * slope; 2] };
         }

@@ -11,8 +11,7 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law.
-    /// The size of the saved state depends on this result, so that the result must not change when the spring is released.
+    /// Returns true if the force is zero in a segment of the law, also after a release, because the size of saved states depends on it.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -38,7 +37,7 @@ impl SpringDamper {
             Stage::DampedMidpoint(chi) => {
                 let mean = law.mean(q, change);
                 // Only linear laws receive numerical damping, because numerical damping adds energy where the stiffness is negative.
-                // Separate x and y components receive none, because their numerical damping would rotate the force relative to the spring.
+                // Springs with separate x and y components receive no numerical damping, which would rotate the force relative to the spring.
                 let late = match law {
                     _ if self.elongation.is_component() => 0.0,
                     SpringLaw::Linear { stiffness, .. } => 0.5 * chi * stiffness.max(0.0),
@@ -50,8 +49,7 @@ impl SpringDamper {
     }
 
     /// Target force of the spring for a linearisation.
-    /// After several iterations, the spring is linearised at the intersection of its law with a straight line.
-    /// The straight line is the response of all other objects to the force of the spring. An increasing law intersects this line once.
+    /// After several iterations, the spring is linearised at the intersection of its law with the response line of all other objects.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

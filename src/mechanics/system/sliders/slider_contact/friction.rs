@@ -8,8 +8,7 @@ use crate::joints::{Friction, FrictionForces, FrictionMode, Slider};
 use crate::system::bodies::Body;
 
 /// Largest velocity along the master that counts as zero at the end of a slip, as a fraction of the velocity at the start of the step.
-/// An impulse removes this remaining velocity at the end of the slip.
-/// With a zero tolerance, the step after the end of the slip could be too short for an accurate energy balance.
+/// With a zero limit, the step after the end of the slip could be too short for an accurate energy balance.
 const STOPPED: f64 = 1e-6;
 
 /// Rounding error of velocities, as a fraction of the length of the master divided by the duration of the step.
@@ -24,7 +23,7 @@ const NEGLIGIBLE: f64 = 1e-7;
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
 /// Smallest number of recent transitions between slip and stick that prevents the shortening of a step to the end of the slip.
-/// Each transition increases this number by one, and each accepted step or substep reduces it by one.
+/// Each transition between slip and stick increases the number of transitions by one, and each accepted step or substep reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition between slip and stick at the end of an attempted step.
@@ -141,7 +140,6 @@ impl SliderFriction {
         self.transitions = 0;
     }
 
-    /// Numbers that `restore` reads: the sign of the slip, the mean force, the longest step, the number of transitions, and the state of the static friction.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> {
         let sticking = self.static_friction.as_ref().map(StaticFriction::numbers);
         let own = [self.mode_number(), self.force, self.longest, self.transitions as f64];
@@ -321,7 +319,7 @@ impl SliderContact {
             return false;
         }
         let Some(friction) = &mut self.friction else { return false };
-        // The steps locate the start of a slip with static friction.
+        // Sliders with static friction are excluded, because the search for events finds the starts of their slips.
         let is_overloaded =
             friction.static_friction.is_none() && along.abs() > friction.coefficient * across.abs();
         if is_overloaded {

@@ -160,7 +160,7 @@ impl SliderContact {
     }
 
     /// Rate of the parameter of the slider [1/time], from the time derivative of the contact condition.
-    /// `offset` is the vector from the smooth axis of the master to the slave [length]. The next argument contains its derivatives.
+    /// `offset` is the vector from the smooth axis of the master to the slave [length]. `slope` and `bend` contain its derivatives.
     fn rate_at_offset(
         &self,
         offset: Vec2,

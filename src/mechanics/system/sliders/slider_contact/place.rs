@@ -16,15 +16,13 @@ impl SliderContact {
         self.distance_to(end) <= END_TOLERANCE
     }
 
-    /// Position of the slider along the undeformed master or track, from 0 at the start to 1 at the end [-].
-    /// On closed tracks, the number of completed rounds is added.
+    /// Position of the slider along the undeformed master or track, from 0 to 1, plus completed rounds on a closed track [-].
     pub fn position(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part, |route| route.arc_length(part) / route.length())
     }
 
-    /// Arc length of the slider from the start of the undeformed master or track [length].
-    /// On closed tracks, the lengths of completed rounds are added.
+    /// Arc length of the slider from the start of the undeformed master or track, including completed rounds on a closed track [length].
     pub fn arc_length(&self) -> f64 {
         let part = self.part_of_master();
         self.track.as_ref().map_or(part * self.master.length(), |route| route.arc_length(part))

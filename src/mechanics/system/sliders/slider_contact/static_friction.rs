@@ -1,6 +1,6 @@
 //! Static friction of a slider: the force along the master at which a sticking slider starts to slip.
 //!
-//! The force drops at the start of the slip, so the time of the start must be accurate to second order.
+//! The force on a sticking slider drops at the start of the slip, so this time must be accurate to second order.
 //! The contact forces of a step are means. They are extrapolated linearly to the end of the step:
 //!
 //! ```text
@@ -11,7 +11,7 @@
 //! In the second step after a slip, `F_end` is extrapolated from `F₀` and `F₁`, and in the first step it is `F₀`.
 //! The force `F₀` itself must not exceed the limit, so that a slip starts at a jump of a load.
 //!
-//! The averages remove forces whose impulses change sign from step to step. Such forces belong to vibrations that the steps do not resolve.
+//! The averages remove forces whose impulses change sign from step to step, because the steps do not resolve such vibrations.
 
 /// Largest difference between the force along the master and its limit at the start of a slip, as a fraction of the force.
 const AT_LIMIT: f64 = 1e-9;
@@ -28,7 +28,6 @@ pub struct StickingForces {
 }
 
 impl StickingForces {
-    /// Mean forces over two consecutive steps.
     fn joined(self, before: Self) -> Self {
         let duration = self.duration + before.duration;
         let mean = |now: f64, last: f64| (self.duration * now + before.duration * last) / duration;
@@ -45,7 +44,6 @@ impl StickingForces {
 pub struct StaticFriction {
     /// Coefficient of static friction [-].
     coefficient: f64,
-    /// Forces of the last step and of the step before it.
     last: [StickingForces; 2],
     /// Friction limit minus the force along the master, at the start of the step [force]; zero if the forces at the start are unknown.
     reserve: f64,

@@ -8,7 +8,6 @@ use crate::system::sliders::SliderState;
 use crate::system::sliders::master_curve::END_TOLERANCE;
 
 /// Largest number of take-offs, landings and passages of the axis since the last step without such an event.
-/// After `MOST_EVENTS` events, the slider stays in contact until the next step without an event.
 const MOST_EVENTS: usize = 4;
 
 const MOST_ITERATIONS: usize = 64;
@@ -42,11 +41,9 @@ pub struct UnilateralContact {
     pub sign: f64,
     nearest: NearestPoint,
     may_land: bool,
-    /// Number of take-offs, landings and passages of the axis since the last step without such an event.
     events: usize,
     /// Number of attempted steps in which the slider stayed in contact because of too many events.
     pub kept_steps: usize,
-    /// Last take-off, landing or passage, until `take_contact_change` returns it.
     change: Option<ContactChange>,
 }
 
@@ -137,7 +134,7 @@ impl SliderContact {
 
     /// Finds the point of the master that is nearest to the slave, after the given increments of all bodies.
     /// Newton's method starts at the present parameter of the slider. If `increments` is empty, the bodies are in their present configuration.
-    /// A call of this function overwrites the path of the slider.
+    /// A call of `nearest_point` overwrites the path of the slider.
     pub fn nearest_point(&mut self, bodies: &[Body], increments: &[f64]) -> NearestPoint {
         let sign = self.unilateral.as_ref().map_or(1.0, |contact| contact.sign);
         let (first, last) = self.master.domain();
@@ -222,9 +219,7 @@ impl SliderContact {
         END_TOLERANCE * self.size
     }
 
-    /// Distance by which a landing slave is beyond the axis at the end of the attempted step [-].
-    /// The distance of the landing slave is a fraction of the length scale of the contact.
-    /// Returns `None` unless the slider lands in the step.
+    /// Distance of a landing slave beyond the axis, as a fraction of the contact's length scale [-]; `None` without a landing.
     pub fn depth_at_landing(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let NearestPoint { gap, is_inside, .. } = contact.nearest;
@@ -232,9 +227,8 @@ impl SliderContact {
         lands.then_some(-gap / self.size)
     }
 
-    /// Distance by which a slave in flight is beyond the axis at the end of the attempted step [-], negative if it has not reached the axis.
-    /// The distance of the slave is a fraction of the length scale of the contact.
-    /// Returns `None` if the slave is on the axis within rounding.
+    /// Distance of a slave in flight beyond the axis at the end of the attempted step, as a fraction of the contact's length scale [-].
+    /// Before the slave reaches the axis, the distance is negative. On the axis within rounding, the distance is `None`.
     pub fn signed_depth(&self) -> Option<f64> {
         let contact = self.unilateral.as_deref().filter(|_| self.is_separated())?;
         let gap = contact.nearest.gap;
@@ -246,8 +240,7 @@ impl SliderContact {
         self.nearest_point(bodies, &[]).gap / self.size
     }
 
-    /// Distance of the slave from the axis at the end of the last step [length]; zero for a slider in contact.
-    /// Returns `None` for a slider that never leaves its master.
+    /// Distance of the slave from the axis at the end of the last step [length]; `None` for a slider that never leaves its master.
     pub fn flight_gap(&self, bodies: &[Body]) -> Option<f64> {
         let contact = self.unilateral.as_deref()?;
         let to_axis = self.to_axis(bodies);

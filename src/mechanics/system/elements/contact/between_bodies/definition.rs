@@ -29,7 +29,7 @@ pub struct ContactMember {
 /// Bodies that share a joint or a slider do not touch each other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairContact {
-    /// Name in messages and columns.
+    /// Name of the contact in messages and columns.
     pub name: String,
     /// Bodies that can touch each other. A single beam can touch itself.
     pub members: Vec<ContactMember>,
@@ -42,7 +42,7 @@ pub struct PairContact {
 }
 
 impl PairContact {
-    /// Type and name for messages.
+    /// Type and name of the contact for messages.
     pub fn object(&self) -> String {
         format!("contact '{}'", self.name)
     }
@@ -61,7 +61,7 @@ impl PairContact {
 
     /// Friction between two members; `None` without friction.
     /// The moment of the friction force about the contact is divided between the members in the ratio of their radii.
-    /// A particle does not rotate, so the whole moment acts on the other body.
+    /// A particle does not rotate, so the whole moment of friction acts on the body that touches the particle.
     fn friction_of_pair(&self, own: usize, other: usize) -> Option<FrictionOfPair> {
         let radius =
             |member: usize| if self.rotates(member) { self.members[member].radius } else { 0.0 };
@@ -77,7 +77,6 @@ impl PairContact {
         }
     }
 
-    /// Pairs of members that can touch. Two beams form one pair for each direction, with half of the stiffness each.
     fn candidates(&self, scene: &dyn SceneChecks) -> Vec<CandidatePair> {
         let count = self.members.len();
         let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
@@ -175,7 +174,7 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
 }
 
 /// Parts of the axis of a beam that each contact point of the same beam can touch.
-/// A contact point cannot touch parts of the axis at an arc length below half the circumference of a circle with twice the radius.
+/// A contact point cannot touch parts of the axis within an arc length of half the circumference of a circle with twice the radius.
 /// Parts of the axis near the contact point are excluded, because a bent beam would touch itself there.
 fn allowed_parts(
     basis: &Basis,

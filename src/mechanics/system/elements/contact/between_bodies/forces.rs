@@ -2,7 +2,6 @@
 //!
 //! A pair of a contact point and a body is created in the first iterate with contact, and removed at the end of a step in which the contact opens.
 //! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
-//! Boxes around bodies and spans exclude bodies that are far from each other.
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
 use super::shape::{Bounds, CrossingPath, Foot, NearestSearch, Shape};
@@ -51,10 +50,8 @@ pub(super) struct PairForces {
     last_force: Vec2,
     dissipated: f64,
     /// Lower bound of the gap between any two bodies in the configuration `start` of the shapes [length].
-    /// The bound is zero if the boxes around two bodies overlap.
+    /// The bound of the gap is zero if the boxes around two bodies overlap.
     clearance: f64,
-    /// True if the configuration `start` of the shapes is that at the start of the present step.
-    /// The configuration may be older if no bodies can touch.
     is_current: bool,
     watch: ContactWatch,
     last_rate: f64,
@@ -99,7 +96,6 @@ impl PairForces {
     }
 
     /// Returns true if no bodies can touch, because all control points are close to their positions in the configuration `start`.
-    /// The argument `movement` returns the displacement of a control point of a body in the step.
     fn is_clear(&self, bodies: &[Body], movement: impl Fn(&Body, usize) -> Vec2) -> bool {
         let is_near_start = |shape: &Shape| {
             let body = &bodies[shape.body];
@@ -116,8 +112,6 @@ impl PairForces {
         self.is_clear(bodies, |body, at| body.vector_at(at, increments))
     }
 
-    /// Sets the configuration `start` to the present positions, and finds the pairs that touch in it.
-    /// The configuration is not changed if no bodies can touch.
     fn begin_configuration(&mut self, bodies: &[Body]) {
         self.is_current = false;
         if self.is_clear_with(bodies, &[]) {

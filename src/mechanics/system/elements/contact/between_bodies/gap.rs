@@ -18,12 +18,12 @@ use crate::beams::RotationIncrement;
 use crate::geometry::{Dual, DualVector, Vec2, larger};
 
 /// Number of local coordinates: two components of each of four vectors.
-/// The first three vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
-/// The fourth vector is the derivative with respect to ξ, at `ξ₁`, of the displacement of the curve.
+/// The first three local vectors are the displacements of the contact point and of the feet `c(ξ₀)` and `c(ξ₁)`.
+/// The fourth local vector is the derivative with respect to ξ, at `ξ₁`, of the displacement of the curve.
 pub(super) const LOCAL: usize = 8;
 
 /// Smallest sum `A₀ + A₁` for which the share `θ` is computed, as a fraction of the squared distance.
-/// For a smaller sum, both feet coincide within rounding, and the share `θ` has no influence.
+/// If the sum `A₀ + A₁` is smaller, both feet coincide within rounding, and the share `θ` has no influence.
 const SAME_FOOT: f64 = 1e-14;
 
 pub(super) type Slope = [f64; LOCAL];
@@ -45,7 +45,7 @@ pub(super) struct GapMovement {
     /// Largest increment from which the vector `slid` is computed [length]. The rounding error of `slid` is proportional to it.
     pub(super) increment: f64,
     /// Derivatives of the curve with respect to ξ at `c(ξ₁)` [length].
-    /// Order: first derivative at the start of the step, first and second derivative at the end of the step.
+    /// The order of the derivatives is: first derivative at the start of the step, first and second derivative at the end of the step.
     pub(super) tangents: [Vec2; 3],
 }
 
@@ -94,8 +94,8 @@ impl GapTrial {
     }
 
     /// Computes the change of the gap and the directions of the contact forces.
-    /// For `TangentScaled`, the work of the contact forces is the internal force `F` in the gap times the change `ℓ₁ - ℓ₀` of the gap.
-    /// For `Angle`, the contact force has the direction of the gap at the end of the step.
+    /// With `TangentScaled`, the work of the contact forces is the internal force in the gap times the change of the gap.
+    /// With `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,

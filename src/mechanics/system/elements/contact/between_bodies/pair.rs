@@ -272,7 +272,6 @@ impl ContactPair {
         }
     }
 
-    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         shapes: &[Shape],
@@ -637,8 +636,6 @@ impl LocalRows {
         &mut self.columns[at]
     }
 
-    /// Entries of the tangent for the collected unknowns, row by row.
-    /// `tangent` contains the derivatives of the generalised forces with respect to the first `N` local coordinates.
     pub(super) fn entries<const N: usize>(
         &self,
         tangent: &[[f64; N]; N],
@@ -657,8 +654,7 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64]) -> f64 {
 }
 
 /// Vector from the nearest point `from` to the nearest point `to` on an axis with the control points `points` [length].
-/// The second returned value is the length to which the rounding error of the vector is proportional [length].
-/// For two nearest points on the same span, the vector is computed from the Taylor polynomial at `from`.
+/// The second returned value is the length [length] to which the rounding error of the vector is proportional.
 fn slide(from: &Foot, to: &Foot, points: &[Vec2]) -> (Vec2, f64) {
     let by = to.xi - from.xi;
     if by == 0.0 {

@@ -103,8 +103,6 @@ pub(super) struct ContactSite {
     pub(super) touched: Vec<usize>,
 }
 
-/// Configuration of a body: its control points, and the box around it.
-/// The boxes around the spans and the samples of the spans are computed on demand.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Configuration {
     pub(super) points: Vec<Vec2>,
@@ -135,9 +133,8 @@ enum Axis {
 struct SampledCurve {
     basis: Basis,
     spans: Vec<Span>,
-    /// Weights of the control points of a span, for each sample of each span.
     weights: Vec<f64>,
-    /// Enlargement with which the box around the control points of a span contains the curve, as a fraction of the size of the box [-].
+    /// Enlargement of the box around the control points of a span that makes it contain the curve, as a fraction of its size [-].
     growth: f64,
 }
 
@@ -221,7 +218,7 @@ impl Shape {
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass].
-    /// For a point of a rigid body without its own mass, the inverse mass of the whole body is returned.
+    /// At a point of a rigid body without mass of the point, the inverse mass of the whole body is returned.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }

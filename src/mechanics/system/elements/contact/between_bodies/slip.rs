@@ -16,7 +16,6 @@ use crate::system::elements::contact::SlipTrial;
 /// Number of local coordinates with friction: those of the gap, and the rotations of both bodies.
 pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
 
-/// Rotations of both bodies in an iterate, and the fractions of the moment of friction that act on them.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotations {
     /// Rotations of the body of the contact point and of the other body [rad].

@@ -26,7 +26,7 @@ impl<'s> GapSearch<'s> {
     }
 
     /// Smallest gap of the candidate pairs [length]. `closed` contains the gaps of closed contacts.
-    /// Without a smaller gap, the diagonal of the box around all bodies is returned.
+    /// If no gap is smaller, the diagonal of the box around all bodies is returned.
     pub(super) fn smallest(
         mut self,
         candidates: &[CandidatePair],
@@ -64,7 +64,7 @@ impl<'s> GapSearch<'s> {
     }
 
     /// Reduces the gap to the smallest gap between ends of spans of the two bodies.
-    /// The reduced gap excludes most contact points from the search.
+    /// A small initial gap excludes most contact points from the search for smaller gaps.
     fn add_vertices(&mut self, candidate: &CandidatePair) {
         let CandidatePair { shape, target, .. } = *candidate;
         if !self.is_near(candidate) {

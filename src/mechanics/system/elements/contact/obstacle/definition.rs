@@ -18,16 +18,16 @@ use crate::system::errors::finite;
 pub enum ObstacleShape {
     /// Half-plane with a straight boundary.
     HalfPlane {
-        /// Point of the boundary [length].
+        /// Point of the boundary of the half-plane [length].
         point: Vec2,
-        /// Outer unit normal [-].
+        /// Outer unit normal of the half-plane [-].
         normal: Vec2,
     },
-    /// Circular disc.
+    /// Circular disc as obstacle.
     Disc {
-        /// Centre [length].
+        /// Centre of the disc [length].
         centre: Vec2,
-        /// Radius [length].
+        /// Radius of the disc [length].
         radius: f64,
     },
 }
@@ -35,7 +35,7 @@ pub enum ObstacleShape {
 /// Obstacle that is fixed to the ground. Its contact force is a function of the gap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
-    /// Name in messages and columns.
+    /// Name of the obstacle in messages and columns.
     pub name: String,
     /// Shape of the obstacle.
     pub shape: ObstacleShape,
@@ -53,7 +53,7 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// Type and name for messages.
+    /// Type and name of the obstacle for messages.
     pub fn object(&self) -> String {
         format!("obstacle '{}'", self.name)
     }

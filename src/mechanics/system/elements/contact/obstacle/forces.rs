@@ -3,7 +3,6 @@
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown.
 //! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
-//! Linearisation at the intersection makes the number of iterations independent of the stiffness of the contact.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
@@ -27,7 +26,7 @@ pub(super) struct TouchingBody {
     /// True if the convex hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,
     /// True if the convex hull of the control points touches the obstacle at the start of the step or in an iterate.
-    /// If `is_active` is false, the contact points have no forces and are not updated.
+    /// In the inactive state, the contact points have no forces and are not updated.
     is_active: bool,
     watch: ContactWatch,
     /// Mean rate of the gap at the contact point with the largest force in the last step [length/time].

@@ -1,5 +1,4 @@
 //! Obstacles that are fixed to the ground, and their contact with beams, particles and points of rigid bodies.
-//!
 
 mod definition;
 mod forces;

@@ -122,12 +122,10 @@ struct PointInertia {
     mobility: f64,
     /// Angular velocity due to a unit angular impulse [1/(mass·length²)]; zero for a body that does not rotate.
     angular_mobility: f64,
-    /// True for a point off the centre of mass, which a rigid link connects to the centre.
     is_linked: bool,
 }
 
 impl PointInertia {
-    /// Creates the inertia from the diagonal of the inertia matrix. A point of a rigid body has the whole mass of the body.
     fn new(place: &BodyPoint, body: &Body, diagonal: &[f64]) -> Self {
         let of = |degree: usize| diagonal.get(degree).copied().unwrap_or(f64::INFINITY);
         let sum = |component: usize| -> f64 {
@@ -205,7 +203,7 @@ impl ContactPoint {
         self.place.interpolate(body.dynamics.control_points())
     }
 
-    /// Gap at the start of the step.
+    /// Gap between body and obstacle at the start of the step [length].
     /// The gap of a closed contact is the sum of its increments, because the rounding error of positions would store energy.
     pub(super) fn present_gap(&self, surface: &Surface, body: &Body) -> f64 {
         match self.is_closed() {
@@ -234,7 +232,6 @@ impl ContactPoint {
     }
 
     /// Effective masses for impulses along the normal and along the surface [mass].
-    /// At a point of a rigid body, the effective masses depend on the angle of the body.
     fn masses(&self, surface: &Surface, body: &Body) -> [f64; 2] {
         let position = self.position(body);
         let normal = surface.gradient(surface.gap(position).1);
@@ -313,7 +310,6 @@ impl ContactPoint {
         Vec2::new(x, y)
     }
 
-    /// Adds the present contact force to `out`. Returns its magnitude and its relative difference from the law.
     pub(super) fn add_force(
         &mut self,
         surface: &Surface,
