@@ -12,7 +12,7 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// Smallest ratio of an error to the uncertainty of the reference at which the error is significant.
+/// Smallest ratio of the error of a run to the estimated error of the reference at which the error of the run is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -81,9 +81,7 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several step or mesh sizes.
-    /// The first returned element contains the error of all positions together, as a fraction of the length scale.
-    /// Each further returned element contains the error of a single observable.
+    /// Returns the errors of one integrator for all step or mesh sizes: first of all positions together, then of each observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

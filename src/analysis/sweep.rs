@@ -18,8 +18,7 @@ pub enum SweptValues {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid. Each level applies to the given number of consecutive rows, followed by the next level.
-    /// In a full grid, the sequence of levels is repeated until the last row.
+    /// Full grid. Each level is used in the given number of consecutive rows, and the sequence of levels repeats.
     Grid(usize),
     Drawn(Vec<u32>),
 }
@@ -101,7 +100,7 @@ pub enum SweepColumn<'s> {
 }
 
 impl SweepColumn<'_> {
-    /// Number in a row of this column; NaN if the cell is not a number.
+    /// Number in a row of this column; NaN if the cell does not contain a number.
     pub fn number(&self, row: usize) -> f64 {
         match self {
             Self::Parameter(values) => values.number(row).unwrap_or(f64::NAN),
@@ -165,7 +164,7 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows that contribute to sensitivities: the completed rows, or in a Saltelli design the rows of complete blocks.
+    /// Number of rows used for sensitivities: all completed rows, or those in complete blocks of a Saltelli design.
     pub fn usable_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -176,8 +175,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fractions of the variance of a result that the parameters explain, in the order of the parameters.
-    /// Returns `None` if the result is constant, some rows of a grid failed, or there are too few points.
+    /// Fraction of the variance of a result that each parameter explains.
+    /// The fractions are `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

@@ -1,4 +1,4 @@
-//! Grades submissions. A student receives a mark for every exercise, for any content of the files.
+//! Grades submissions. A student receives a mark for every exercise, whatever the files contain.
 
 use std::path::PathBuf;
 

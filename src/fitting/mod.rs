@@ -1,5 +1,4 @@
 //! Parameter estimation from runs by least squares, constrained minimisation and root finding.
-//! The methods of this module call functions that return numbers. They do not depend on how these numbers are computed.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -32,5 +31,5 @@ pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 /// Function that may return derivatives. An error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// Function that is evaluated at several points in one call, so that it can evaluate them in parallel. An error ends the whole search.
+/// Function that is evaluated at several points in one call, which may run in parallel. An error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

@@ -1,4 +1,4 @@
-//! Drawing of a mechanism without its beams, for pictures of section results: outlines of rigid bodies, and symbols.
+//! Outlines of rigid bodies, and symbols, in pictures of section results.
 
 use super::{
     canvas::{Area, Canvas, Point},

@@ -14,14 +14,14 @@ const ALIGNMENT: usize = 64;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArchive {
-    /// Arrays. Their names must be distinct.
+    /// Arrays with distinct names.
     pub arrays: Vec<NpzArray>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArray {
     pub name: String,
-    /// Lengths of the dimensions. The last dimension varies fastest in `values`.
+    /// Lengths of the dimensions.
     pub shape: Vec<usize>,
     /// Numbers of the array. The last index varies fastest.
     pub values: Vec<f64>,

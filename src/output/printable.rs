@@ -1,11 +1,11 @@
-//! Replacement of characters in foreign text that control a terminal or are invisible.
+//! Replacement of control characters and invisible characters in texts from scripts and files.
 
 use std::borrow::Cow;
 
 const REPLACEMENT: char = '\u{fffd}';
 
-/// Replaces control characters (such as the start of an escape sequence), bidirectional characters and characters of zero width.
-/// Line breaks and tabs of the text are kept. The number of characters of the text does not change.
+/// Replaces control characters, bidirectional characters and characters of zero width. The number of characters does not change.
+/// Line breaks and tabs are kept.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {
@@ -32,7 +32,7 @@ pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// Replaces the same characters as [`printable`], and replaces line breaks and tabs by blanks.
+/// Replaces the same characters as [`printable`], and line breaks and tabs by blanks.
 pub fn printable_line(text: &str) -> String {
     printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }

@@ -69,7 +69,7 @@ impl TextTable {
         self
     }
 
-    /// Adds a row. Blanks are added to a row that is shorter than the header. A longer row makes the table wider.
+    /// Adds a row. A short row is filled with blanks; a long row makes the table wider.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self

@@ -1,4 +1,4 @@
-//! Repeated measurements of a run time: number of repetitions, and statistics.
+//! Repeated measurements of a run time, and their statistics.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -8,15 +8,15 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Largest duration of an input for which the evaluation is repeated.
+/// Largest duration of an input that is evaluated repeatedly.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Total run time after which an evaluation is not repeated again.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Total run time below which the evaluation is repeated, whatever the error of the median.
+/// Total run time below which an evaluation is always repeated.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Relative error of the median run time below which the evaluation is not repeated again.
+/// Relative error of the median run time below which an evaluation is not repeated again.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
@@ -74,7 +74,7 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median. A normal distribution with the quartiles of the measured durations is assumed.
+    /// Relative standard error of the median, for a normal distribution with the quartiles of the measured durations.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

@@ -1,4 +1,4 @@
-//! Table of the commands, for the dispatch of inputs, help and completion.
+//! Table of the commands, used to execute, explain and complete them.
 
 use super::{help, inspection, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::CommandOperand;
@@ -176,10 +176,10 @@ impl Command {
     }
 }
 
-/// Finds the command with this name or unambiguous beginning of a name. The name includes the colon.
+/// Finds a command by its name with the colon, or by an unambiguous beginning of this name.
 ///
 /// # Errors
-/// Fails if no command or several commands have a name with this beginning.
+/// Fails if no command or several commands begin with `name`.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

@@ -1,6 +1,5 @@
-//! The method `map.to_json()`.
-//! Unlike with the method of Rhai, vectors become arrays, and values that depend on parameters become plain values.
-//! A value without a JSON form is an error.
+//! The method `map.to_json()`. A value without a JSON form is an error.
+//! Unlike in Rhai, vectors become arrays, and values that depend on parameters become plain values.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,

@@ -9,11 +9,11 @@ use crate::repl::terminal::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Environment variable with the default options of the pager less, and the options that withy sets.
-/// The options `FRX` make the pager less quit if the text fits on one screen, show colours, and leave the text on the screen.
+/// Environment variable with options for the pager less, and its value `FRX`:
+/// less quits if the text fits on one screen, shows colours, and leaves the text on the screen.
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.
+/// Shows a text with a pager program, which handles Ctrl-C itself, and waits until the program ends.
 ///
 /// # Errors
 /// Fails if the program cannot be started.
@@ -28,7 +28,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The pager may quit before it has read the whole text. The resulting write error is ignored.
+        // A write error is ignored, because the pager may quit before it has read the whole text.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

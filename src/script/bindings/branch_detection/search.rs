@@ -1,5 +1,4 @@
-//! Search for branches that depend on a parameter of a scene.
-//! The search covers the syntax tree of a function, the called functions, and captured functions.
+//! Search for branches that depend on a parameter of a scene, in a function and in the functions that it calls or captures.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,13 +20,13 @@ const JUMPS: &[&str] = &[
 /// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// Maximum depth of nested calls of functions in the search.
+/// Maximum depth of nested calls that are searched.
 const DEEPEST: usize = 8;
 
-/// Maximum number of functions in the search, so that the search of recursive functions ends.
+/// Maximum number of functions that are searched, because functions may be recursive.
 const MOST: usize = 100;
 
-/// Position at which a function branches on an expression that contains its argument and a variable that depends on a parameter.
+/// Position at which a function branches on an expression with its argument and a variable that depends on a parameter.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,
