@@ -51,7 +51,7 @@ impl SessionRecord {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records the simulations that a failed statement advanced or rewound since their positions `before`, and returns true if there are any.
+    /// Records the simulations that a failed statement moved in time since their positions `before`. Returns true if there are any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {

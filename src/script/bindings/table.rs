@@ -1,7 +1,7 @@
 //! Binding tables, each of which declares a domain of the language.
 //!
 //! Checks, messages, help, definition files and the reference are derived from the tables.
-//! A new domain needs a `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages), and an entry in its list of tables.
+//! A new domain needs a `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages), listed there.
 
 use rhai::Dynamic;
 

@@ -1,5 +1,5 @@
 //! Packages of Rhai that belong to the language, and functions that are rejected with a suggestion.
-//! The language lacks byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai, and `sleep`, which cannot be interrupted.
+//! The language lacks byte arrays, bit fields, reflection, tags, the JSON parser and `take` of Rhai, and the uninterruptible `sleep`.
 
 use std::any::TypeId;
 

@@ -14,7 +14,7 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug)]
 pub struct StudyParameter {
-    /// Name of the parameter, which is the key of its value in each cell of the study.
+    /// Name of the parameter, also the key of its value in each cell of the study.
     pub name: String,
     pub values: Array,
     pub labels: Vec<String>,
@@ -58,7 +58,7 @@ impl StudyParameter {
     }
 }
 
-/// Short label of a value. Large numbers are written as powers of ten. Texts are unchanged. Integrators and maps have their names.
+/// Short label of a value: powers of ten for large numbers, names of integrators and maps, and unchanged texts.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

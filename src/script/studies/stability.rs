@@ -119,11 +119,11 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// Case of each cell, or the message of the value that the script function threw for the cell.
+    /// Case of each cell, or the message of the value that the script function threw for it.
     ///
     /// # Errors
     /// Fails if the function has an error that it did not throw, or returns an invalid value.
-    /// Also fails if the function throws a value at every cell, because the function is then wrong.
+    /// A function that throws a value at every cell is also an error.
     pub fn cases(
         &self,
         call: &Call,

@@ -93,7 +93,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Searches the statement, up to two tokens after the error, for the first word in `sought`, and returns it with its offset from the error.
+    /// First word in `sought` in the statement, up to two tokens after the error, with its offset from the error.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

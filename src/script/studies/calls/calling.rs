@@ -11,9 +11,9 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// The function threw an error, exceeded its time, or a check failed. The field contains the reason.
+    /// The function threw an error, exceeded its time, or a check failed. The field is the reason.
     Failed(String),
-    /// The script itself seems to be wrong. The field contains the reason.
+    /// The script itself seems to be wrong. The field is the reason.
     Wrong(String),
 }
 
@@ -23,7 +23,7 @@ pub struct CallWork<R> {
     pub steps: u64,
 }
 
-/// Calls the function in a worker with named values and processes its result. `wall` is the time limit as text.
+/// Calls the function in a worker with named values and processes its result. `wall` is the time limit for messages.
 pub fn call<R>(
     worker: &Worker,
     function: &RunFunction,

@@ -1,4 +1,4 @@
-//! Values that can be sent to the engines of other threads: plain values, script functions, and serialised values of the types in [`DataKind`].
+//! Values that can be sent to other threads: plain values, script functions, and serialised values of the types in [`DataKind`].
 
 use std::rc::Rc;
 
@@ -100,7 +100,7 @@ impl Portable {
             .ok_or_else(|| NotPortable { kind: engine.map_type_name(value.type_name()).to_owned() })
     }
 
-    /// Restores the value on this thread. `function_of` finds functions by name and number of parameters. `None` if a function is not found.
+    /// Restores the value on this thread; `None` if `function_of` does not find a function by name and number of parameters.
     pub fn value(&self, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Option<Dynamic> {
         let all = |values: &[Self]| -> Option<Vec<Dynamic>> {
             values.iter().map(|value| value.value(function_of)).collect()

@@ -276,7 +276,7 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// Result of a dry run: the start values. The function is called once with these values.
+    /// Result of a dry run: the start values, with which the function is called once.
     pub fn dry_run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();

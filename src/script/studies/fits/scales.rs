@@ -1,4 +1,4 @@
-//! Scaling of the results of a design for the optimiser. Scaled values are of order one, the objective is minimised, and constraints are nonnegative.
+//! Scaling of the results of a design to order one, with an objective to be minimised and nonnegative constraints.
 
 use std::cell::Cell;
 
@@ -42,7 +42,7 @@ impl<'s> ResultScales<'s> {
         let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);
         let parameters = slopes.first().map_or(0, Vec::len);
-        // Zero derivatives are accepted in later runs, because they may indicate the optimum.
+        // Zero derivatives are errors in the first run only; later they may indicate the optimum.
         let begins = self.size.get().is_none();
         if begins && (0..parameters).any(|by| wanted().all(|at| slopes[at][by] == 0.0)) {
             return Err("all derivatives by a parameter are zero".into());

@@ -54,7 +54,7 @@ pub struct SweepPlan {
     pub design: SweepDesign,
     /// Level values of each parameter; empty if each row has a separate value.
     levels: Vec<Vec<Portable>>,
-    /// Parameters for which the given distribution applies to the logarithm.
+    /// Parameters whose logarithm has the given distribution.
     spread_by_ratios: Vec<String>,
 }
 

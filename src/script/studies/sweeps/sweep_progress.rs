@@ -8,7 +8,7 @@ use crate::script::state::parts::StudyPart;
 pub struct SweepProgress {
     pub results: SweepResults,
     is_known: Vec<bool>,
-    /// Number of completed rows of the sweep, including the rows that other parts of a divided study compute.
+    /// Number of completed rows of the sweep, including the rows of other parts of a divided sweep.
     pub done: usize,
     pub rows: usize,
     /// First completed row, which defines the names of the results.
@@ -59,7 +59,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Reads a journal entry. Entries with a wrong number of values are ignored.
+    /// Reads a journal entry, unless it has a wrong number of values.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),
