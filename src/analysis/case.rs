@@ -21,7 +21,6 @@ pub struct Case {
     pub stops: Vec<f64>,
 }
 
-/// Approximate largest number of recorded states, which limits the memory of parallel runs.
 const MOST_ROWS: f64 = 1e5;
 
 /// Largest relative difference of two step sizes that count as equal.
@@ -77,7 +76,6 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if a run with step size `dt` takes one step from each observation time, schedule break or release to the next.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());

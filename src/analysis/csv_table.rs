@@ -31,9 +31,6 @@ pub struct ParsedCsv {
 impl ParsedCsv {
     /// Parses a table. Semicolons or tabs separate cells if the header line contains no comma.
     /// The line of dimensions below the header in files written by withy is skipped.
-    ///
-    /// # Errors
-    /// Fails if two columns have the same name, or if the number of cells in a row differs from the number of columns.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let separator = separator_of(text);
         let mut reader = csv::ReaderBuilder::new()

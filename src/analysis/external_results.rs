@@ -40,9 +40,6 @@ const SETTING: [(&str, &str); 4] =
 impl ExternalResult {
     /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift, machine, and positions such as xA and yA.
     /// The columns integrator, elements, dof and dt are optional.
-    ///
-    /// # Errors
-    /// Fails if a column is missing, a number is invalid, or a row is for a time that the study does not use.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],

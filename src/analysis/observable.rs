@@ -24,7 +24,6 @@ pub enum ObservableKind {
     },
 }
 
-/// Symbols in tables of reference solutions, each with the history column that it stands for.
 pub const SYMBOLS: [(&str, &str); 6] = [
     ("E", "energy"),
     ("KE", "kinetic"),

@@ -19,7 +19,6 @@ pub struct PrecisionRow {
     pub error: Option<Deviation>,
     /// Error of each observable, in its unit; `None` if the run failed or the reference lacks the observable.
     pub deviations: Vec<Option<Deviation>>,
-    /// True if no other combination is both faster and more accurate.
     pub is_on_front: bool,
 }
 

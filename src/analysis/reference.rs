@@ -5,7 +5,6 @@ use super::observable::{Observable, ObservableKind};
 use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
-/// Values of observables, indexed by time and then by observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +22,6 @@ impl Deviation {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result, or its upper bound if the reference is a run of this program or is less accurate than the result.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -74,7 +72,6 @@ pub enum ReferenceError {
     Stations { station: String, known: String },
 }
 
-/// Relative rounding error of reference values, below which errors of results cannot be determined.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,9 +174,6 @@ fn known_of(
 impl ReferenceSolution {
     /// Reads a reference from a table with the column t and, for a station A, the columns xA, yA and thA.
     /// Further columns are named like observables; columns such as d_xA, d_A, d_pos, d_thA, d_th and d_E contain estimated errors.
-    ///
-    /// # Errors
-    /// Fails if a time is missing, all stations are missing, or a cell is not a number.
     pub fn of_sheet(
         source: impl Into<String>,
         sheet: &ParsedCsv,
@@ -213,7 +207,6 @@ impl ReferenceSolution {
         Self { source: source.into(), is_own: true, known }
     }
 
-    /// Sets the estimated error of each reference value to its difference from a coarser run.
     pub fn with_errors_from(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {

@@ -11,7 +11,6 @@ use crate::sandbox_fs::Folder;
 
 /// Maximum length of an entry [bytes]. A longer entry counts as damaged.
 const LONGEST: u32 = 1 << 20;
-/// Interval between writes to the file. Killing the program loses the rows of at most one interval.
 const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,7 +21,6 @@ pub enum RowEntry {
         /// Number of this part of the sweep, counted from 1, and number of parts; (1, 1) for a whole sweep.
         part: (u32, u32),
     },
-    /// Names of the results, written before the first completed row.
     Names(Vec<String>),
     Computed(u64, Vec<f64>),
     Failed(u64, String),
@@ -36,9 +34,6 @@ pub struct RowJournal {
 
 /// Reads the entries up to the first damaged or incomplete one, and passes each to `heed`.
 /// Returns the length of the valid part of the file [bytes]; zero if there is no file.
-///
-/// # Errors
-/// Fails if an existing file cannot be read, or `heed` returns an error.
 pub fn read_rows<E: From<io::Error>>(
     path: &Path,
     mut heed: impl FnMut(RowEntry) -> Result<(), E>,
@@ -58,7 +53,6 @@ pub fn read_rows<E: From<io::Error>>(
 }
 
 impl RowJournal {
-    /// Opens a journal to append entries after its first `whole` bytes. A missing file is created.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::open_or_create)?;
         let file = folder.append(&name)?;

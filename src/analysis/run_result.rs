@@ -18,7 +18,6 @@ pub struct RunResult {
     pub newton_iterations: usize,
     pub factorisations: usize,
     pub retries: usize,
-    /// Drift of each invariant over the whole run, in the order of [`Invariant::ALL`], after subtraction of the work and impulses of loads.
     pub drifts: [f64; 4],
     /// Energy drift during the last part of the run, in which no load does work; NaN if loads do work until the end.
     pub free_energy_drift: f64,

@@ -18,7 +18,6 @@ pub enum SweptValues {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid. Each level is used in the given number of consecutive rows, and the sequence of levels repeats.
     Grid(usize),
     Drawn(Vec<u32>),
 }
@@ -110,7 +109,6 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Allocates the columns. Called when the first run has returned the names of the results.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
@@ -164,7 +162,6 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows used for sensitivities: all completed rows, or those in complete blocks of a Saltelli design.
     pub fn usable_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());

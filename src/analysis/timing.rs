@@ -8,7 +8,6 @@ use super::{Case, RunLimits};
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// Median time to build the scene and its model.
     pub setup: Duration,
     pub run: Duration,
     pub shortest: Duration,

@@ -23,17 +23,14 @@ pub enum TraceSource {
     StepMean,
 }
 
-/// Values of a quantity over time. A scalar is stored as the first component of a vector.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals from the start, from whose differences step means are computed.
     is_integral: bool,
 }
 
 impl Trace {
-    /// Reads the values of a quantity from the history and trajectory of a simulation; the trace may be empty.
     pub fn of(simulation: &Simulation, quantity: &TracedQuantity) -> Self {
         let history = simulation.history();
         let column = |name: &str| history.column(name).unwrap_or_default();
@@ -67,7 +64,6 @@ impl Trace {
         Self { times, values, is_integral: false }
     }
 
-    /// Largest magnitude of the values or, for integrals, of the means over steps.
     pub fn largest(&self) -> f64 {
         let steps = self.times.windows(2).zip(self.values.windows(2));
         match self.is_integral {

@@ -10,7 +10,6 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::{HAS_THREADS, cores};
 
-/// Longest interval between calls of `heed`.
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all processor cores, and returns the results in the order of the cases.

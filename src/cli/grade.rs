@@ -35,7 +35,6 @@ pub struct GradeOptions<'a> {
     pub limits: &'a LimitOptions,
 }
 
-/// Grades all submissions of a folder and prints each mark when it is known. Files written by attempts are discarded.
 pub fn grade(options: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(options.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };

@@ -14,10 +14,8 @@ use crate::script::state::limits::INTERRUPT_HEARD;
 /// Time in which a run must react to Ctrl-C before the program ends.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for saving the results of a run after Ctrl-C, before the program ends.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
     /// The results of a run. The program ends at a second Ctrl-C, or if the run does not react to the first in time.

@@ -23,7 +23,6 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// Progress bar for the simulated time of a run or for the cases of a study.
 #[derive(Default)]
 struct ProgressDisplay {
     start: Cell<Option<Instant>>,
@@ -34,7 +33,6 @@ struct ProgressDisplay {
 }
 
 const PARTS: u64 = 1000;
-/// Duration of a run after which its progress bar appears.
 const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {

@@ -9,7 +9,6 @@ use super::Exit;
 use super::console::print_error;
 use crate::script::state::files_read::FilesRead;
 
-/// Interval of checks for changes. Unlike notifications of changes, polling works on all file systems.
 const INTERVAL: Duration = Duration::from_millis(200);
 
 /// Calls `run` again after each change of the script or of a file that the run has read, until Ctrl-C.

@@ -14,7 +14,6 @@ pub struct CapturedOutput {
     pub further_lines: usize,
 }
 
-/// Writer that stores the beginning of the output and counts the other bytes. Clones share one buffer.
 #[derive(Clone, Default)]
 pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
 

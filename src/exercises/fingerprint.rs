@@ -7,7 +7,6 @@ use crate::analysis::Journal;
 use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
-/// Returns the hash of the attempt, the files that it may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {

@@ -54,7 +54,6 @@ pub struct Graded {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StudentReport {
     pub student: String,
-    /// Marks of all exercises, in the order of the catalogue.
     pub graded: Vec<Graded>,
 }
 

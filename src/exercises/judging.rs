@@ -179,7 +179,6 @@ impl JudgingContext {
     }
 }
 
-/// Makes a function of the attempt callable by the judge, together with the other functions of its file.
 fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let definition = functions.iter_functions().find(|known| known.name == function.fn_name());

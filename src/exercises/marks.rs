@@ -33,9 +33,6 @@ struct KnownMark {
 pub struct MarksFile(File);
 
 /// Opens or creates the file of marks and reads it.
-///
-/// # Errors
-/// Fails if the file cannot be read or written, is used by another run, or contains something other than marks.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));

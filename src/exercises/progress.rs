@@ -14,7 +14,6 @@ use crate::sandbox_fs::read_text;
 /// Maximum size of the progress file [bytes].
 const LARGEST: u64 = 1 << 20;
 
-/// Name of the progress file, by which the folder of a student is recognised.
 pub const FILE: &str = "withy-progress.json";
 
 /// Progress of a student, including entries for exercises that this version of the program does not have.

@@ -51,12 +51,10 @@ impl Submission {
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
-    /// Returns true if the folder of the submission is a link, which could lead to the work of another student.
     pub fn is_link(&self) -> bool {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// Returns the file of an attempt, from the folder of the submission, of the exercise track, or of the workbook.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

@@ -1,5 +1,5 @@
 //! Detects that the file of an attempt was saved with changes.
-//! The files are read periodically, because change notifications are missing on some file systems and for some editors.
+//! The files are read periodically, because some file systems do not report changes.
 
 use std::time::Duration;
 
@@ -18,7 +18,6 @@ pub struct Watcher<'a> {
 
 struct Seen {
     content: Option<Vec<u8>>,
-    /// True if the file was empty or missing at the last check, as while some editors write it.
     was_missing: bool,
 }
 

@@ -38,7 +38,6 @@ impl Workbook {
         }
     }
 
-    /// Creates the folder and the missing start files. Returns the number of new files.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -77,7 +76,6 @@ impl Workbook {
         self.change(|progress| progress.record(exercise, passed))
     }
 
-    /// Returns the next hint of an exercise, and records that it was given.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;

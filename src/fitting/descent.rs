@@ -20,7 +20,6 @@ pub struct SlopedRating {
     pub constraints: Vec<Vec<f64>>,
 }
 
-/// Objective and constraints with derivatives, or the reason why derivatives are missing.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
 /// Function that evaluates a design; `None` if the run fails.

@@ -8,11 +8,9 @@ use super::SearchRange;
 
 /// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Largest violation of a constraint, scaled to order one, at which the constraint counts as satisfied.
 const MET: f64 = 1e-6;
 /// Largest magnitude of an unbounded parameter in the search, as a multiple of its size, near which it counts as diverged.
 const FARTHEST: f64 = 1e15;
-/// Difference of the objective of a design whose run fails from the worst objective so far.
 pub(super) const PENALTY: f64 = 10.0;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +33,6 @@ pub struct Designed {
     pub parameters: Vec<f64>,
     pub rating: Rating,
     pub is_feasible: bool,
-    /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
     /// Index of the unbounded parameter that diverged because the objective decreases without limit; `None` without divergence.
     pub runaway: Option<usize>,

@@ -10,7 +10,6 @@ pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
     Central(f64),
-    /// One-sided difference of second order, for a parameter at a bound.
     OneSided(f64),
 }
 

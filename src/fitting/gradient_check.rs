@@ -6,7 +6,6 @@ use super::SearchRange;
 /// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter.
 const DISTANCE: f64 = 1e-4;
 
-/// Relative tolerance of the check, far above the error of finite differences and far below that of wrong derivatives.
 const OFF: f64 = 0.02;
 
 /// Deviation that is attributed to rounding, as a fraction of the values.

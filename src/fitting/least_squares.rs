@@ -178,9 +178,6 @@ impl LeastSquares {
     }
 
     /// Minimises with derivatives from `slopes`, or with finite differences if derivatives are missing.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`solve`](Self::solve), or if `slopes` fails.
     pub fn solve_with<E>(
         &self,
         evaluate: &mut Evaluate<'_, E>,

@@ -25,11 +25,8 @@ pub use student::student_quantile;
 /// Values of a function at a point, or the reason why they could not be computed.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// Values with their derivatives with respect to all parameters, or the reason why derivatives are missing.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
-/// Function that may return derivatives. An error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// Function that is evaluated at several points in one call, which may run in parallel. An error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

@@ -1,6 +1,5 @@
 //! Start value and bounds of a parameter in a search.
 
-/// Start value and bounds of a parameter. A bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchRange {
     pub start: f64,
@@ -9,7 +8,6 @@ pub struct SearchRange {
 }
 
 impl SearchRange {
-    /// Start value, moved to the nearest bound if it lies outside the bounds.
     pub fn first(self) -> f64 {
         self.clip(self.start)
     }
@@ -18,7 +16,6 @@ impl SearchRange {
         x.max(self.low).min(self.high)
     }
 
-    /// Scale of the parameter: the distance between its bounds, or its size at the start value if a bound is infinite.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }

@@ -27,9 +27,6 @@ pub enum RootError<E> {
 /// Root of `function` between `from` and `to`, where it must have different signs, with the error `tolerance` of the argument.
 ///
 /// Method of R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4.
-///
-/// # Errors
-/// Fails if the signs at the ends are equal, a value is not finite, the sign changes at a pole, or the function fails.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,

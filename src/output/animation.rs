@@ -14,11 +14,9 @@ const MOST_PIXELS: f64 = 2e9;
 type Rgb = [u8; 3];
 type Pixels = Vec<u8>;
 
-/// Sequence of pictures of equal size.
 pub struct Animation<'a> {
     pub frames: usize,
     pub frames_per_second: u16,
-    /// Draws the frame with an index. It is called twice for each frame: first to collect colours, then to write the frame.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
 }
 
@@ -32,9 +30,6 @@ struct Region {
 
 impl Animation<'_> {
     /// Bytes of the file. Viewers repeat the animation endlessly, or show only the first frame if they do not support animations.
-    ///
-    /// # Errors
-    /// Fails if a frame cannot be painted, there are too many pixels, or there is no frame at all.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         let (width, height) = (self.draw)(0)?.size();
         let pixels = f64::from(width) * f64::from(height) * self.frames as f64;

@@ -3,7 +3,6 @@
 
 use super::{colour::Colour, fonts};
 
-/// Point in pixels on a canvas, or in data units in a chart.
 pub type Point = (f64, f64);
 
 /// Magnitude to which coordinates are limited to prevent overflow, far outside every picture [pixels].
@@ -97,7 +96,6 @@ impl Canvas {
         &self.shapes
     }
 
-    /// Draws a line through the finite points. A single point is drawn as a dot.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
         let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
         if !points.is_empty() {
@@ -118,7 +116,6 @@ impl Canvas {
         }
     }
 
-    /// Writes a text. `anchor` is a point on the baseline of the text.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
         self.write(text, anchor, size, align, TextDirection::Level, colour);
     }

@@ -23,7 +23,6 @@ const NOTE: f64 = 12.0;
 pub enum SeriesColour {
     #[default]
     Next,
-    /// Colour of the series with this index, for related series.
     OfSeries(usize),
     Black,
 }
@@ -193,7 +192,6 @@ impl LineChart {
         self
     }
 
-    /// Writes a text into the chart, to the right of a data point and slightly below it.
     pub fn annotate(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self

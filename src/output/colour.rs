@@ -34,7 +34,6 @@ const RAMP: [Colour; 9] = [
     Colour(68, 1, 84),
 ];
 
-/// Number of different hues for series; further series repeat them.
 pub const HUE_COUNT: usize = HUES.len();
 
 pub fn hue(index: usize) -> Colour {

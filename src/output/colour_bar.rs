@@ -31,7 +31,6 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// Creates a colour bar over all finite `numbers`. `shade` gives the colours from 0 (smallest number) to 1 (largest number).
     pub fn new(
         label: &str,
         numbers: impl IntoIterator<Item = f64>,
@@ -49,7 +48,6 @@ impl ColourBar {
         self
     }
 
-    /// Position of a number in the colour scale, from 0 (smallest number) to 1 (largest number); 1 if all numbers are equal.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }

@@ -5,7 +5,6 @@ use std::io::{self, Write};
 
 use super::OutputError;
 
-/// Table of named columns of numbers. Every number is written with enough digits to restore it exactly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvTable {
     /// Comment lines above the table, such as title and units, written after `#`.
@@ -53,9 +52,6 @@ impl CsvTable {
     }
 
     /// Writes the CSV file in pieces. An error of `file` ends the writing, so that a long table can be interrupted.
-    ///
-    /// # Errors
-    /// Fails if writing to `file` fails, or if the columns have different lengths.
     pub fn write(&self, mut file: &mut dyn Write) -> io::Result<()> {
         let rows = self.common_length().map_err(io::Error::other)?;
         for line in self.comments.iter().flat_map(|comment| comment.lines()) {
@@ -88,7 +84,6 @@ impl CsvTable {
     }
 }
 
-/// Text of a cell. A leading apostrophe is added to texts that spreadsheets would evaluate as formulas.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if is_formula && text.parse::<f64>().is_err() {
@@ -98,7 +93,6 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Comment line above a table. Every part that spreadsheets make a cell is protected by [`csv_cell`].
 pub(super) fn comment_line(text: &str) -> String {
     const CUTS: [char; 3] = [',', ';', '\t'];
     let mut line = "#".to_owned();

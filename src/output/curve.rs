@@ -31,7 +31,6 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps the first, lowest, highest and last point in each vertical strip, which cover the same pixels as all points.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();
@@ -86,7 +85,6 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
         .then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// Splits a curve into dashes. `pattern` contains alternating lengths of strokes and gaps.
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
     let whole =
         run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();

@@ -133,7 +133,6 @@ impl FieldPicture {
     }
 }
 
-/// Directions from the mark of the largest value to its label, of which the first with room for the label is used.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

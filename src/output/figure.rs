@@ -26,7 +26,6 @@ impl PictureKind {
     }
 }
 
-/// Picture of fixed size. Equal drawings give equal bytes on every machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     canvas: Canvas,

@@ -8,9 +8,6 @@ use super::OutputError;
 use crate::sandbox_fs::Folder;
 
 /// Writes `bytes` to a file at a path given by the user. Missing folders are created, and an existing file or link is replaced.
-///
-/// # Errors
-/// Fails if the folder or file cannot be written, or if the path is that of a folder, a pipe or a device.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
     let not_a_file = || OutputError::NotAFile { path: path.into() };

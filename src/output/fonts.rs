@@ -8,7 +8,6 @@ use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxS
 use super::canvas::Point;
 use crate::elementary::{hypot, square};
 
-/// Largest number of characters of a text, after which it is cut.
 const LONGEST: usize = 400;
 
 /// Largest distance between a curve and the polyline that replaces it [pixels].
@@ -32,7 +31,6 @@ pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// Text with a width of at most `room` pixels, shortened with an ellipsis if necessary.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();
@@ -47,7 +45,6 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
 }
 
-/// Breaks `text` into lines of at most `room` pixels, between words if possible.
 pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -77,7 +74,6 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// Outlines of `text` at `size` pixels per em: closed contours of each glyph, with the opposite orientation for holes.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);
@@ -132,7 +128,6 @@ fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<
     contours
 }
 
-/// Appends interior points of a quadratic Bézier curve with the control points `a`, `b` and `c`.
 fn bend(contour: &mut Vec<Point>, a: Point, b: Point, c: Point) {
     let sag = hypot(a.0 - 2.0 * b.0 + c.0, a.1 - 2.0 * b.1 + c.1) / 4.0;
     let pieces = (sag / FLATNESS).sqrt().ceil().clamp(1.0, 8.0) as usize;

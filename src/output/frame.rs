@@ -31,7 +31,6 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Margins that are sufficient for two panels: the larger of both on each side.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -196,7 +195,6 @@ impl Frame {
     }
 }
 
-/// Title or label. If it is too long for a line, it is first reduced in size and then broken into lines.
 struct FittedText {
     lines: Vec<String>,
     /// Size of the letters of a reduced title or label [pixels].

@@ -16,7 +16,6 @@ const BETWEEN: f64 = 20.0;
 const LINE: f64 = 16.0;
 const REST: f64 = 110.0;
 
-/// Largest number of rows of a legend, the last of which shows the number of omitted entries if there are more.
 const MOST_ROWS: usize = 4;
 const MOST_LINES: usize = 3;
 

@@ -19,7 +19,6 @@ const MOST_CELLS: usize = 160;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
     pub label: String,
-    /// Centres of the cells, in increasing order.
     pub middles: Vec<f64>,
 }
 
@@ -62,7 +61,6 @@ impl LevelAxis {
         }
     }
 
-    /// Boundaries of the cells: arithmetic means of neighbouring centres, or geometric means on a logarithmic axis.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }

@@ -10,7 +10,6 @@ use super::{
 
 const OUTLINE: f64 = 1.6;
 
-/// Rigid bodies as lines, and symbols drawn over them, in data units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     pub bodies: Vec<Vec<Point>>,

@@ -22,14 +22,12 @@ const PARTICLE: f64 = 4.5;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionFrame {
     pub time: f64,
-    /// Centre line of each beam, in the same order in all snapshots.
     pub lines: Vec<Vec<Point>>,
     pub marks: Vec<Point>,
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
 }
 
-/// Snapshots of a motion in the plane. Both axes have the same scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
@@ -57,13 +55,11 @@ impl MotionPicture {
         self
     }
 
-    /// Sets the names of the beams, in the order of the lines in each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();
         self
     }
 
-    /// Adds a snapshot. Later times are drawn over earlier ones, in whatever order snapshots are added.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
@@ -97,7 +93,6 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// Limits of the axes that contain all data of all pictures; limits set in the first picture have precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);

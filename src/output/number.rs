@@ -31,7 +31,6 @@ pub fn scientific(x: f64, digits: usize) -> String {
     }
 }
 
-/// Number of digits after the decimal point for `digits` significant digits, limited to the 17 digits of a float.
 fn decimals(digits: usize) -> usize {
     digits.clamp(1, 17) - 1
 }

@@ -9,7 +9,6 @@ use super::{
     frame::Margins,
 };
 
-/// Picture, or part of a picture, that adapts to a given area.
 pub trait Panel {
     /// Preferred size as a separate picture [pixels].
     fn size(&self) -> (f64, f64);
@@ -58,7 +57,6 @@ const HEIGHT_IN_ROWS: f64 = 0.6;
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 
-/// Grid of panels. Plots have the same width in each column, and the same height in each row.
 #[derive(Default)]
 pub struct Page {
     title: String,
@@ -75,7 +73,6 @@ impl Page {
         Self::grid(usize::MAX)
     }
 
-    /// Creates an empty page that is filled row by row, with at most `columns` panels in a row.
     pub fn grid(columns: usize) -> Self {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }

@@ -14,9 +14,6 @@ use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
     /// Bytes of an uncompressed `.parquet` file, in which the metadata `dimension.NAME` is the dimension of the column NAME.
-    ///
-    /// # Errors
-    /// Fails if columns have different lengths, or if two columns have the same name.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
         self.written_to_parquet()

@@ -18,7 +18,6 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, Output
     encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
 }
 
-/// Pixels of `canvas` as red, green and blue, row by row from the top.
 pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];

@@ -4,8 +4,7 @@ use std::borrow::Cow;
 
 const REPLACEMENT: char = '\u{fffd}';
 
-/// Replaces control characters, bidirectional characters and characters of zero width. The number of characters does not change.
-/// Line breaks and tabs are kept.
+/// Replaces control characters except line breaks and tabs, bidirectional characters, and characters of zero width, one by one.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {
@@ -15,7 +14,6 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.char_indices().map(safe).collect())
 }
 
-/// Replaces the same characters as [`printable`], but keeps colour sequences of the form `ESC[1;31m`.
 pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     let mut pieces = text.split("\x1b[");
     let Some(first) = pieces.next().filter(|first| first.len() < text.len()) else {
@@ -32,7 +30,6 @@ pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// Replaces the same characters as [`printable`], and line breaks and tabs by blanks.
 pub fn printable_line(text: &str) -> String {
     printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }

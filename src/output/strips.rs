@@ -24,7 +24,6 @@ const LARGEST: f64 = 0.2;
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
-/// Side of a beam on which positive values are drawn, seen in the direction of the beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BeamSide {
     #[default]
@@ -35,7 +34,6 @@ pub enum BeamSide {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamStrip {
     pub line: Vec<Point>,
-    /// Points along the beam with their values. At a jump of the value, the same point occurs twice.
     pub values: Vec<(Point, f64)>,
 }
 

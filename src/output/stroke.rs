@@ -12,7 +12,6 @@ pub enum Stroke {
     Solid,
     Dashed,
     Dotted,
-    /// Continuous line with a marker at every point, for series of few points.
     Marked,
     MarkersOnly,
 }

@@ -30,7 +30,6 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of an SVG document of the library plotters, which [`head`] replaces: it has a wrong size, no title and no description.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));

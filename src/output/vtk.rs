@@ -13,7 +13,6 @@ const LINE: u8 = 3;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// Bodies. The cell field `body` in the file contains the index of the body of each cell.
     pub cells: Vec<VtkCell>,
     pub fields: Vec<VtkField>,
 }

@@ -20,7 +20,6 @@ pub fn beginning(text: &str, most: usize) -> &str {
     beyond.map_or(text, |(end, _)| &text[..end])
 }
 
-/// Text of at most `most` columns. A wider text is cut and ends with `mark`.
 pub fn cut(text: &str, most: usize, mark: char) -> String {
     match beginning(text, most) {
         whole if whole.len() == text.len() => text.to_owned(),

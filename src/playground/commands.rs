@@ -15,10 +15,8 @@ use crate::script::source::program::Program;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Exit code for failed checks, as in the program `withy`.
 const CHECK_FAILED: u8 = 1;
 
-/// Maximum depth of nested calls. The stack of a WebAssembly module in Chromium is sufficient for depth 80.
 const DEPTH: usize = 64;
 
 const HELP_WIDTH: usize = 72;

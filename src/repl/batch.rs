@@ -37,7 +37,6 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Evaluates inputs from `lines` until the lines end, an input fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();

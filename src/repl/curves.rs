@@ -52,12 +52,10 @@ impl PlotCurve {
 pub enum PlotShape {
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// Plane vector, whose components are points of two separate curves.
     Vector(Vec2),
     None(String),
 }
 
-/// Interprets a value of the type `of` as curves: numbers, vectors, arrays of numbers or points, or two arrays of equal length.
 pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
         return PlotShape::Number(number);
@@ -118,7 +116,6 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// Splits the operand of a command at commas outside brackets and string literals.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) =

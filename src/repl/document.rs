@@ -90,7 +90,6 @@ fn after_statements<T: Send>(
     })?
 }
 
-/// Words that can continue a statement after a block.
 const CONTINUING: &[&str] = &["else", "catch", "while", "until"];
 
 /// Statements of a text, with the comments before them. An unclosed bracket does not hide the statements after it.

@@ -6,10 +6,8 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Largest nesting depth of arrays and maps in which shared values, simulations and scenes are found.
 const DEEPEST: usize = 8;
 
-/// Recorded state of simulations, scenes, shared values and files, for the detection of later changes.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -17,7 +15,6 @@ pub struct SideEffects {
     files: usize,
 }
 
-/// Position of a simulation: its counters, the number of its scheduled functions, and the memory of its snapshots.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {

@@ -18,7 +18,6 @@ const HEADER: &str = "//! A session of withy: its successful inputs.";
 enum RecordedInput {
     Statements(Source),
     Expression(Source),
-    /// Statements that return early, which would end a saved script.
     EarlyReturn(Source),
     Moved(Source),
 }
@@ -37,7 +36,6 @@ pub struct SessionRecord {
 }
 
 impl SessionRecord {
-    /// Records statements that succeeded and have no value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
@@ -46,12 +44,10 @@ impl SessionRecord {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
-    /// Records an input that ended early by `return`.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records the simulations that a failed statement moved in time since their positions `before`. Returns true if there are any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
@@ -192,7 +188,6 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 
 struct FunctionText {
     name: (String, usize),
-    /// Byte range of a function definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,
 }
 

@@ -8,11 +8,9 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Largest duration of an input that is evaluated repeatedly.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Total run time after which an evaluation is not repeated again.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Total run time below which an evaluation is always repeated.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
@@ -24,7 +22,6 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs after which the error of the median is computed again.
     next_evaluation: usize,
 }
 
@@ -74,7 +71,6 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median, for a normal distribution with the quartiles of the measured durations.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

@@ -270,13 +270,11 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes constants after the first `known` variables visible as `global::NAME`, also in functions that were defined earlier.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Drops shadowed variables, which are no longer accessible, to save memory in long sessions.
     fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;

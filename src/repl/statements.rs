@@ -11,7 +11,6 @@ pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// Last position that separates the first `first` statements of a valid text from the others.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }
@@ -33,7 +32,6 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     cuts.into_iter().rev().find(is_right)
 }
 
-/// Returns true if a `return` statement outside functions may end an input early.
 pub fn returns(ast: &AST) -> bool {
     let mut found = false;
     for statement in ast.statements() {

@@ -17,7 +17,6 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. The engine regards them as one text in which each input has its own lines.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -33,7 +32,6 @@ impl Transcript {
         self.lines + 1
     }
 
-    /// Appends an input. Returns the number of lines before it.
     pub fn add(&mut self, program: Program) -> usize {
         let lines = program.text.lines().count().max(1);
         if self.lines + lines > MOST_LINES {
@@ -62,7 +60,6 @@ impl Transcript {
         }
     }
 
-    /// All inputs as one program with unchanged line numbers. Failed inputs are blank, except the last input.
     pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -80,7 +77,6 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// Variables declared outside functions, with the lines of their declarations in [`Transcript::to_program`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {
@@ -99,7 +95,6 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// Converts the positions of an error to positions in the original inputs or in a loaded file.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()

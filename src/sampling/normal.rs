@@ -2,7 +2,6 @@
 
 use crate::elementary::ln;
 
-/// Largest distance of the probability from 1/2 at which the approximation for the centre of the distribution is used.
 const CENTRE: f64 = 0.425;
 
 fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {

@@ -6,7 +6,6 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 /// Generator of the random numbers of studies: ChaCha with twelve rounds (D. J. Bernstein, 2008), with equal numbers for equal seeds.
 pub struct Random(ChaCha12Rng);
 
-/// Number of random bits of a uniform number, which is the precision of a double.
 const BITS: u32 = 53;
 
 impl Random {
@@ -16,7 +15,6 @@ impl Random {
         Self(ChaCha12Rng::from_seed(key))
     }
 
-    /// Uniform random number in the open interval (0, 1): the rounded midpoint of one of 2⁵³ equal parts.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)

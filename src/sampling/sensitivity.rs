@@ -3,7 +3,6 @@
 /// Minimum number of Saltelli blocks or of independent points, whose inverse square root is about the uncertainty of an index.
 const FEWEST: usize = 30;
 
-/// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
     /// First-order index: variance of the mean of the result over all other parameters, as a fraction of the total variance.

@@ -33,9 +33,6 @@ impl Folder {
     }
 
     /// Opens a subfolder by its name, without following a link.
-    ///
-    /// # Errors
-    /// Fails if no folder has this name, or if it is a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

@@ -20,9 +20,6 @@ pub fn is_plain(name: &Path) -> bool {
 
 impl Folder {
     /// Opens a folder at a path given by the user, following links.
-    ///
-    /// # Errors
-    /// Fails if `path` is not the path of a folder.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open(path).map(Self)
@@ -30,9 +27,6 @@ impl Folder {
 
     /// Opens a folder for writing; the folder and its parents are created if necessary.
     /// A link in place of the folder is rejected, because it could lead anywhere.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created, or if it is a link.
     pub fn open_or_create(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -46,9 +40,6 @@ impl Folder {
     }
 
     /// Opens an existing folder that is not a link.
-    ///
-    /// # Errors
-    /// Fails if `path` is not the path of a folder, or if it is a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -101,17 +92,11 @@ impl Folder {
     }
 
     /// Reads a regular file of at most `most` bytes below this folder, without following links.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist, is longer than `most`, or is a link, a pipe, a device or a folder.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
 
     /// Opens a regular file below this folder for reading, without following links.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist, or is a link, a pipe, a device or a folder.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.metadata(name)?;
@@ -124,7 +109,6 @@ impl Folder {
         Ok(file)
     }
 
-    /// Returns true if a file, a folder or a link of this name exists below this folder, also if the link has no target.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
         found.is_ok_and(|(folder, name)| folder.0.metadata(name).is_ok())
@@ -134,16 +118,12 @@ impl Folder {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Creates a new file for writing, and its missing parent folders.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.0.create_file(name)
     }
 
     /// Opens a regular file for appending, and creates it if it does not exist.
-    ///
-    /// # Errors
-    /// Fails if `name` is a link, a pipe, a device or a folder.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         let file = folder.0.append_to_file(name)?;
@@ -151,7 +131,6 @@ impl Folder {
         Ok(file)
     }
 
-    /// Renames a file in this folder, and replaces an existing file with the new name.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name.as_os_str(), new.as_os_str())?;
         self.sync()

@@ -6,9 +6,6 @@ use std::path::Path;
 use super::dir::open_file;
 
 /// Reads a file of at most `most` bytes at a path given by the user, following links.
-///
-/// # Errors
-/// Fails if `path` does not lead to a regular file, or if the file is too long or unreadable.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     // The type is checked before the file is opened, because opening a device may have side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
@@ -16,9 +13,6 @@ pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 }
 
 /// Reads a UTF-8 text file of at most `most` bytes at a path given by the user, following links.
-///
-/// # Errors
-/// Fails if `path` does not lead to a regular file, or if the file is too long, unreadable or not UTF-8.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))

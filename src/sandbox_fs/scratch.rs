@@ -10,12 +10,10 @@ use tempfile::TempDir;
 use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
-/// Name of a file in each temporary folder, locked while a process uses the folder.
 const HELD: &str = ".held";
 /// Age [time] from which a temporary folder without lock file counts as abandoned; a younger one may belong to a starting process.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// New folder in the system's folder for temporary files, removed when this value is dropped.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
@@ -24,7 +22,6 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// Creates a temporary folder, and removes the folders of processes that were killed.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
@@ -49,7 +46,6 @@ impl Scratch {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }
 
-    /// Removes the temporary folders of killed processes, as far as possible.
     fn remove_stale(&self, home: &Path) {
         for path in stale(home, self.path()).unwrap_or_default() {
             let _ = fs::remove_dir_all(path);

@@ -10,7 +10,6 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// Maximum number of names that are tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
 /// Age from which an unlocked temporary file counts as abandoned; a younger one may not have been locked yet.
@@ -53,9 +52,6 @@ impl Folder {
     }
 
     /// Writes a file under a temporary name by `write`. [`Prepared::rename_to_final`] then gives it the name `name`.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`write_atomic`](Self::write_atomic), or if `write` fails.
     pub fn prepare(
         &self,
         name: &Path,
@@ -74,7 +70,6 @@ impl Folder {
         Ok(prepared)
     }
 
-    /// Creates a hidden temporary file beside `name`, locked while it is open.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -111,7 +106,6 @@ impl Folder {
         }
     }
 
-    /// Renames a file below this folder to the first unused of the names that `free` returns. Returns the new name.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
@@ -141,7 +135,6 @@ impl Folder {
     }
 }
 
-/// Number of this process. WebAssembly has no processes.
 fn process_id() -> u32 {
     if cfg!(target_family = "wasm") { 0 } else { std::process::id() }
 }

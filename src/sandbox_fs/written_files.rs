@@ -6,7 +6,6 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the hidden file with the record of written files.
 const FILE: &str = ".withy-written";
 /// Maximum size of the record [bytes]. If it is larger, all files count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
@@ -68,7 +67,6 @@ impl<W: Write> Write for ChecksumWriter<W> {
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
-    /// True if the last line of the record is incomplete.
     is_truncated: bool,
 }
 
@@ -87,7 +85,6 @@ impl WrittenFiles {
     }
 
     /// Returns true if no file has this name, or if the file is unchanged since this program wrote it.
-    /// Before the result is false, the record is read again, because another run may have added a line.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -126,7 +123,6 @@ impl WrittenFiles {
     }
 }
 
-/// Parses a line `checksum length name` of the record.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;

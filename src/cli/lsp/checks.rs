@@ -23,13 +23,11 @@ use crate::script::source::scanner::scan;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time after the last change of a document until it is checked.
 const PAUSE: Duration = Duration::from_millis(150);
 
 /// Largest run time of a check; the rest of the script is then not checked.
 const LONGEST_CHECK: Duration = Duration::from_secs(10);
 
-/// Starts a check of a document, stops the previous one, and sends the errors to the client.
 pub fn start(uri: &Uri, document: &mut Document) {
     stop(document);
     document.check = Arc::default();

@@ -19,7 +19,6 @@ use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::limits::Limits;
 
-/// Time limit for evaluating the statements before the cursor when a request of the editor is answered.
 const LONGEST_ANSWER: Duration = Duration::from_secs(1);
 
 pub fn limits() -> Limits {
@@ -30,7 +29,6 @@ pub struct Document {
     pub version: i32,
     pub text: String,
     pub check: Arc<AtomicBool>,
-    /// Text before the line of the last request, and the names known after this text; it avoids a repeated evaluation.
     names: RefCell<Option<(String, CompletionContext)>>,
 }
 
@@ -61,7 +59,6 @@ impl Document {
         self.names.take();
     }
 
-    /// Names that are known at the start of the line with the byte `offset`.
     pub fn names(&self, uri: &Uri, offset: usize) -> Option<CompletionContext> {
         let start = self.text[..offset].rfind('\n').map_or(0, |end| end + 1);
         let before = &self.text[..start];

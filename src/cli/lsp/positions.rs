@@ -28,7 +28,6 @@ pub fn range(text: &str, part: Range<usize>) -> lsp::Range {
     lsp::Range { start: position(text, part.start), end: position(text, part.end) }
 }
 
-/// Byte offset in a text. A position after the end of a line or of the text is moved to this end.
 pub fn offset(text: &str, at: lsp::Position) -> usize {
     let Some(start) = line_starts(text).nth(at.line as usize) else { return text.len() };
     let line = text[start..].split(['\n', '\r']).next().unwrap_or_default();

@@ -45,11 +45,9 @@ pub fn lsp() -> Exit {
 
 #[derive(Clone, Copy, Default)]
 enum Phase {
-    /// State before the request `initialize`.
     #[default]
     Start,
     Running,
-    /// State after the request `shutdown`.
     ShutDown,
 }
 

@@ -20,12 +20,10 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time after the time limits of an attempt until its process is killed.
 const SLACK: Duration = Duration::from_secs(12);
 /// Maximum size of the report on an attempt [bytes].
 const LONGEST: u64 = 1 << 20;
 
-/// Process that judges one attempt. It is killed when this value is dropped.
 pub struct JudgeProcess {
     process: Child,
     messages: Receiver<String>,

@@ -122,7 +122,6 @@ fn push(lines: &mut [ScreenLine], piece: String, style: &LineStyle) {
     }
 }
 
-/// Wraps a text between words at `columns` columns. `indent` precedes each line after the first.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })

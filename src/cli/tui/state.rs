@@ -11,7 +11,6 @@ use crate::exercises::report::{AttemptOutcome, AttemptReport};
 #[derive(Clone, Debug)]
 pub struct TuiState {
     pub exercise: &'static Exercise,
-    /// Path of the exercise file, as the user would type it.
     pub file: String,
     pub progress: StudentProgress,
     pub last: Option<AttemptReport>,
@@ -23,7 +22,6 @@ pub struct TuiState {
     pub top: ScrollPosition,
     pub notice: Option<String>,
     pub confirmation: Option<Confirmation>,
-    /// Number of an exercise that the user is typing in the list; 0 if nothing is typed.
     pub typed: usize,
 }
 
@@ -66,7 +64,6 @@ pub enum KeyAction {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
     pub top: usize,
-    /// Largest value of `top`, at which the end of the page is visible.
     pub last: usize,
     pub rows: usize,
 }

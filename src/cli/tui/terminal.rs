@@ -87,9 +87,6 @@ impl RawTerminal {
     }
 
     /// Restores the terminal, suspends the process, and switches to raw mode again when the process continues.
-    ///
-    /// # Errors
-    /// Fails if the process cannot be suspended, or in the same cases as [`enter`](Self::enter).
     pub fn suspend(&mut self) -> io::Result<()> {
         restore();
         #[cfg(unix)]

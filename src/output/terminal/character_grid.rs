@@ -11,13 +11,10 @@ pub enum TerminalColour {
     Series(usize),
 }
 
-/// Colours of series that are readable on dark and on light terminals: cyan, yellow, magenta, green, blue, red.
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 
-/// Placeholder in the second cell of a character that is two columns wide.
 const WIDE_PLACEHOLDER: char = '\0';
 
-/// Characters in lines and columns. Characters written outside the grid are ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -38,7 +35,6 @@ impl CharacterGrid {
         }
     }
 
-    /// Writes a text to the right from the given position, in the character set of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: TerminalColour) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {

@@ -8,7 +8,6 @@ use crate::output::curve::pieces;
 pub const ACROSS: usize = 2;
 pub const DOWN: usize = 4;
 
-/// Bit of each dot in the code of its Braille character, by column and then from top to bottom.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

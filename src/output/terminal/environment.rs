@@ -8,7 +8,6 @@ const USUAL: (usize, usize) = (80, 24);
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
-/// Number of lines below a picture that remain free for the prompt.
 const FREE_LINES: usize = 3;
 
 impl TerminalStyle {

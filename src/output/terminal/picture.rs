@@ -37,7 +37,6 @@ impl PictureMark {
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
 /// Size of the smallest picture with a frame [columns, lines].
 const LEAST: (usize, usize) = (12, 5);
-/// Number of empty dots between a drawing and its frame.
 const MARGIN: f64 = 2.0;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -93,7 +92,6 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Text of the picture for a terminal, at most as wide and as high as `style` allows.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
@@ -204,7 +202,6 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame. If the left text would lose more than half of the line, the right text is omitted.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,

@@ -11,7 +11,6 @@ use crate::output::base64::base64;
 
 /// Code of values that are not finite, larger than the codes of finite values.
 const MISSING: u16 = u16::MAX;
-/// Largest number of rounding steps, at which the rounding error is smallest.
 pub const FINEST: u16 = MISSING - 1;
 
 /// Rounding of numbers to steps: `number = origin + step · code`.
@@ -85,7 +84,6 @@ pub fn pack(
     }))
 }
 
-/// First or second differences modulo 2¹⁶, in zigzag encoding, which maps small negative numbers to small codes.
 fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
     let (mut last, mut last_change) = (0u16, 0u16);
     codes.iter().map(move |&code| {

@@ -82,7 +82,6 @@ fn command_page(command: &Command) -> HelpPage {
     page
 }
 
-/// Lists the commands on one screen, and shows how to get further help.
 fn commands(shell: &mut Shell) -> CommandOutcome {
     let mut page = HelpPage::default();
     page.heading("Commands of the prompt");

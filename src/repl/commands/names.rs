@@ -63,7 +63,6 @@ fn text_of(shell: &Shell, name: &str) -> Option<String> {
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Help topic for a name. A member of a variable is named by its type, as in `Beam.length`, and an imported function by its full name.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')
@@ -129,7 +128,6 @@ fn extent(value: &Dynamic) -> String {
     }
 }
 
-/// Value of a property of a variable. Reading a property has no side effects.
 fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {

@@ -185,7 +185,6 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Success
 }
 
-/// Charts of curves, one for each dimension. Expressions, whose dimension is unknown, are drawn in the chart of the first column.
 fn charts(
     shell: &Shell,
     options: &Map,
@@ -220,7 +219,6 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// Evaluates an expression at the present time or, if it gives a single point of a curve, also at all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,

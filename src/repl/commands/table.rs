@@ -14,7 +14,6 @@ pub struct Command {
     pub placeholder: &'static str,
     pub summary: &'static str,
     pub doc: &'static str,
-    /// Function that executes the command. Its argument is the text after the command name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
@@ -177,9 +176,6 @@ impl Command {
 }
 
 /// Finds a command by its name with the colon, or by an unambiguous beginning of this name.
-///
-/// # Errors
-/// Fails if no command or several commands begin with `name`.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

@@ -13,7 +13,6 @@ pub enum Completeness {
 
 use Completeness::{Complete, Open};
 
-/// Number of empty lines after which an input at a prompt counts as complete.
 const EMPTY_LINES: usize = 2;
 
 /// Completeness of a text at a prompt. Commands, and inputs that end with two empty lines, are always complete.

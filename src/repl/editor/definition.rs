@@ -54,10 +54,8 @@ pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
     TokenizedText::of(text).exported(name)
 }
 
-/// Largest number of parameters that is read in a function definition, to limit the run time for texts with errors.
 const MOST_PARAMETERS: usize = 100;
 
-/// Largest number of tokens between the keyword `fn` and the parameters, as in `fn number.twice()`.
 const LONGEST_NAME: usize = 3;
 
 struct TokenizedText<'t> {
@@ -65,7 +63,6 @@ struct TokenizedText<'t> {
     tokens: Vec<Token>,
 }
 
-/// Names that are visible within a bracket or closure.
 #[derive(Default)]
 struct Scope {
     is_closure: bool,
@@ -74,7 +71,6 @@ struct Scope {
     declared: Vec<usize>,
     /// Token index of the name in a declaration whose value is not complete.
     pending: Option<usize>,
-    /// Token indices of the names that the next block declares: parameters, loop variables, and variables of `catch`.
     next_block: Vec<usize>,
     next_is_function: bool,
 }

@@ -2,7 +2,6 @@
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Largest number of open brackets that are searched, from the innermost.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
@@ -10,9 +9,7 @@ pub struct Input<'t> {
     pub tokens: Vec<Token>,
     /// Token that ends at the cursor. It may be white space or a comment.
     pub last: Option<Token>,
-    /// Index of the matching bracket for each token that is a bracket.
     partners: Vec<Option<usize>>,
-    /// Token indices of the brackets that are open at the cursor, from the outermost to the innermost.
     open: Vec<usize>,
 }
 

@@ -10,7 +10,6 @@ use crate::script::source::scanner::{Bracket, TokenKind};
 /// Largest number of members and calls in a chain such as `a.b().c[0].d` whose type is derived.
 const LONGEST_CHAIN: usize = 32;
 
-/// Largest nesting depth of parentheses and declarations at which types are derived.
 const DEEPEST: usize = 16;
 
 #[derive(Clone, Copy)]

@@ -16,7 +16,6 @@ use crate::repl::editor::completion::complete;
 use crate::repl::editor::highlight::{SessionNames, highlight};
 use crate::repl::editor::hints::{self, Hint};
 
-/// Largest number of candidates that are listed one per line with summaries.
 const SHORT_LIST: usize = 12;
 
 pub struct Assistant {

@@ -55,9 +55,7 @@ impl EditorOptions {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
     Line(String),
-    /// Ctrl-C: the input is discarded.
     Interrupted,
-    /// Ctrl-D on an empty line, or the end of piped input.
     End,
 }
 

@@ -6,7 +6,6 @@
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Switches the terminal to raw input mode. After a failure, its mode is unchanged.
     pub fn set_mode() -> Self {
         terminal::set_raw_mode();
         Self(())
@@ -62,7 +61,6 @@ mod terminal {
         }
     }
 
-    /// Restores the original mode of the terminal. Returns true if it had been changed.
     pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {

@@ -243,5 +243,4 @@ pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     }
 }
 
-/// Rhai function that captures variables.
 const CAPTURE: &str = "curry";

@@ -43,7 +43,6 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the key set that is selected by a text value or, if there is no such text, by the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

@@ -71,8 +71,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// Exact argument types of a function with only number parameters.
-/// With exact types, the function takes precedence over a function of Rhai with the same name.
+/// Exact argument types of a function of numbers, by which it takes precedence over a function of Rhai with the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +80,6 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of operand types of an operator, except those of two built-in types, which the engine handles.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -118,7 +116,6 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// Binding with the data that a call needs.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,
@@ -226,7 +223,6 @@ pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
-/// Rejects values, also in arrays, that are in use by the native call that runs this script function.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

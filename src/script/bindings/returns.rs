@@ -102,9 +102,7 @@ pub struct Returns {
     pub kind: ValueKind,
     /// Dimension, such as `force`; `-` for a dimensionless number; empty for a type without dimension.
     unit: &'static str,
-    /// Description that replaces the description of the type; may be empty.
     description: &'static str,
-    /// Text after the description, which begins with a blank or comma.
     remark: &'static str,
 }
 

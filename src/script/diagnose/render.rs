@@ -139,7 +139,6 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the location in another text with the same number of characters.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

@@ -9,7 +9,6 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 
-/// Registers the methods of arrays and maps that call a function for each element, under their names in Rhai.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -77,7 +76,6 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
     }
 }
 
-/// Function that splits an array or map into elements that pass a test and elements that do not.
 type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
 fn install_sieves(engine: &mut Engine) {
@@ -165,7 +163,6 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// The function has no parameter, and reads the element from `this`.
     ElementAsThis,
 }
 
@@ -180,7 +177,6 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the script function for an element. The first call determines its number of arguments.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

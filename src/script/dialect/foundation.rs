@@ -88,7 +88,6 @@ pub const REFUSED: &[Refused] = &[
     },
 ];
 
-/// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
     // The seed of the hashes can be set once per process, so an error for later engines is ignored.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));

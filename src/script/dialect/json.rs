@@ -11,7 +11,6 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Registers the method `to_json` of maps, which replaces the method of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",

@@ -83,7 +83,6 @@ impl NamedFunction<'_> {
     }
 
     /// Rejects a constant of the language in a function if the file has a variable with the same name.
-    /// A reader would expect the variable, but functions cannot see variables outside them.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };

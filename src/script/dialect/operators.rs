@@ -16,7 +16,6 @@ use crate::elementary::power;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
-/// Registers the operators on numbers under their names in the language and, where the engine allows it, under those of the engine.
 pub fn install(engine: &mut Engine) {
     use Ordering::{Equal, Greater, Less};
     register_comparison(engine, "<", |order| order == Some(Less));
@@ -147,7 +146,7 @@ fn shift(places: INT) -> EngineResult<INT> {
 }
 
 /// Registers the operator `name` for operands of any types by calling the operator `symbol` of the engine.
-/// Implementations for two numbers take precedence. An order comparison of values of different types is an error.
+/// An order comparison of values of different types is an error.
 fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(

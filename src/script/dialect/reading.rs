@@ -12,9 +12,6 @@ use crate::script::source::text::Source;
 pub const MOST: usize = 65_000;
 
 /// Parses `source` as the text after the first `lines_before` lines of a program. It may use the constants of `scope`.
-///
-/// # Errors
-/// Fails if the text is too large or has a syntax error, or if the run was stopped.
 pub fn read(
     engine: &Engine,
     scope: &Scope,

@@ -1,6 +1,6 @@
 //! Limits on the size of texts, arrays and maps of a script.
 //! The limits of Rhai are not used, because it counts all nested elements in every method call, in quadratic time.
-//! Here the length of a variable is checked when the variable is used, and by functions that create large values.
+//! The length of a text, array or map is checked when a variable with it is used, and by functions that create large values.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 
@@ -15,7 +15,6 @@ const TEXT: &str = "Length of string";
 const ARRAY: &str = "Size of array/BLOB";
 const MAP: &str = "Size of object map";
 
-/// Replaces the Rhai functions that can make a text or an array arbitrarily long in one call.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("pad", pad_array);
     engine.register_fn("pad", pad_text::<char>);

@@ -103,7 +103,6 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Returns true if the result of the comparison function puts the first element after the second element.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
@@ -122,7 +121,6 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort: stable, and safe for an inconsistent comparison function.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

@@ -29,7 +29,6 @@ pub struct FolderResolver {
 
 /// Module with the content of its file when it was read, because files may change during a session.
 struct ReadModule {
-    /// Content of the file; empty for modules of the library.
     content: Vec<u8>,
     module: Shared<Module>,
 }

@@ -95,7 +95,6 @@ pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOu
 /// Default memory for the snapshots of a simulation [bytes], for scripts that may rewind.
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Returns true if a script or an imported file other than the library may rewind a simulation, which requires snapshots.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;

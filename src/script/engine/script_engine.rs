@@ -23,7 +23,6 @@ const DRY_RUN_NOTE: &str =
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Engine, shared with the functions that are stored in scenes and simulations.
     engine: Rc<Engine>,
 }
 

@@ -25,7 +25,6 @@ use crate::simulation::cores;
 
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Waiting time before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
 #[derive(Clone)]

@@ -23,7 +23,6 @@ impl Notes {
         Self { printing, reported: RefCell::default() }
     }
 
-    /// Reports the warnings of a simulation that are new or have become more severe.
     pub fn report_warnings(&self, name: &str, simulation: &Simulation, context: &Context) {
         if self.printing == Printing::Never || context.is_stopped() {
             return;

@@ -25,10 +25,8 @@ const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities
 pub struct SceneHandle {
     variants: Rc<Variants>,
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
-    /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True if the note has been printed that modes neglect controllers and spins.
     has_modes_note: Rc<Cell<bool>>,
 }
 
@@ -37,11 +35,9 @@ struct Variants {
     declared: RefCell<Option<Rc<ParameterSet>>>,
     /// Perturbed variants of the scene, created by the first call with an argument that depends on a parameter.
     beside: OnceCell<PerturbedBuilds>,
-    /// True if the scene has been changed since the last start of a simulation.
     is_changed: Cell<bool>,
 }
 
-/// Variants of a scene, in each of which one parameter is increased or decreased by a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     scenes: Vec<Rc<RefCell<Scene>>>,
@@ -53,7 +49,6 @@ pub struct Condition {
     pub release: usize,
 }
 
-/// Script function of time and simulation, whose value is constant during a step or a sampling interval.
 pub struct Controller {
     pub function: StoredFunction,
     pub value: Rc<Cell<f64>>,
@@ -119,9 +114,6 @@ impl SceneHandle {
     }
 
     /// Declares a parameter, and returns its value with all perturbed values.
-    ///
-    /// # Errors
-    /// Fails if the name is already used, or if variants of parameters have been used.
     pub fn declare(
         &self,
         name: &str,
@@ -137,9 +129,6 @@ impl SceneHandle {
     }
 
     /// Scenes at the perturbed parameter values.
-    ///
-    /// # Errors
-    /// Fails if the scene has script functions, which cannot be evaluated in variants.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(PerturbedBuilds { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
@@ -236,9 +225,6 @@ impl SceneHandle {
     }
 
     /// Rejects a scene with functions that are called between steps, because a study runs the scene without its script.
-    ///
-    /// # Errors
-    /// Fails if a load or drive has a controller, or if a release has a condition.
     pub fn expect_no_callbacks(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());

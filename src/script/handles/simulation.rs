@@ -33,7 +33,6 @@ pub use companions::{Companion, RunStart};
 pub use revisit::Revisit;
 pub use visit::Visited;
 
-/// Handle of a simulation. Clones refer to the same simulation.
 #[derive(Clone)]
 pub struct SimulationHandle(Rc<Live>);
 
@@ -42,9 +41,7 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// True while a scheduled function runs, in which no other function may be scheduled for the same simulation time.
     is_firing: Cell<bool>,
-    /// True if an early end of the run has been reported.
     is_ending_told: Cell<bool>,
     was_stopped: Cell<bool>,
     notes: Notes,
@@ -57,7 +54,6 @@ pub enum RunTarget {
     Time(f64),
 }
 
-/// Observer of steps, which updates the progress display, counts steps, and stops the run after an interrupt or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
     /// End of the run [time], at which the limit of steps cannot stop the run, because no further step is needed.
@@ -95,7 +91,6 @@ impl Monitor for DryRunObserver<'_> {
 }
 
 impl SimulationHandle {
-    /// Creates the handle of a new simulation, and adds the simulation to the report of the run.
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,

@@ -28,7 +28,6 @@ impl StationHandle {
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Point on the meshes of `built`, which was built from the scene `of`. Fails if the station belongs to another scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -71,7 +70,6 @@ impl Scripted for StationHandle {
     }
 }
 
-/// Station in the argument `name`, and its scene, which is before the dot of the call.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own_station(&call.get::<StationHandle>(name)?)?;

@@ -7,7 +7,6 @@ use super::brief::brief;
 use super::raised::Raised;
 use super::stop::Stop;
 
-/// Marker of engine errors that are internal errors of the program.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
 /// Error of a native function of the language.

@@ -17,10 +17,8 @@ pub trait Reporter {
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
-/// Maximum number of rescue files, to limit their run time.
 const MOST_REMAINS: usize = 20;
 
-/// Approximate maximum number of values in all rescue files, which are written in less than a second.
 const MOST_NUMBERS: usize = 1_000_000;
 /// Largest length of a number and its separator in a rescue file [bytes].
 const LONGEST_NUMBER: u64 = 26;

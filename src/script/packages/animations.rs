@@ -198,7 +198,6 @@ fn framed(reels: Vec<FrameSource>) -> Vec<FrameSource> {
     reels.into_iter().map(|reel| FrameSource { base: reel.base.limits(limits), ..reel }).collect()
 }
 
-/// Figure of the given width, whose plot has its aspect ratio inside margins of fixed size.
 fn scaled(panel: &dyn Panel, width: f64) -> Result<Figure, OutputError> {
     let plot = |(width, height): (f64, f64)| {
         let Margins { left, right, top, bottom } = panel.margins(width, height);

@@ -186,7 +186,6 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, DriveKind::Move, motions, &options)
 }
 
-/// Schedule of a prescribed position. For a controller, the error hint suggests prescribing the rate instead.
 fn place_of(
     call: &Call,
     options: &Options,

@@ -235,7 +235,6 @@ fn words(context: &Context, error: &EvalAltResult) -> String {
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// Schedule of a load from an argument of a type in [`SCHEDULE_KINDS`]. The default is the constant 1.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,

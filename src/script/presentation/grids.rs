@@ -8,7 +8,6 @@ use crate::system::{BeamPlaces, BeamSample, SystemError};
 
 /// Sample positions on all beams, computed once for all frames.
 pub struct Grids {
-    /// Names of the beams, followed by those of point masses and centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }

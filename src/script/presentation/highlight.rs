@@ -27,7 +27,7 @@ pub const CONSTANT: HighlightStyle = HighlightStyle("36");
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
 /// Style of the bracket at the cursor, and of its matching bracket.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// Style of brackets without a matching bracket, and of other invalid tokens.
+/// Style of closing brackets without a matching bracket.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
 /// Names with their colours, collected once for many texts.

@@ -12,7 +12,6 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
-/// Largest number of spans whose knots are marked by default.
 const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;

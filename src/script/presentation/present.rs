@@ -9,13 +9,10 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Number of significant digits of displayed numbers, few enough to hide binary rounding errors.
 const DIGITS: usize = 10;
 const MOST_ITEMS: usize = 8;
-/// Number of items that are displayed at the start of a long array, before the last item.
 const FIRST_ITEMS: usize = 3;
 const MOST_KEYS: usize = 12;
-/// Largest displayed nesting depth of values, which may be infinitely nested.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
 /// Minimum width of the values in summaries [columns].

@@ -216,7 +216,6 @@ fn across(along: Vec2) -> Pointing {
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Direction away from a support; at the end of a beam, backwards along the beam.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })

@@ -20,7 +20,6 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Largest number of free ends and point masses whose paths are drawn by default.
 const MOST_FREE_ENDS: usize = 8;
 const ARROWS_A_BEAM: usize = 6;
 
@@ -84,7 +83,6 @@ fn plain<'a>(points: impl Iterator<Item = &'a Vec2>) -> Vec<(f64, f64)> {
 
 struct FrameSelection {
     indices: Vec<usize>,
-    /// Control points, by frame and then by body.
     frames: Vec<Vec<Vec<Vec2>>>,
     first: Vec<usize>,
 }
@@ -283,7 +281,6 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// Load vector in space. A follower load assumes that the section is normal to the axis of the beam.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {

@@ -10,7 +10,6 @@ pub struct Definition<'t> {
     /// Index of the first token: `fn`, or `private` before `fn`.
     pub first: usize,
     start: usize,
-    /// Index of the bracket before the parameters or, if it is missing, before the body.
     opening: usize,
     body: usize,
     pub end: usize,

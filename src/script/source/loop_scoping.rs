@@ -31,7 +31,6 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values; the loop assigns to the original variables.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     let names: Vec<String> =

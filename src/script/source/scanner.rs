@@ -62,7 +62,6 @@ impl Token {
     }
 }
 
-/// Operators of more than one character, the longest first.
 const SIGNS: &[&str] = &[
     "..=", "...", "**=", "<<=", ">>=", "::", "?.", "??", "..", "=>", "==", "!=", "<=", ">=", "&&",
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
@@ -219,7 +218,6 @@ impl Scanner<'_> {
         TokenKind::OpenText
     }
 
-    /// Reads a raw string `#"…"#` with any number of `#`.
     fn marked(&mut self) -> TokenKind {
         let rest = self.rest();
         let marks = rest.len() - rest.trim_start_matches('#').len();
@@ -281,7 +279,6 @@ impl Scanner<'_> {
     }
 }
 
-/// Maximum number of `#` before a raw string, to limit the run time for a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {

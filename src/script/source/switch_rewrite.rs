@@ -1,6 +1,5 @@
 //! Check of the values of `switch`, because Rhai silently executes the default case for values that it cannot compare.
 //! After the keyword `switch`, a private-use character is inserted, which the parser reads as a keyword that checks the value.
-//! The character replaces a blank; without a blank, the rest of the line is shifted by one column.
 
 use rhai::{Dynamic, Engine, Position, Token};
 

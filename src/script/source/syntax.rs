@@ -39,10 +39,9 @@ pub const REPLACED: [(&str, u8); 9] = [
 /// Maximum number of operators in a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Precedence of the power operator in Rhai, of which the next higher is 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters for the operators of `/=`, `^=`, `<<=` and `>>=`, and for the wrapper of the operand after `/=`.
+/// Private-use characters for the operators of `/=`, `^=`, `<<=` and `>>=`, and for the second token, which wraps the operand.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -87,7 +86,6 @@ impl TokenReader {
     }
 }
 
-/// Number of tokens between checks for a stop.
 const PULSE: u32 = 64;
 
 /// Registers the tokens of the language. `stop` returns a reason for stopping the parser. The result must be reset before each text.
@@ -187,7 +185,6 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// Number of power operators so far at one bracket depth, and a flag for a minus sign before them.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,

@@ -20,10 +20,8 @@ pub struct OutputFolder {
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
-    /// Record of the files written by earlier runs, read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
     tidied: RefCell<HashSet<Option<PathBuf>>>,
-    /// Contents of files that a dry run would have written and that the script may read.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
     read: FilesRead,
 }

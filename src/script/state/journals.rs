@@ -15,7 +15,6 @@ use crate::script::messages::error::ScriptError;
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
     of_rows: RefCell<Vec<PathBuf>>,
-    /// True if the run computes parts of studies, whose journals are kept for merging.
     has_parts: Cell<bool>,
     kept: Cell<usize>,
 }

@@ -91,17 +91,14 @@ pub struct Meter {
     written: Cell<u64>,
     files: Cell<u64>,
     stopped: Cell<Option<Stop>>,
-    /// Number of calls in a dry run that would advance a simulation and were skipped.
     pretended: Cell<u64>,
 }
 
-/// Largest number of skipped calls in a dry run, after which the script counts as waiting for a result.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
 /// True if a run of this process has detected an interrupt and will save its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Value of the watchdog alarm while no limit is exceeded.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;

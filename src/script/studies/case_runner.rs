@@ -16,7 +16,6 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 pub trait CaseResult: Serialize + DeserializeOwned {
-    /// Returns true if the result may be reused from the journal. A run that exceeded its limits is repeated.
     fn is_final(&self) -> bool;
 }
 
@@ -38,7 +37,6 @@ impl CaseResult for Option<Timing> {
     }
 }
 
-/// Prints the table of a study and an empty line, except in a dry run.
 pub fn print_table(context: &Context, table: &str) {
     if context.mode() == RunMode::Run {
         context.print(table);

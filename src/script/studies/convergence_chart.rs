@@ -5,7 +5,6 @@ use crate::analysis::{Convergence, RefinedParameter, Refinement};
 use crate::elementary::{ln, power};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
-/// Largest difference of two observed orders that count as equal.
 const SAME_ORDER: f64 = 0.3;
 
 struct SlopeLine {
@@ -13,7 +12,6 @@ struct SlopeLine {
     ends: [(f64, f64); 2],
 }
 
-/// Chart of the errors of a quantity over the sizes, with lines of theoretical or, if they are unknown, observed orders.
 pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let relative = match quantity.starts_with("position") {
         true => " / length",

@@ -5,7 +5,6 @@ use super::labels;
 use crate::analysis::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 use crate::output::{Cell, TextTable, significant};
 
-/// Tables of all quantities, with errors and orders of all integrators side by side and the fitted order below.
 pub fn table(study: &Convergence) -> String {
     let tables = study.quantities().into_iter().map(|of| table_of(study, of));
     let tables: String = tables.map(|table| format!("\n\n{table}")).collect();

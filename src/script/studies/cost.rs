@@ -17,10 +17,8 @@ use crate::system::Scene;
 /// Memory for snapshots [bytes] in the row that measures the cost of snapshots.
 const SNAPSHOTS: usize = 256_000_000;
 
-/// Names of the first two rows: the plain scene, and its repetition, which shows how reliable the times are.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Largest ratio of the times of the plain scene and its repetition at which the ratios in the table are reliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.
@@ -50,7 +48,6 @@ impl CostStepping {
     }
 }
 
-/// Cases of the study: the plain scene twice, then with each feature, then with each variation of the settings.
 pub fn cases(
     call: &Call,
     options: &CostOptions,

@@ -31,7 +31,6 @@ pub struct ErrorStudyPlan {
 }
 
 impl ErrorStudyPlan {
-    /// Reads the common options of error studies. Scenes are created and the first one is built, to report errors before any run.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
         let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
@@ -80,7 +79,6 @@ impl ErrorStudyPlan {
         &self.subjects[0].observables
     }
 
-    /// History at the start of a run of the first scene, with the available columns.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -297,7 +295,6 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-/// Default stations at which runs are compared: ends of beams, point masses and rigid bodies.
 pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]

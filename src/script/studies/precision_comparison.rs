@@ -5,7 +5,6 @@ use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
 use crate::output::{Cell, TextTable, format_number, scientific};
 
-/// Text table of the fastest run of this program, and of every other program, for several errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let heads = [
         "error ≤",

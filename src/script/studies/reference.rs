@@ -21,11 +21,9 @@ use crate::simulation::{StepControl, StepSize};
 
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// Argument of the scene function for the mesh of the reference run; by default the finest mesh of the study.
     pub mesh: Option<Dynamic>,
     /// Step size [time] of the reference run; by default a quarter of the smallest step size of the study.
     pub dt: Option<f64>,
-    /// Integrator of the reference run; by default the integrator of the highest order in the study.
     pub method: Option<Method>,
 }
 
@@ -166,7 +164,6 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 }
 
 impl Reference {
-    /// Reads the option `reference`, and adds the history columns to the plan that the reference contains.
     pub fn read(
         call: &Call,
         options: &ErrorOptions,
@@ -257,7 +254,6 @@ impl Reference {
         }
     }
 
-    /// Reference with arbitrary numbers, for checks before the run.
     pub fn placeholder(
         &self,
         call: &Call,

@@ -17,7 +17,6 @@ const FIRST_STEPS: f64 = 50.0;
 
 const MOST_RUNS: usize = 12;
 
-/// Largest factor by which the steps, and by which the mesh are refined between two runs.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
 /// Largest allowed error due to the steps, and due to the mesh, each as a fraction of the tolerance.
@@ -59,7 +58,6 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough or cannot be estimated.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,
@@ -82,9 +80,6 @@ fn refinement_factor(
 
 impl RefinedRun {
     /// Runs a scene with smaller steps and finer meshes until the estimated error of the positions is within the tolerance.
-    ///
-    /// # Errors
-    /// Fails if no run can be completed, or the script is stopped.
     pub fn run(
         scene: &SceneHandle,
         request: &RefinedRunRequest,

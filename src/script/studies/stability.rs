@@ -23,7 +23,6 @@ const COLUMNS: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
     EnergyGrowth,
-    /// Average number of Newton iterations per step.
     Iterations,
     Retries,
 }
@@ -120,10 +119,6 @@ impl StabilityPlan {
     }
 
     /// Case of each cell, or the message of the value that the script function threw for it.
-    ///
-    /// # Errors
-    /// Fails if the function has an error that it did not throw, or returns an invalid value.
-    /// A function that throws a value at every cell is also an error.
     pub fn cases(
         &self,
         call: &Call,

@@ -14,9 +14,6 @@ const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 const LESS: (&str, &str) = ("LESS", "FRX");
 
 /// Shows a text with a pager program, which handles Ctrl-C itself, and waits until the program ends.
-///
-/// # Errors
-/// Fails if the program cannot be started.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());

@@ -11,16 +11,13 @@ use crate::script::bindings::call::{body_named, defined, written_within};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::source::syntax::OWN;
 
-/// Operators, functions and methods whose results can jump.
 const JUMPS: &[&str] = &[
     "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
     "to_int", "fraction", "quotient", "sign", "is_zero",
 ];
 
-/// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// Maximum depth of nested calls that are searched.
 const DEEPEST: usize = 8;
 
 /// Maximum number of functions that are searched, because functions may be recursive.

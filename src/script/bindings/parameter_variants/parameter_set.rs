@@ -38,9 +38,7 @@ pub struct CurrentVariant {
 }
 
 thread_local! {
-    /// True if a parameter set has been created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// Type names of scene objects, with functions that return their parameter sets.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
     /// Reason why the present call has no results in perturbed variants; `None` if it has.
@@ -81,7 +79,6 @@ pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Guard of the evaluation of a call in a variant, which ends when the guard is dropped.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {

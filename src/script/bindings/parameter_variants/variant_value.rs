@@ -17,7 +17,6 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Value in each variant, the unperturbed first. Further variants have the unperturbed value.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }

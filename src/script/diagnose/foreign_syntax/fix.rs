@@ -16,7 +16,6 @@ pub struct SyntaxFix {
 /// Pattern of syntax from another language: a function that explains the tokens around an error, or returns `None`.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All patterns, those with more context first.
 const PATTERNS: &[&[ForeignSyntax]] = &[
     signs::PATTERNS,
     blocks::PATTERNS,

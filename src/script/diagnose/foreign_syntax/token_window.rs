@@ -22,7 +22,6 @@ pub struct TokenWindow<'s> {
     here: usize,
     first: usize,
     place: Position,
-    /// Text between the error and the token before it, including comments.
     gap: String,
 }
 

@@ -48,7 +48,6 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs the simulation to a time. Printed output and checks of its functions are ignored.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
         let checks = context.with_checks(|checks| checks.clone());
         let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
@@ -77,7 +76,6 @@ impl SimulationHandle {
         Ok(scene.with_span_ratio(companion.span_ratio)?)
     }
 
-    /// Settings of a companion run. For adaptive steps, the tolerance is changed by the ratio of step sizes.
     pub fn companion_settings(&self, companion: Companion) -> SimulationSettings {
         let settings = *self.simulation().settings();
         let dt = match settings.dt {
@@ -93,9 +91,6 @@ impl SimulationHandle {
     }
 
     /// Runs a companion to the present time of this simulation, without the output of its functions.
-    ///
-    /// # Errors
-    /// Fails if the companion does not start or does not reach the time, or if a function changes a captured variable.
     pub fn run_companion(
         &self,
         companion: Companion,
@@ -133,7 +128,6 @@ impl SimulationHandle {
     }
 }
 
-/// Values of the variables captured by the functions of a simulation, before a companion run.
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {

@@ -12,7 +12,6 @@ use crate::simulation::Simulation;
 /// Replacement of a simulation by a copy. Dropping this object restores the original.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// Original simulation; the copy while the original is in use.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
@@ -56,9 +55,6 @@ impl Revisit {
     }
 
     /// Advances the copy to a row of the history. Returns true if its energies and momenta equal those of the original.
-    ///
-    /// # Errors
-    /// Fails if a step fails that did not fail in the original run, or if the run is stopped.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;

@@ -22,7 +22,6 @@ pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
     evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
-    /// Outputs of sampled controllers by sample number. Rewinding drops the later ones.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     outputs: Commands,
     conditions: Vec<Condition>,
@@ -84,7 +83,6 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Calls `look` with write access to the simulation, in the variant of the present call.
     pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -146,9 +144,6 @@ impl SimulationHandle {
     }
 
     /// Evaluates release conditions and controllers for the next step or half step.
-    ///
-    /// # Errors
-    /// Fails if a function fails or does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_paused_in_step() {
             self.release_due()?;

@@ -5,7 +5,6 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Callback for a state. Its arguments are the index of the time, and the simulation in this state.
 pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptError>;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +19,6 @@ impl SimulationHandle {
     /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first.
     /// If a state is not stored, the run is repeated in a copy, which counts steps, and states are visited in the order of time.
     /// Energies and momenta of the repeated run must equal those of the original bit by bit.
-    ///
-    /// # Errors
-    /// Fails if a step fails that did not fail in the original run, if the run is stopped, or if `look` fails.
     pub fn for_each_state(
         &self,
         times: &[f64],

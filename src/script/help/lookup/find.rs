@@ -132,7 +132,6 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Returns true if the subject is a method or property of the type.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

@@ -131,7 +131,6 @@ const KEYS: &[Parameter] = &[
         .optional(),
 ];
 
-/// Largest length of a knot vector that is printed completely.
 const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {

@@ -18,7 +18,6 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
     Failed(String),
-    /// The script itself seems to be wrong. The field is the reason.
     Wrong(String),
 }
 
@@ -35,7 +34,6 @@ pub struct FunctionQuery<'q> {
 #[derive(Clone)]
 enum QueryPoint {
     Value(Vec<f64>),
-    /// Derivatives at a point, given by the value and the perturbation of each parameter.
     Slopes(Vec<(f64, f64)>),
 }
 
@@ -125,7 +123,6 @@ impl FunctionQuery<'_> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
-    /// Error, with its position, of a function that fails at a required point, found by calling it again in the engine of the script.
     pub fn located_error(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
         let found =
             calling.context().without_output_or_files(NO_FILES, || self.here(calling, point));

@@ -11,7 +11,6 @@ use crate::script::engine::workers::EngineConfig;
 use crate::script::messages::error::{CallPart, Failure, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Script function in a form that can be sent to other threads.
 #[derive(Clone, Debug)]
 pub struct RunFunction {
     pub name: String,
@@ -141,9 +140,6 @@ impl RunFunction {
     }
 
     /// Rejects parameters that the function never reads, as far as this can be determined.
-    ///
-    /// # Errors
-    /// Fails if there is a parameter that the function never reads.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),
@@ -181,7 +177,6 @@ impl RunFunction {
     }
 }
 
-/// Returns true if the runs of a study can vary an input. For inputs of imported files, this requires workers.
 fn is_varied_input(call: &Call, name: &str) -> bool {
     let sources = Sources::of(call.engine());
     let has_workers = || EngineConfig::of(call.engine(), call.context(), "").is_some();

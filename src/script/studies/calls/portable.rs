@@ -41,7 +41,6 @@ pub enum DataKind {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotPortable {
-    /// Name of the type of the rejected value.
     pub kind: String,
 }
 
@@ -49,9 +48,6 @@ type Stored = (SectionVariation, Option<Solid>, Option<Relaxation>);
 
 impl Portable {
     /// Converts a value. `parameters_of` returns the number of parameters of a script function, including captured variables.
-    ///
-    /// # Errors
-    /// Fails if the value or one of its elements cannot be converted.
     pub fn of(
         engine: &Engine,
         value: &Dynamic,
@@ -129,7 +125,6 @@ impl Portable {
         })
     }
 
-    /// Returns true if a value equals this value bit by bit.
     pub fn is(&self, value: &Dynamic) -> bool {
         let value = value.flatten_clone();
         match self {

@@ -18,7 +18,6 @@ use crate::script::studies::plan::at_key;
 const DIGITS: usize = 7;
 const ERROR_DIGITS: usize = 2;
 
-/// Interpretation of the values that the fitted function returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     Residuals,
@@ -68,9 +67,6 @@ impl Derivatives {
 
 impl FitRequest<'_> {
     /// Finds the parameters.
-    ///
-    /// # Errors
-    /// Fails if the function is wrong, fails at the start, or returns a number of values that does not match the data.
     pub fn run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -154,7 +150,6 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, message, hint))
     }
 
-    /// Result of a dry run: the start values, with which the function is called once.
     pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {

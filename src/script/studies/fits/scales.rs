@@ -9,7 +9,6 @@ pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
     at: usize,
     limits: &'s [(usize, &'s Limit)],
-    /// Magnitude of the objective in the first run.
     size: Cell<Option<f64>>,
 }
 
@@ -18,7 +17,6 @@ impl<'s> ResultScales<'s> {
         Self { goal, at, limits, size: Cell::new(None) }
     }
 
-    /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);

@@ -14,9 +14,6 @@ use crate::script::studies::calls::function::RunFunction;
 
 impl SweepRequest<'_> {
     /// Opens the journal of the sweep, if the run uses journals, or reads the rows of all parts if they are merged.
-    ///
-    /// # Errors
-    /// Fails if a file cannot be read or written, or if a part of the sweep is missing.
     pub fn keeper(
         &self,
         call: &Call,

@@ -10,17 +10,12 @@ use crate::output::{
 };
 use crate::sampling::Random;
 
-/// Maximum number of curves in a chart; more curves are replaced by mean, smallest and largest values.
 const MOST_CURVES: usize = 8;
-/// Maximum number of points in a scatter plot; of more points, a random subset is drawn.
 const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
-/// Number of cells along each axis for averages of scattered points.
 const CELLS: usize = 20;
 pub const MOST_COLUMNS: usize = 6;
-/// Maximum number of distinct values for which a histogram has separate bins, if each occurs at least twice on average.
 const MOST_VALUES: usize = 64;
-/// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
 pub struct Picture<'t> {
@@ -72,7 +67,6 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// Scale of a column: logarithmic if the values cover a decade, and have equal ratios or a distribution of their logarithms.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
@@ -143,7 +137,6 @@ impl Picture<'_> {
         names.into_iter().map(curve).fold(chart, LineChart::series)
     }
 
-    /// Mean, smallest and largest values over all rows with the same abscissa.
     fn band(chart: LineChart, found: &[(usize, f64, f64)], count: usize) -> LineChart {
         let mut of_value: BTreeMap<u64, (f64, Vec<f64>)> = BTreeMap::new();
         for (_, x, y) in found {

@@ -12,7 +12,6 @@ pub enum RowOutcome {
     Computed(Arc<[String]>, Vec<f64>),
     /// The function threw an error, or returned a value that is not a number. The field is the reason.
     Failed(String),
-    /// The script seems to be wrong. The field is the reason.
     Wrong(String),
 }
 

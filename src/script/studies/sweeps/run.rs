@@ -153,7 +153,6 @@ impl SweepRequest<'_> {
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error, with its position, of a failed row, found by calling the function again in the engine of the script.
     fn located_error(
         &self,
         call: &Call,

@@ -71,7 +71,6 @@ impl SweepTable {
         (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
     }
 
-    /// Row as a script map: parameters, results, and the reason `failure` if the row failed.
     pub fn row(&self, row: usize) -> Map {
         let FinishedSweep { sweep, plan } = &*self.swept;
         let mut map = plan.values(row, &|_, _| None);
@@ -169,7 +168,6 @@ impl SweepTable {
 }
 
 impl FinishedSweep {
-    /// Short summary: number of completed runs, and the range of each result with the parameters at its ends.
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
