@@ -59,7 +59,6 @@ impl Case {
 
     /// Runs the case and calls `look` at every observation time.
     /// Returns the outcome and the final simulation; the simulation is `None` if the run could not start.
-    /// The outcome of a run that was stopped from outside is not valid.
     pub fn run(
         &self,
         limits: RunLimits,

@@ -12,8 +12,7 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference value, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program. All errors are then reported as upper bounds,
-    /// because a result with the same errors as the reference would appear to be exact.
+    /// True if the reference is a run of this program, so that errors are only upper bounds: both runs may have the same error.
     pub is_of_own_run: bool,
 }
 

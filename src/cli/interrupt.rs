@@ -57,7 +57,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
 }
 
 /// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed.
-/// Must be called before other threads start, because they inherit the signal mask.
+/// SIGTERM and SIGHUP must be blocked before other threads start, because threads inherit the signal mask.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

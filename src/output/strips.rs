@@ -107,7 +107,6 @@ impl StripPicture {
     }
 
     /// Size of the bounding box of all beams, or the length of the longest beam if it is smaller.
-    /// With the smaller size, diagrams of many short neighbouring beams do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {

@@ -51,7 +51,6 @@ pub fn names_at(
 }
 
 /// Help on the name at byte `offset` of a script, without its value, and the position of the name [bytes].
-/// Help is `None` if there is no name, or no help on it.
 pub fn help_at(program: &Program, offset: usize, limits: Limits) -> Option<(Range<usize>, String)> {
     let text = &*program.text;
     let target = HelpTarget::at(text, offset)?;

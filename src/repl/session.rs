@@ -38,8 +38,8 @@ pub enum Reply {
     Done,
     /// Success with the value of an expression.
     Value(Dynamic),
-    /// A statement failed. Earlier statements of the same input keep their effect,
-    /// and the failed statement keeps its changes of scenes, simulations, and variables shared by closures.
+    /// A statement failed. Earlier statements of the same input keep their effect.
+    /// A failed statement keeps its changes of scenes, simulations, and variables shared by closures.
     Failed(Diagnostic),
     /// Ctrl-C interrupted a statement, with the same effect as a failure.
     Interrupted,
@@ -154,8 +154,8 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
-        // Statements are evaluated one by one, so that statements before an error keep their effect,
-        // but an input that may return early is evaluated as a whole.
+        // Statements are evaluated one by one, so that statements before an error keep their effect.
+        // An input that may return early is evaluated as a whole.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {

@@ -8,7 +8,6 @@ pub struct VarianceShare {
     /// First-order index: variance of the mean of the result over all other parameters, as a fraction of the total variance.
     pub first: f64,
     /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
-    /// The total index is `None` if the sample does not allow an estimate.
     pub total: Option<f64>,
 }
 

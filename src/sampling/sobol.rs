@@ -75,7 +75,6 @@ fn directions(dimension: usize) -> [u32; BITS] {
 /// The number of dimensions must be at most [`MOST_DIMENSIONS`].
 ///
 /// Each coordinate is combined with random bits by exclusive or, which preserves the uniformity (digital shift).
-/// The coordinates lie strictly between 0 and 1.
 pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     (0..dimensions)

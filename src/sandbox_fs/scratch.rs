@@ -11,7 +11,7 @@ use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
 const HELD: &str = ".held";
-/// Age [time] from which a temporary folder without lock file counts as abandoned; a younger one may belong to a starting process.
+/// Age from which a temporary folder without lock file counts as abandoned; a younger one may belong to a starting process.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
 #[derive(Debug)]

@@ -77,7 +77,7 @@ pub struct Documents(pub HashMap<Uri, Document>);
 
 impl Documents {
     /// URI and text of the script that a script in `folder` imports by `path`.
-    /// A module of the standard library is first written to a file, so that the editor can open it.
+    /// A library module is first written to a file, so that the editor can open it.
     pub fn imported(&self, folder: &Path, path: &str) -> Option<(Uri, String)> {
         if let Some(module) = library::find(path) {
             let module = module.ok()?;

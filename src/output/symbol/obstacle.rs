@@ -67,8 +67,7 @@ impl PlacedSymbol {
         (0..=SEGMENTS).map(point).collect()
     }
 
-    /// Points of an obstacle that a picture shows besides the bodies in the box `bodies`: a whole disc if it is smaller than the box,
-    /// otherwise the point of the disc or wall that is nearest to the bodies, if it is near.
+    /// Points of an obstacle that a picture shows besides the bodies in the box `bodies`: a small disc, or the nearest point if it is near.
     pub(in crate::output) fn shown_points(&self, bodies: &View) -> Vec<Point> {
         let [(left, right), (low, high)] = bodies.ends();
         let size = (right - left).max(high - low);

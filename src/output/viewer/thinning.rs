@@ -3,7 +3,6 @@
 const MOST_ROWS: usize = 3000;
 
 /// Indices of the rows that are kept: of many rows, those with the extreme values of every column in each piece of the history.
-/// The first row of each piece and the last row of the history are also kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

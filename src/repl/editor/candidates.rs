@@ -16,8 +16,7 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate for a function, displayed with its arguments, such as `(from, to)`. It inserts the opening parenthesis,
-    /// and for a function without arguments also the closing parenthesis.
+    /// Candidate for a function, displayed with its arguments, such as `(from, to)`, that inserts the opening parenthesis.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {

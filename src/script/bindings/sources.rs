@@ -125,7 +125,6 @@ impl Sources {
     }
 
     /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
-    /// Within a marked call, calls between library functions do not change the line.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

@@ -1,5 +1,5 @@
-//! Check for misleading names before a script runs: script functions named like functions of the language,
-//! and variables of a file named like constants of the language, if a function of the file uses the constant.
+//! Check for misleading names before a script runs: functions named like functions of the language,
+//! and constants of the language in functions of a file that has a variable of the same name.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 

@@ -55,8 +55,7 @@ pub fn on_stack<T: Send>(
     })
 }
 
-/// Number of workers, at most `most`, and stack size of each worker [bytes];
-/// `None` if the address space is too small for one worker, or if the system has no threads.
+/// Number of workers, at most `most`, and stack size of each [bytes]; `None` without threads or with too little address space.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
     if HAS_THREADS { worker_stacks(limits, most, room()) } else { None }
 }

@@ -34,7 +34,6 @@ impl Reports {
     }
 
     /// Unique names and contents of the rescue files for the first simulations of a run, about `bytes` in total.
-    /// A note about simulations without a rescue file is also returned.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);

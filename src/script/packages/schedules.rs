@@ -249,8 +249,7 @@ pub(super) fn schedule_of(
     }
 }
 
-/// Schedule of a load or drive from an argument as for [`schedule_of`], or from a controller,
-/// which is a function of time and simulation, evaluated at the start of every step or at samples.
+/// Schedule of a load or drive from an argument as for [`schedule_of`], or from a controller (a function of time and simulation).
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,

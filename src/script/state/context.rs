@@ -393,7 +393,6 @@ impl Context {
     }
 
     /// Removes the objects that contribute to the report, and the reserved names of studies.
-    /// Sessions call this after each input, because they write no report and may repeat a study.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();

@@ -73,8 +73,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both wall-clock and processor time since `self` exceed `time_limit`,
-    /// or if the wall-clock time exceeds [`SHARE_OF_PROCESSOR`] times `time_limit`.
+    /// Returns true if wall-clock and processor time since `self` exceed `time_limit`, or the wall-clock time greatly exceeds it.
     fn are_over(self, time_limit: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {

@@ -60,8 +60,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Doubled fixed step size, or four times the tolerance of adaptive steps,
-/// which doubles the adaptive steps of a second-order method.
+/// Doubled fixed step size, or four times the tolerance, which doubles the adaptive steps of a second-order method.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),

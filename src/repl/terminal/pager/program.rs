@@ -9,8 +9,7 @@ use crate::repl::terminal::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Environment variable with options for the pager less, and its value `FRX`:
-/// less quits if the text fits on one screen, shows colours, and leaves the text on the screen.
+/// Environment variable of the pager less, and options to quit after a short text (F), show colours (R) and leave the text (X).
 const LESS: (&str, &str) = ("LESS", "FRX");
 
 /// Shows a text with a pager program, which handles Ctrl-C itself, and waits until the program ends.

@@ -12,7 +12,7 @@ use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
 /// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument.
-/// At this distance, the relative error of the difference quotient is about 1e-5.
+/// At the distance `NEAR`, the relative error of the difference quotient is about 1e-5.
 const NEAR: f64 = 300.0;
 
 /// Arguments of a call at the parameter values, and with a positive and a negative perturbation of one parameter.

@@ -11,7 +11,6 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 pub enum Visited {
     All,
     /// The repeated run differs from the original run, first at the time in the variant.
-    /// Causes are a script function that changed the simulation, and a start from another state than that of the scene.
     Diverged(f64),
 }
 

@@ -156,7 +156,6 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
 }
 
 /// Breaks a line of a script at `width`, at blanks outside strings after a comma, semicolon, brace, && or ||.
-/// Lines with a comment are not broken.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();

@@ -24,8 +24,8 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
     FieldKind { name, source }
 }
 
-/// All fields in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-],
-/// and `curvature` the change of the axis curvature since the start [1/length].
+/// All fields in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
+/// The field `curvature` is the change of the axis curvature since the start [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),

@@ -260,8 +260,7 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram: one for each value, bounded halfway between neighbours, if there are few distinct values,
-/// otherwise bins of equal width.
+/// Bins of a histogram: one for each value if there are few distinct values, otherwise bins of equal width.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
