@@ -20,7 +20,7 @@ pub struct Timing {
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux.
-/// The thread yields before the time is read, because the system otherwise updates it only at scheduler ticks.
+/// The thread sleeps briefly before the time is read, because the system otherwise updates it only at scheduler ticks.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;

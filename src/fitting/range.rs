@@ -21,7 +21,7 @@ impl SearchRange {
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Size of a parameter at the value `x`: `|x|`, but at least 1/100 of the distance between the bounds, or 1/1000 of the start value if a bound is infinite.
+    /// Size of a parameter: `|x|`, but at least 1/100 of the distance of its bounds or, if one is infinite, 1/1000 of the start value.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

@@ -1,4 +1,4 @@
-//! Stack sizes of threads for scripts and workers, by the limits of the script and the address space.
+//! Stack sizes of the threads of scripts and workers, computed from the limits of the script and the address space.
 
 use std::io::ErrorKind;
 use std::sync::Mutex;

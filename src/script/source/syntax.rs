@@ -49,7 +49,7 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// Operand `y` of `x /= y`, of a separate type, so that Rhai's `/=` for integers does not apply.
+/// Operand `y` of `x /= y`, `x ^= y` and similar assignments, of a separate type, so that operators of Rhai do not apply.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
