@@ -1,13 +1,11 @@
 //! withy: planar dynamics of flexible beams, and its scripting language.
 //!
 //! The layers of the program are described in docs/architecture.md.
-//!
-//! The mechanics is a separate crate, so that changes of the language do not require compiling it again. This crate re-exports its main layers.
-//! The lowest layers are `sandbox_fs`, which opens all files, and `panics`, which catches and reports internal errors.
+//! The mechanics is a separate crate, so that it is not compiled again after changes of the language.
 
 #![forbid(unsafe_code)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
-// Some functions of the lower layers are used only by the command line.
+// Without the command line, some functions of the lower layers are unused.
 #![cfg_attr(not(feature = "terminal"), allow(dead_code, unused_imports))]
 
 pub use withy_mechanics::{

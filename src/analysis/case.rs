@@ -17,11 +17,10 @@ use crate::system::{Scene, Sensor};
 pub struct Case {
     pub scene: Scene,
     pub settings: SimulationSettings,
-    /// Observation times in increasing order [time]. The last observation time is the end of the run.
+    /// Observation times in increasing order [time]. The run ends at the last one.
     pub stops: Vec<f64>,
 }
 
-/// Approximate largest number of recorded states. It limits the memory of parallel runs.
 const MOST_ROWS: f64 = 1e5;
 
 /// Largest relative difference of two step sizes that count as equal.
@@ -59,8 +58,7 @@ impl Case {
     }
 
     /// Runs the case and calls `look` at every observation time.
-    /// Returns the outcome and the simulation in its final state. The simulation is `None` if it could not start.
-    /// If the study is stopped during the run, the outcome is not valid.
+    /// Returns the outcome and the final simulation; the simulation is `None` if the run could not start.
     pub fn run(
         &self,
         limits: RunLimits,
@@ -77,8 +75,6 @@ impl Case {
         (outcome, Some(simulation))
     }
 
-    /// Returns true if no interval between observation times, schedule breaks and releases is longer than `dt`.
-    /// With the step size `dt` or a larger one, a run then takes a single step in each of these intervals.
     pub fn is_one_step_from_stop_to_stop(&self, dt: f64) -> bool {
         let end = self.stops.last().copied().unwrap_or(0.0);
         let breaks = self.scene.schedules().flat_map(|(_, schedule)| schedule.breaks());
@@ -99,8 +95,8 @@ impl Case {
         every.map_or_else(Recording::default, Recording::Every)
     }
 
-    /// Simulation of the case in its initial state, or the reason for failure.
-    /// The simulation uses one thread, because other cases run at the same time or the run is timed.
+    /// Builds the simulation in its initial state, or returns the reason for failure.
+    /// Each simulation uses one thread, because studies run several cases at once or measure run times.
     pub fn start(&self, limits: RunLimits) -> Result<Simulation, CaseOutcome> {
         let wait = limits.begin();
         let started = Simulation::start(self.scene.clone(), self.settings);
@@ -112,8 +108,8 @@ impl Case {
         Ok(simulation)
     }
 
-    /// Runs a simulation from its start to the last observation time, and calls `look` at every observation time.
-    /// The callback `is_wanted` is called after every step. If it returns false, the run stops and its outcome is not valid.
+    /// Runs a simulation to the last observation time, and calls `look` at every observation time.
+    /// If the callback `is_wanted`, called after every step, returns false, the run stops and its outcome is not valid.
     pub fn run_to_stops(
         &self,
         simulation: &mut Simulation,
@@ -130,7 +126,7 @@ impl Case {
         for stop in &self.stops {
             let run = simulation.run_to(*stop, &mut watch);
             let time = simulation.time();
-            // If the time limit was exceeded within a step, the reported reason is the limit and not the error of the step.
+            // A step that is cut off by the time limit fails with an error; the limit is reported instead.
             let exceeded = match run {
                 Ok(()) => watch.exceeded.take(),
                 Err(_) => watch.exceeded.take().or_else(|| watch.timer.exceeded(watch.steps)),

@@ -50,7 +50,7 @@ pub fn highest_order(methods: &[Method]) -> Option<Method> {
 }
 
 /// Step size of the reference run, as a fraction of the smallest step size in the study.
-/// With a method of second order, the error of the reference is a sixteenth of the error of the most accurate run.
+/// With a second-order integrator, the error of the reference run is a sixteenth of the smallest error in the study.
 pub const PART_OF_THE_SMALLEST_STEP: f64 = 0.25;
 
 #[cfg(test)]

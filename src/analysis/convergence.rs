@@ -12,7 +12,6 @@ pub enum RefinedParameter {
     Mesh,
 }
 
-/// Smallest ratio of an error to the uncertainty of the reference at which the error is significant.
 const SIGNIFICANCE: f64 = 2.0;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +48,6 @@ impl Refinement {
         Some(ln(large / small) / ln(coarse / fine)).filter(|order| order.is_finite())
     }
 
-    /// Order fitted to all sizes: slope of the least-squares line through the logarithms of sizes and errors.
     pub fn fitted_order(&self) -> Option<f64> {
         let points: Vec<(f64, f64)> = (0..self.sizes.len())
             .filter_map(|rung| self.point(rung))
@@ -81,9 +79,6 @@ pub struct Convergence {
 pub const ALL_POSITIONS: &str = "positions";
 
 impl Convergence {
-    /// Returns the errors of one integrator for several step or mesh sizes.
-    /// The first returned element contains the error of all positions together, as a fraction of the length scale.
-    /// Each further returned element contains the error of a single observable.
     pub fn ladders_of(
         method: Method,
         rungs: &[(f64, RunResult)],

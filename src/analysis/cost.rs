@@ -56,9 +56,8 @@ impl StepCost {
     }
 }
 
-/// Measures the time per step of several cases on this thread.
-/// Steps of all cases are measured alternately, so that disturbances of the machine affect all cases. The time to build the scene is not included.
-/// Returns `None` if `is_wanted` returns false.
+/// Measures the time per step of several cases; `None` if `is_wanted` returns false.
+/// Steps of the cases are measured alternately, so that other load on the machine affects all cases equally.
 pub fn step_costs(
     cases: &[CostCase],
     limits: RunLimits,

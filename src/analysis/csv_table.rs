@@ -16,7 +16,7 @@ pub enum ParsedCsvError {
     Negative { column: String, line: u64, text: String },
 }
 
-/// Largest allowed magnitude of a number in a table. Squares of allowed numbers are finite.
+/// Largest allowed magnitude of a number in a table, so that its square is finite.
 const LARGEST: f64 = 1e150;
 
 const LONGEST_SHOWN: usize = 60;
@@ -29,11 +29,8 @@ pub struct ParsedCsv {
 }
 
 impl ParsedCsv {
-    /// Parses a table. Cells are separated by commas, or by semicolons or tabs if the line of names contains no comma.
-    /// A line of dimensions after the names, as in files written by withy, is skipped.
-    ///
-    /// # Errors
-    /// Fails if two columns have the same name, or if the number of cells in a row differs from the number of columns.
+    /// Parses a table. Semicolons or tabs separate cells if the header line contains no comma.
+    /// The line of dimensions below the header in files written by withy is skipped.
     pub fn parse(text: &str) -> Result<Self, ParsedCsvError> {
         let separator = separator_of(text);
         let mut reader = csv::ReaderBuilder::new()
@@ -100,7 +97,7 @@ impl ParsedCsv {
 
     pub fn number(&self, row: usize, column: &str) -> Result<f64, ParsedCsvError> {
         let text = self.text(row, column)?;
-        // Unless cells are separated by commas, a comma in a number is the decimal separator.
+        // A comma in a number is the decimal separator unless commas separate the cells.
         let has_decimal_comma = self.separator != b',' && !text.contains('.');
         let parsed = match has_decimal_comma {
             true => text.replace(',', ".").parse(),

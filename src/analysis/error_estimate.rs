@@ -12,29 +12,29 @@ const ROUNDING: f64 = 1e-10;
 
 const ORDERS: (f64, f64) = (0.05, 12.0);
 
-/// Smallest observed order of a converging run, relative to the order of the method.
+/// Smallest observed order of a converging run, as a fraction of the order of the integrator.
 const SHARE_OF_ORDER: f64 = 0.7;
 
-/// Smallest observed order of a converging run if the order of the method is unknown, as for meshes.
+/// Smallest observed order of a converging run if the order of the discretisation is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
 /// Largest error at which a run may count as converged, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
 
-/// Smallest converged part of a chaotic run, as a fraction of its duration. A run with a shorter converged part is too coarse.
+/// Smallest fraction of the duration in which a chaotic run must converge. If the fraction is smaller, the run counts as too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest growth of the distance of two runs, from their last convergence to their end, for a motion that is not chaotic.
+/// Largest growth factor of the distance of two runs, after their last convergence, for which the motion does not count as chaotic.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
     Exact,
-    /// The observed order is at least 0.7 times the order of the method, or at least 0.7 if this order is unknown, and the error is small.
+    /// The error is small and the observed order is at least 0.7, or at least 0.7 times the order of the method if it is known.
     Converged,
-    /// The runs do not converge yet. The estimate is a lower bound.
+    /// The runs do not converge yet, so that the error estimate is only a lower bound.
     PreAsymptotic,
-    /// The motion is chaotic: nearby runs separate. The result is meaningful only up to a certain time.
+    /// The motion is chaotic: initially close runs separate. Results are meaningful only until the time `until`.
     Chaotic {
         /// Time until which the runs converge [time].
         until: f64,
@@ -54,7 +54,7 @@ impl ErrorVerdict {
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct DiscretisationError {
-    /// Errors at times of the run [time, dimension of the quantity].
+    /// Times of the run [time] with the error at each time [dimension of the quantity].
     pub over_time: Vec<(f64, f64)>,
     /// Observed order; `None` if the runs agree to rounding or do not converge.
     pub order: Option<f64>,
@@ -70,7 +70,7 @@ impl DiscretisationError {
         largest(&self.over_time)
     }
 
-    /// Error at a time, interpolated linearly. Before the first and after the last known time, the nearest known error is returned.
+    /// Error at a time, interpolated linearly; outside the known times, the nearest known error.
     pub fn at(&self, time: f64) -> f64 {
         let after = self.over_time.partition_point(|(other, _)| *other < time);
         match (after.checked_sub(1).map(|before| self.over_time[before]), self.over_time.get(after))
@@ -89,7 +89,7 @@ pub struct RefinementLevels<'a> {
     pub sizes: [f64; 3],
     pub traces: [Option<&'a Trace>; 3],
     pub level: usize,
-    /// Order of the method; `None` if unknown.
+    /// Order of the integrator; `None` if unknown.
     pub order: Option<f64>,
     pub scale: f64,
 }
@@ -120,7 +120,7 @@ impl RefinementLevels<'_> {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
-        // Without convergence, the error is estimated as at least the distance between the two finest levels.
+        // Without convergence, the estimated error is at least the distance of the two finest levels.
         scaled(factor.max(1.0), order, verdict)
     }
 
@@ -149,8 +149,8 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which the runs converge, for runs that differ strongly at their end.
-    /// Returns `None` if the runs never converge, or if the distances between the runs do not grow after the last convergence.
+    /// Time until which runs that differ strongly at their end converge.
+    /// The time is `None` if the runs never converge, or if their distances do not grow after the last convergence.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;

@@ -12,9 +12,9 @@ pub struct ExternalResult {
     pub setting: String,
     /// Run time [s].
     pub run_time: f64,
-    /// Largest distance of a station from the reference, as a fraction of the length scale of the study [-].
+    /// Largest distance of a station from its reference position, as a fraction of the length scale of the study [-].
     pub error: f64,
-    /// Energy drift [-]; NaN if it was not measured.
+    /// Energy drift [-]; NaN if not measured.
     pub energy_drift: f64,
     pub machine: String,
 }
@@ -28,7 +28,7 @@ pub enum ExternalResultError {
     #[error("its row {row} has positions at t = {measured}, but the study needs t = {}", requested.join(", "))]
     Times {
         row: usize,
-        /// Time of the measurement [time].
+        /// Simulated time to which the positions belong [time].
         measured: f64,
         requested: Vec<String>,
     },
@@ -38,13 +38,8 @@ const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table.
-    /// Required columns of the table are peer, series, run_time_s, t, energy_drift and machine, and columns of station positions.
-    /// The columns of positions are named as in the table of reference values.
-    /// Optional columns of the table are integrator, elements, dof and dt.
-    ///
-    /// # Errors
-    /// Fails if a column is missing, a number is invalid, or the positions belong to a time that the study does not use.
+    /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift, machine, and positions such as xA and yA.
+    /// The columns integrator, elements, dof and dt are optional.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],

@@ -1,4 +1,4 @@
-//! Optional features for cost measurements. They can be added to any scene with a beam, and have little effect on its motion.
+//! Optional parts of a scene, such as masses and springs, whose cost per step is measured. Their effect on the motion is small.
 
 use crate::beams::Station;
 use crate::elementary::square;
@@ -10,16 +10,16 @@ use crate::system::{ParticleDefinition, PointMass, Scene, SystemError};
 /// Magnitude of an added mass, stiffness or force, as a fraction of the corresponding property of the first beam.
 const SMALL: f64 = 1e-3;
 
-/// Feature whose cost is measured.
+/// Optional part of a scene whose cost is measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Feature {
     /// Name of the feature.
     pub name: &'static str,
-    /// Function that adds the feature to the first beam of a scene.
+    /// Function that adds the part to the first beam of a scene.
     pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 
-/// All features. They can be added independently of each other.
+/// All optional parts; they can be combined.
 pub const FEATURES: &[Feature] = &[
     Feature {
         name: "gravity",
@@ -80,7 +80,7 @@ fn line_load(scene: &mut Scene, frame: LoadFrame) -> Result<(), SystemError> {
     Ok(())
 }
 
-/// Adds a small point mass that slides along the beam. It starts off the middle, because in the middle of a spinning beam it would not move.
+/// Adds a small sliding point mass, off the middle of the beam, because in the middle of a spinning beam it would not move.
 fn bead(scene: &mut Scene) -> Result<(), SystemError> {
     let arc_length = 0.4 * length(scene);
     let place = scene.station(0, arc_length)?;

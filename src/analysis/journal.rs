@@ -1,8 +1,6 @@
-//! Results of completed cases in a file, so that an interrupted study can be resumed.
+//! Journals: files with the results of completed cases, from which an interrupted study resumes.
 //!
-//! A journal is a file of records, each with its length and a checksum.
-//! If the program crashes, the last record may be incomplete. Reading ends at an incomplete record.
-//! The journal is removed when the script of the study has ended successfully.
+//! A journal consists of records, each with its length and a checksum. Reading ends at a record that a crash left incomplete.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -16,7 +14,7 @@ use serde::de::DeserializeOwned;
 
 use crate::sandbox_fs::{FileChecksum, Folder};
 
-/// Maximum length of a record [bytes]. A longer record is treated as damaged.
+/// Maximum length of a record [bytes]. A longer record counts as damaged.
 const LONGEST: usize = 1 << 30;
 
 /// Maximum length of a journal [bytes].
@@ -47,7 +45,7 @@ pub struct JournalError {
     source: io::Error,
 }
 
-/// Results of the cases of a study, both from this run and from earlier, interrupted runs.
+/// Results of completed cases of a study, from this run and from earlier, interrupted runs.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -56,7 +54,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens a journal. A missing file is created when the first record is written.
+    /// Opens a journal. A missing file is created with the first record.
     ///
     /// # Errors
     /// Fails if an existing file cannot be read.
@@ -77,7 +75,7 @@ impl Journal {
         Ok(Self { known: known.collect(), path, file: None })
     }
 
-    /// Combines several journals. The combined journal has no file and can only be read.
+    /// Combines several journals to one that has no file and can only be read.
     ///
     /// # Errors
     /// Fails if one of the files cannot be read.
@@ -89,7 +87,7 @@ impl Journal {
         Ok(Self { path: PathBuf::new(), known, file: None })
     }
 
-    /// Removes the results of earlier runs.
+    /// Deletes the file with the results of earlier runs.
     ///
     /// # Errors
     /// Fails if the file cannot be removed.
@@ -109,12 +107,12 @@ impl Journal {
         self.known.is_empty()
     }
 
-    /// Result of the case with the given fingerprint; `None` if there is no result of type `T`.
+    /// Result of the case with the given fingerprint; `None` if the journal has no result of type `T` for it.
     pub fn find<T: DeserializeOwned>(&self, fingerprint: u64) -> Option<T> {
         postcard::from_bytes(self.known.get(&fingerprint)?).ok()
     }
 
-    /// Writes the result of a case to the file immediately. Returns the number of bytes written.
+    /// Appends the result of a case to the file. Returns the number of bytes written.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -133,7 +131,7 @@ impl Journal {
         Ok(bytes)
     }
 
-    /// Creates the file of the journal, even without records. The file shows that the study has been started.
+    /// Creates the file of the journal, which shows that the study has been started.
     ///
     /// # Errors
     /// Fails if writing fails.
@@ -146,11 +144,11 @@ impl Journal {
     fn begin_file(&mut self) -> io::Result<u64> {
         let mut bytes = 0;
         if self.file.is_none() {
-            // The file is rewritten, because records after an incomplete record would be unreadable.
+            // The file is rewritten without its incomplete record, because records after it would be unreadable.
             let known = self.known.iter().map(|(other, result)| record(*other, result));
             let known = known.collect::<io::Result<Vec<_>>>()?.concat();
             let (folder, name) = self.place()?;
-            // The new file is written under a temporary name and then renamed, so that nothing is lost if the program is killed.
+            // The new file gets its final name only when it is complete, so that nothing is lost if the program is killed.
             let anew = name.with_extension("journal.new");
             match folder.remove(&anew) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
@@ -181,7 +179,7 @@ impl Journal {
         Ok((Folder::open_or_create(self.path.parent().unwrap_or(Path::new(".")))?, name.into()))
     }
 
-    /// Removes the journal at the end of a study.
+    /// Deletes the file of the journal at the end of a study.
     ///
     /// # Errors
     /// Fails if the file cannot be removed.
@@ -190,10 +188,7 @@ impl Journal {
         remove(&self.path)
     }
 
-    /// Fingerprint of a case: a hash of all data on which its result depends.
-    ///
-    /// The hash includes the program, because another build may give different results.
-    /// If another compiler changes the hash, the study runs all cases again.
+    /// Hash of all data on which the result of a case depends, including the program itself.
     pub fn fingerprint(parts: &[&[u8]]) -> u64 {
         let mut hasher = DefaultHasher::new();
         (FORMAT, build()).hash(&mut hasher);

@@ -24,7 +24,6 @@ pub enum ObservableKind {
     },
 }
 
-/// Symbols that stand for history columns in tables of reference solutions.
 pub const SYMBOLS: [(&str, &str); 6] = [
     ("E", "energy"),
     ("KE", "kinetic"),
@@ -68,7 +67,7 @@ impl Observable {
         }
     }
 
-    /// Present value of the observable. A scalar is the first component of the vector, and an undefined value is NaN.
+    /// Present value of the observable: a vector, a scalar as the first component, or NaN if undefined.
     pub fn read(&self, simulation: &Simulation) -> Vec2 {
         let scalar = |value: Option<f64>| Vec2::new(value.unwrap_or(f64::NAN), 0.0);
         match &self.kind {

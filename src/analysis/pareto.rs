@@ -1,8 +1,7 @@
 //! Pareto fronts of cost and error.
 
-/// Returns a list with an entry for each pair of cost and error, which is true if the pair is on the Pareto front.
-/// A pair is on the front if no other pair is smaller in one value and not larger in the other value.
-/// If several pairs are equal, only the first can be on the front. Pairs with an infinite or NaN value are not on the front.
+/// Returns for each pair of cost and error true if no other pair is smaller in one value and not larger in the other.
+/// Of several equal pairs, only the first is on the front. Pairs with an infinite or NaN value are not on the front.
 pub fn pareto_front(points: &[(f64, f64)]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len())
         .filter(|index| points[*index].0.is_finite() && points[*index].1.is_finite())

@@ -15,11 +15,10 @@ pub struct PrecisionRow {
     pub result: RunResult,
     /// Run time; `None` if the run failed.
     pub timing: Option<Timing>,
-    /// Largest distance of a station from the reference, as a fraction of the length scale of the study; `None` if the run failed.
+    /// Largest distance of a station from its reference position, as a fraction of the length scale of the study; `None` if the run failed.
     pub error: Option<Deviation>,
-    /// Error of each observable in the unit of the observable; `None` if the run failed or the reference does not contain the observable.
+    /// Error of each observable, in its unit; `None` if the run failed or the reference lacks the observable.
     pub deviations: Vec<Option<Deviation>>,
-    /// True if no other combination is both faster and more accurate.
     pub is_on_front: bool,
 }
 
@@ -87,9 +86,8 @@ impl Precision {
         self.front().into_iter().find(|row| row.cost_and_error().1 <= error)
     }
 
-    /// Fastest combination with an error of at most `error` [-], confirmed by smaller steps.
-    /// A combination is confirmed if there are runs with smaller steps on the same mesh, and their errors are also at most `error`.
-    /// Without confirmation by smaller steps, the errors of mesh and steps might cancel by chance.
+    /// Fastest combination with an error of at most `error` [-] whose runs with smaller steps on the same mesh also meet this limit.
+    /// Without runs with smaller steps, the errors of mesh and steps might cancel by chance.
     pub fn cheapest_confirmed(&self, error: f64) -> Option<&PrecisionRow> {
         let is_right = |row: &&PrecisionRow| row.cost_and_error().1 <= error;
         let is_confirmed = |row: &&PrecisionRow| {

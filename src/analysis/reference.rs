@@ -5,16 +5,14 @@ use super::observable::{Observable, ObservableKind};
 use crate::elementary::hypot;
 use crate::geometry::{Vec2, larger};
 
-/// Values of observables at the times of a study. The first index is the time, the second index the observable.
 pub type Readings = Vec<Vec<Vec2>>;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deviation {
     pub distance: f64,
-    /// Estimated error of the reference, in the unit of the observable; zero if unknown.
+    /// Estimated error of the reference value, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program. All errors are then reported as upper bounds.
-    /// A run of this program may have the same errors as the compared result, which would then appear to be exact.
+    /// True if the reference is a run of this program, so that errors are only upper bounds: both runs may have the same error.
     pub is_of_own_run: bool,
 }
 
@@ -23,8 +21,6 @@ impl Deviation {
         self.distance > self.estimated_error
     }
 
-    /// Error of the result.
-    /// The error is an upper bound if the reference is a run of this program, or if the distance is below the estimated error of the reference.
     pub fn error(&self) -> f64 {
         match self.is_of_own_run || !self.is_resolved() {
             true => self.distance + self.estimated_error,
@@ -58,13 +54,13 @@ pub enum ReferenceError {
     Empty,
     #[error("it has no row at t = {time}; the nearest rows are at t = {}", nearest.join(" and "))]
     Time {
-        /// Missing time [time].
+        /// Requested time for which there is no reference value [time].
         time: f64,
         nearest: Vec<String>,
     },
     #[error("lines {first} and {second} are both for t = {time}, but have different values")]
     DuplicateTime {
-        /// Duplicate time [time].
+        /// Time that occurs twice in the table [time].
         time: f64,
         first: u64,
         second: u64,
@@ -75,7 +71,6 @@ pub enum ReferenceError {
     Stations { station: String, known: String },
 }
 
-/// Relative rounding error of the numbers in a reference. Smaller errors cannot be determined.
 const ROUNDING: f64 = 1e-13;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +86,7 @@ pub struct ReferenceSolution {
     known: Vec<Vec<Option<KnownValue>>>,
 }
 
-/// Largest difference of two times that count as equal. For times above 1 the difference is relative, otherwise absolute.
+/// Largest difference of two times that count as equal, relative for times above 1 and absolute otherwise.
 const SAME_TIME: f64 = 1e-9;
 
 fn row_at(sheet: &ParsedCsv, time: f64) -> Result<usize, ReferenceError> {
@@ -176,11 +171,8 @@ fn known_of(
 }
 
 impl ReferenceSolution {
-    /// Reads a reference from a table of an independent solution. The table has a column t and, for a station A, the columns xA, yA and thA.
-    /// Other columns of the table have the names of observables. Estimated errors are in columns such as d_xA, d_A, d_pos, d_thA, d_th and d_E.
-    ///
-    /// # Errors
-    /// Fails if a time is missing, all stations are missing, or a cell is not a number.
+    /// Reads a reference from a table with the column t and, for a station A, the columns xA, yA and thA.
+    /// Further columns are named like observables; columns such as d_xA, d_A, d_pos, d_thA, d_th and d_E contain estimated errors.
     pub fn of_sheet(
         source: impl Into<String>,
         sheet: &ParsedCsv,
@@ -214,7 +206,6 @@ impl ReferenceSolution {
         Self { source: source.into(), is_own: true, known }
     }
 
-    /// Sets the estimated error of each value to its difference from a coarser run.
     pub fn with_errors_from(mut self, coarser: &Readings) -> Self {
         for (known, other) in self.known.iter_mut().zip(coarser) {
             for (known, other) in known.iter_mut().zip(other) {
@@ -231,7 +222,7 @@ impl ReferenceSolution {
         self.known.iter().any(|at| at.get(observable).is_some_and(Option::is_some))
     }
 
-    /// Largest deviation of an observable at the times of the study; `None` if the reference does not contain the observable.
+    /// Largest deviation of an observable over all times of the study; `None` if the reference lacks the observable.
     pub fn deviation(&self, observable: usize, readings: &Readings) -> Option<Deviation> {
         let values = self.known.iter().filter_map(|at| (*at.get(observable)?)?.value.norm().into());
         let rounding = ROUNDING * values.fold(0.0, f64::max);

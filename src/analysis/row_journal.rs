@@ -1,4 +1,4 @@
-//! Completed rows of a sweep in a file. Rows are appended and read one by one, so that many rows need little memory.
+//! Files with the completed rows of a sweep. Rows are appended and read one by one, which limits the memory.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
@@ -9,10 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::sandbox_fs::Folder;
 
-/// Maximum length of an entry [bytes]. A longer entry is treated as damaged.
+/// Maximum length of an entry [bytes]. A longer entry counts as damaged.
 const LONGEST: u32 = 1 << 20;
-/// Interval between writes to the file. If the program is killed, the rows of this interval are lost.
-/// A power failure also loses the rows that the system has not yet written to the disk.
 const DELAY: Duration = Duration::from_millis(100);
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,10 +18,9 @@ pub enum RowEntry {
     Sweep {
         fingerprint: u64,
         rows: u64,
-        /// Part number of the sweep, counted from 1, and number of parts. The whole sweep is (1, 1).
+        /// Number of this part of the sweep, counted from 1, and number of parts; (1, 1) for a whole sweep.
         part: (u32, u32),
     },
-    /// Names of the results. This entry precedes the entry of the first completed row.
     Names(Vec<String>),
     Computed(u64, Vec<f64>),
     Failed(u64, String),
@@ -35,11 +32,8 @@ pub struct RowJournal {
     flushed: Instant,
 }
 
-/// Reads the entries of a journal up to the first damaged or incomplete entry, and passes them to `heed`.
-/// Returns the length of the valid part [bytes], which is zero if there is no file.
-///
-/// # Errors
-/// Fails if an existing file cannot be read, or `heed` returns an error.
+/// Reads the entries up to the first damaged or incomplete one, and passes each to `heed`.
+/// Returns the length of the valid part of the file [bytes]; zero if there is no file.
 pub fn read_rows<E: From<io::Error>>(
     path: &Path,
     mut heed: impl FnMut(RowEntry) -> Result<(), E>,
@@ -59,7 +53,6 @@ pub fn read_rows<E: From<io::Error>>(
 }
 
 impl RowJournal {
-    /// Opens a journal to append entries after its first `whole` bytes. A missing file is created.
     pub fn append(path: &Path, whole: u64) -> io::Result<Self> {
         let (folder, name) = place(path, Folder::open_or_create)?;
         let file = folder.append(&name)?;

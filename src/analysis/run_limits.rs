@@ -19,8 +19,8 @@ thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
 }
 
-/// Returns true if the deadline of the case that runs on this thread has passed. The case checks the deadline after every step.
-/// Code that is called within a step and may run very long, such as a script function of a load, must call this function.
+/// Returns true if the time limit of the case on this thread has passed.
+/// Long calculations within a step, such as script functions of loads, must call this function; the solver checks only after steps.
 pub fn is_past_deadline() -> bool {
     DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline)
 }

@@ -18,10 +18,8 @@ pub struct RunResult {
     pub newton_iterations: usize,
     pub factorisations: usize,
     pub retries: usize,
-    /// Drifts of the invariants over the whole run, in the order of [`Invariant::ALL`].
-    /// The work and the impulses of loads do not count as drift of an invariant.
     pub drifts: [f64; 4],
-    /// Energy drift after the last time at which loads do work; NaN if loads do work until the end.
+    /// Energy drift during the last part of the run, in which no load does work; NaN if loads do work until the end.
     pub free_energy_drift: f64,
 }
 

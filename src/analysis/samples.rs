@@ -42,7 +42,7 @@ pub fn spinning(dt: f64, stops: &[f64]) -> Case {
     Case { scene, settings, stops: stops.to_vec() }
 }
 
-/// Case of a short spinning beam without supports. Its force has a function as schedule, so the case cannot be sent to other threads.
+/// Spinning beam whose force has a script function as schedule, so that the case cannot be sent to other threads.
 pub fn pushed_by_a_function(dt: f64, stops: &[f64]) -> Case {
     let mut case = spinning(dt, stops);
     let station = case.scene.station(0, 0.0).unwrap();

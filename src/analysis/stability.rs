@@ -11,8 +11,8 @@ use crate::system::Scene;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
-    /// Largest increase of the energy (minus the work of loads) over any earlier value, as a fraction of the largest energy.
-    /// Rows before the last break of a schedule are ignored if the run continues after it. NaN if the run did not start or an energy is NaN.
+    /// Largest increase of the energy, minus the work of loads, over any earlier value, as a fraction of the largest energy.
+    /// The increase is measured after the last break of a schedule; NaN if the run did not start or an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
     pub mean_iterations: f64,

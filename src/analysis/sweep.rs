@@ -18,8 +18,6 @@ pub enum SweptValues {
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// Full grid. Each level applies to the given number of consecutive rows, followed by the next level.
-    /// In a full grid, the sequence of levels is repeated until the last row.
     Grid(usize),
     Drawn(Vec<u32>),
 }
@@ -101,7 +99,7 @@ pub enum SweepColumn<'s> {
 }
 
 impl SweepColumn<'_> {
-    /// Number in a row of this column; NaN if the cell is not a number.
+    /// Number in a row of this column; NaN if the cell does not contain a number.
     pub fn number(&self, row: usize) -> f64 {
         match self {
             Self::Parameter(values) => values.number(row).unwrap_or(f64::NAN),
@@ -111,7 +109,6 @@ impl SweepColumn<'_> {
 }
 
 impl SweepResults {
-    /// Allocates the columns. Called when the first run has returned the names of the results.
     pub fn begin(&mut self, names: Vec<String>, rows: usize) {
         self.columns = vec![vec![f64::NAN; rows]; names.len()];
         self.names = names;
@@ -165,7 +162,6 @@ impl Sweep {
         parameters.chain(self.results.names.iter().map(String::as_str))
     }
 
-    /// Number of rows that contribute to sensitivities: the completed rows, or in a Saltelli design the rows of complete blocks.
     pub fn usable_rows(&self, result: &str) -> usize {
         let results = self.results.column(result).unwrap_or_default();
         let is_whole = |rows: &&[f64]| rows.iter().all(|x| x.is_finite());
@@ -176,8 +172,8 @@ impl Sweep {
         results.chunks_exact(block).filter(is_whole).count() * block
     }
 
-    /// Fractions of the variance of a result that the parameters explain, in the order of the parameters.
-    /// Returns `None` if the result is constant, some rows of a grid failed, or there are too few points.
+    /// Fraction of the variance of a result that each parameter explains.
+    /// The fractions are `None` if the result is constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

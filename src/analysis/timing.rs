@@ -8,20 +8,19 @@ use super::{Case, RunLimits};
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
-    /// Median time to build the scene and its model.
     pub setup: Duration,
     pub run: Duration,
     pub shortest: Duration,
-    /// Median processor time of the run; `None` if not available. The time of other processes on a busy machine is not included.
+    /// Median processor time of the run, without the time of other processes; `None` if not available.
     pub processor: Option<Duration>,
     pub repeats: usize,
 }
 
-/// Total run time of the repetitions of a case after which the case is not run again.
+/// Total run time of the repetitions of a case after which it is not repeated again.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
-/// Processor time of this thread on Linux. The system updates this time when the thread pauses, and otherwise only at ticks of the scheduler.
-/// The thread is paused before its processor time is read, because the system then updates this time.
+/// Processor time of this thread on Linux.
+/// The thread sleeps briefly before the time is read, because the system otherwise updates it only at scheduler ticks.
 fn processor_time() -> Option<Duration> {
     std::thread::sleep(Duration::from_nanos(1));
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
@@ -29,13 +28,12 @@ fn processor_time() -> Option<Duration> {
 }
 
 impl Timing {
-    /// Cost of the case: the processor time or, if it is not available, the wall-clock time [s].
+    /// Processor time of the run, or the wall-clock time if the processor time is not available [s].
     pub fn cost(&self) -> f64 {
         self.processor.unwrap_or(self.run).as_secs_f64()
     }
 
-    /// Runs a case several times on this thread, and computes medians of the times. After [`LONGEST_REPETITION`], the case is not run again.
-    /// Returns `None` if `is_wanted` returns false or a run fails.
+    /// Median times of repeated runs of a case on this thread; `None` if `is_wanted` returns false or a run fails.
     pub fn of(
         case: &Case,
         limits: RunLimits,
@@ -60,7 +58,7 @@ impl Timing {
         }
         let shortest = runs.iter().copied().min()?;
         let repeats = runs.len();
-        // A processor time of zero is ignored, because the clock has not advanced.
+        // A measured time of zero is ignored, because it shows only that the clock has not advanced.
         let processor = median(works).filter(|time| !time.is_zero());
         Some(Self { setup: median(setups)?, run: median(runs)?, shortest, processor, repeats })
     }

@@ -19,21 +19,18 @@ pub enum TraceSource {
     /// Position of a station in all recorded configurations [length].
     Position(Station),
     Column,
-    /// Column of the history that contains means over the last step, such as contact forces.
+    /// Column of the history whose values are means over a step, such as contact forces.
     StepMean,
 }
 
-/// Values of a quantity over time. The value of a scalar is the first component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {
     times: Vec<f64>,
     values: Vec<Vec2>,
-    /// True if the values are integrals over time from the start. The mean over a step follows from the difference of two integrals.
     is_integral: bool,
 }
 
 impl Trace {
-    /// Reads the values of a quantity from the history and trajectory of a simulation. The trace is empty if there are no values.
     pub fn of(simulation: &Simulation, quantity: &TracedQuantity) -> Self {
         let history = simulation.history();
         let column = |name: &str| history.column(name).unwrap_or_default();
@@ -51,7 +48,7 @@ impl Trace {
                 let means = column(&quantity.name);
                 let mut sum = 0.0;
                 let add = |(mean, dt): (&f64, f64)| {
-                    // The first row of a history has no previous step, so that a mean over the previous step may be undefined.
+                    // The first row of a history has no preceding step, so that its step mean may be undefined.
                     sum += if dt > 0.0 { mean * dt } else { 0.0 };
                     scalar(sum)
                 };
@@ -67,7 +64,6 @@ impl Trace {
         Self { times, values, is_integral: false }
     }
 
-    /// Largest magnitude of the values. For integrals, it is the largest magnitude of the means over steps.
     pub fn largest(&self) -> f64 {
         let steps = self.times.windows(2).zip(self.values.windows(2));
         match self.is_integral {
@@ -85,7 +81,7 @@ impl Trace {
     }
 
     /// Distances of a coarser trace from this trace at the times of the coarser trace [time, dimension of the values].
-    /// For integrals, means over the steps of the coarser trace are compared.
+    /// For integrals, the distance is that of the means over the steps of the coarser trace.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let pairs = coarser.times.iter().zip(&coarser.values);
         let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
@@ -100,16 +96,14 @@ impl Trace {
         both.windows(2).filter_map(over_step).collect()
     }
 
-    /// Returns the value at a time; `None` outside the trace.
-    /// A value recorded at the requested time is returned directly.
-    /// Between recorded times, a cubic polynomial through the four nearest recorded values is evaluated.
+    /// Returns the value at a time, by cubic interpolation between recorded times; `None` outside the trace.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);
         let after = self.times.partition_point(|other| *other < time - slack);
         let nearest = self.times.get(after)?;
         if (nearest - time).abs() <= slack {
-            // If several times are equal, the last value is used: the value after an event.
+            // At an event, several rows have the same time; the last one is the value after the event.
             let equal = self.times[after..].iter().take_while(|other| **other <= time + slack);
             return Some(self.values[after + equal.count() - 1]);
         }

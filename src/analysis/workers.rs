@@ -10,15 +10,13 @@ use super::Case;
 use crate::panics::caught;
 use crate::simulation::{HAS_THREADS, cores};
 
-/// Interval at which `heed` is called without a result.
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Runs cases on all processor cores. Cases whose loads call script functions run last, on the calling thread.
-/// On a system without threads, all cases run on the calling thread.
-///
-/// On the calling thread, the callback `heed` receives the index and the result of each completed case, and periodically `None`.
-/// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result. Results are in the order of the cases.
-/// If a case panics, its result is the panic message.
+/// Runs cases on all processor cores, and returns the results in the order of the cases.
+/// Cases whose loads call script functions run last, on the calling thread, because such functions cannot be sent to other threads.
+/// `heed` is called on the calling thread with the index and result of each completed case, and periodically with `None`.
+/// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result.
+/// The result of a case that panics is the panic message.
 pub fn on_all_cores<R: Send>(
     cases: &[Case],
     stop: &AtomicBool,

@@ -1,8 +1,7 @@
-//! Grades each attempt in a separate process, so that an attempt cannot affect the next attempt or the marks.
+//! Grades each attempt in a separate process, so that an attempt cannot affect other attempts or the marks.
 //!
-//! The program starts itself again as a separate process, with limits on time, memory and output.
-//! The process of an attempt runs in a new folder with an unpredictable name.
-//! The process of an attempt prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
+//! The process has limits on time, memory and output, and runs in a new folder with an unpredictable name.
+//! The process prints its verdict as one line of JSON. If the process dies, the attempt still receives a mark.
 
 use std::io::Read;
 use std::path::Path;
@@ -29,7 +28,7 @@ use crate::script::state::settings::{RunMode, RunSettings};
 
 const INTERVAL: Duration = Duration::from_millis(5);
 const START: Duration = Duration::from_secs(2);
-/// Maximum length of the message in a verdict [characters]. The line of the verdict then fits into the buffer of the pipe.
+/// Maximum length of the message in a verdict [characters], at which the verdict fits into the buffer of a pipe.
 const LONGEST_MESSAGE: usize = 4000;
 /// Maximum size of a verdict [bytes].
 const LONGEST_VERDICT: u64 = 1 << 20;
@@ -40,10 +39,10 @@ pub(super) struct JudgeLimits<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// Runs an attempt in a separate process and returns its mark and message; `None` if grading was stopped before the mark was known.
+/// Grades an attempt in a separate process; `None` if grading was stopped before the mark was known.
 ///
 /// # Errors
-/// Fails if the process cannot be started. Such a failure is not the fault of the student.
+/// Fails if the process cannot be started, which is not the fault of the student.
 pub(super) fn mark_in_process(
     submission: &Submission,
     file: &Path,
@@ -166,7 +165,7 @@ fn kill_reason(status: ExitStatus) -> KillReason {
     match status.signal().and_then(|number| Signal::try_from(number).ok()) {
         Some(Signal::SIGXCPU) => KillReason::Time,
         Some(Signal::SIGXFSZ) => KillReason::Written,
-        // A process aborts when a memory allocation fails. The system kills a process that uses too much memory.
+        // A Rust program aborts if an allocation fails, and the system kills a process that uses too much memory.
         Some(Signal::SIGABRT | Signal::SIGKILL) => KillReason::Memory,
         _ => KillReason::Other,
     }
@@ -177,14 +176,14 @@ fn kill_reason(_: ExitStatus) -> KillReason {
     KillReason::Other
 }
 
-/// Moves the process into its own process group, so that Ctrl-C at the terminal reaches only the grading process.
+/// Puts the process into its own process group, so that Ctrl-C at the terminal does not reach it.
 fn shield_from_interrupt(command: &mut Command) -> &mut Command {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     command
 }
 
-/// Prints the mark for an exceeded limit, and exits. Called if running code does not check for limits and therefore does not stop.
+/// Prints the mark for an exceeded limit and exits, for code that does not check the limits and therefore does not stop.
 fn stopped_hard(stop: Stop) {
     print_line(&write(&(Mark::Stopped, stop.message_and_hint().0)));
     process::exit(0)
@@ -214,7 +213,7 @@ pub(super) fn judge_one(
         Some(mark) => print_line(&write(&mark)),
         None => return Exit::Interrupted,
     }
-    // The process exits without dropping the data of the attempt, because dropping may take long.
+    // The process exits without dropping the data of the attempt, because that may take long.
     process::exit(0)
 }
 

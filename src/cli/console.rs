@@ -18,7 +18,6 @@ pub(super) fn print_error(text: &str) {
     print_error_styled(&printable(text));
 }
 
-/// Prints to stderr. Colour sequences written by this program are kept; other control characters are replaced.
 pub(super) fn print_error_styled(text: &str) {
     record_write_error(stderr().write_all(printable_in_colours(text).as_bytes()));
 }

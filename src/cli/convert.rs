@@ -1,6 +1,4 @@
 //! `withy convert`: exports a saved simulation without its script.
-//!
-//! The command generates and runs a short script that loads the file and writes the output.
 
 use std::io::{stderr, stdout};
 

@@ -16,7 +16,7 @@ use crate::script::help::lookup::{self, WIDTH};
 use crate::script::help::reference::reference;
 use crate::script::packages::language;
 
-/// Maximum size of a definition file [bytes]. Larger existing files are not replaced.
+/// Maximum size of an existing definition file that may be replaced [bytes].
 const LARGEST_DEFINITION: u64 = 1 << 24;
 
 pub fn docs(options: &DocsOptions) -> Exit {

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-/// Exit codes. They have the same meaning for all commands.
+/// Exit codes of all commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// The command succeeded, or the reader of its output closed the pipe.

@@ -35,7 +35,6 @@ pub struct GradeOptions<'a> {
     pub limits: &'a LimitOptions,
 }
 
-/// Grades all submissions of a folder, and prints each mark as soon as it is known. Files that the attempts write are discarded.
 pub fn grade(options: &GradeOptions) -> Result<Exit, ExerciseError> {
     let submissions = Submission::all_in(options.folder)?;
     let refused = |path: &Path, source| ExerciseError::Marks { path: path.into(), source };
@@ -97,7 +96,7 @@ pub fn grade(options: &GradeOptions) -> Result<Exit, ExerciseError> {
 struct GradedMark {
     mark: Mark,
     message: String,
-    /// Fingerprint of the attempt; `None` if a repetition may give a different mark, so that the mark must not be reused.
+    /// Fingerprint of the attempt; `None` if the mark must not be reused, because grading again may give another mark.
     fingerprint: Option<String>,
     origin: MarkOrigin,
 }
@@ -130,7 +129,7 @@ impl GradedMark {
             Ok(marked) => (false, marked?),
             Err(error) => (true, (Mark::Error, format!("cannot start a process for it: {error}"))),
         };
-        // The attempt may have changed while it was judged. Its fingerprint then differs from `before`.
+        // The mark is not reused if the attempt changed while it was judged.
         let fingerprint = (!is_ours && of_attempt() == before).then_some(before);
         Some(Self { mark, message, fingerprint, origin: MarkOrigin::ThisRun })
     }

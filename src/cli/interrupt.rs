@@ -1,4 +1,4 @@
-//! Handles Ctrl-C and termination signals. After Ctrl-C, the run stops at the end of its current step. If the run does not react, the program ends.
+//! Handles Ctrl-C and termination signals. Ctrl-C stops a run after its current step; if the run does not react, the program ends.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,19 +11,16 @@ use super::tui::terminal;
 use crate::repl::terminal::typed_ahead;
 use crate::script::state::limits::INTERRUPT_HEARD;
 
-/// Time in which a run must react to Ctrl-C.
+/// Time in which a run must react to Ctrl-C before the program ends.
 const REACTION_TIME: Duration = Duration::from_millis(900);
 
-/// Time for saving the results of a run that has reacted to Ctrl-C.
 const TO_WRITE: Duration = Duration::from_secs(20);
 
-/// Results that are lost if Ctrl-C ends the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// The results of a run are lost. The program ends at a second Ctrl-C, or if the run does not react in time to the first Ctrl-C.
+    /// The results of a run. The program ends at a second Ctrl-C, or if the run does not react to the first in time.
     Run,
-    /// The session and all its data are lost.
-    /// If the session has not reacted to the first Ctrl-C, a second Ctrl-C at least a second later ends the program.
+    /// The session with all its data. The program ends only at a second Ctrl-C, at least a second after one without effect.
     Session,
 }
 
@@ -39,7 +36,7 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         if !set.swap(true, Ordering::Relaxed) {
             asked = Instant::now();
             if at_stake == InterruptLoss::Run {
-                // A separate thread waits for the reaction of the run, because the thread of the handler must receive the second Ctrl-C.
+                // A separate thread waits for the run to stop, because the thread of the handler must receive the second Ctrl-C.
                 thread::spawn(|| {
                     thread::sleep(REACTION_TIME);
                     if INTERRUPT_HEARD.load(Ordering::Relaxed) {
@@ -53,14 +50,14 @@ pub fn flag(at_stake: InterruptLoss) -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = installed {
-        // Without a handler, Ctrl-C ends the program by default. Therefore a warning about lost results is sufficient.
+        // If no handler can be installed, Ctrl-C ends the program, so a warning about lost results is sufficient.
         print_error(&format!("warning: Ctrl-C ends the program without saving results: {error}\n"));
     }
     flag
 }
 
 /// Ends a session on SIGTERM and SIGHUP, for example when its terminal window is closed.
-/// Ctrl-C stops only the evaluation of the current input. This function must be called before other threads start.
+/// SIGTERM and SIGHUP must be blocked before other threads start, because threads inherit the signal mask.
 #[cfg(unix)]
 pub fn end_on_signal() {
     use nix::sys::signal::{SigSet, Signal};

@@ -34,7 +34,7 @@ pub struct LimitOptions {
     max_files: Option<u64>,
 }
 
-/// Default limits of written output and files for an attempt that is graded.
+/// Default limit of written output for an attempt that is graded [megabytes].
 const MEGABYTES_OF_AN_ATTEMPT: u64 = 100;
 const FILES_OF_AN_ATTEMPT: u64 = 100;
 
@@ -50,8 +50,7 @@ impl LimitOptions {
         }
     }
 
-    /// Returns the limits of an attempt that is graded.
-    /// The default limits allow less output than [`limits`](Self::limits), and the run time is always limited.
+    /// Returns the limits of a graded attempt: less output by default, and always a limited run time.
     pub fn for_an_attempt(&self) -> Limits {
         Limits {
             time: self.max_time.or(Some(DEFAULT_TIME_LIMIT)),
@@ -61,7 +60,7 @@ impl LimitOptions {
         }
     }
 
-    /// Returns the options as command line arguments for a process that this program starts.
+    /// Returns the options as command line arguments for a child process of this program.
     pub fn to_arguments(&self) -> Vec<String> {
         let time = self.max_time.map(|time| time.as_secs_f64().to_string());
         let given = [

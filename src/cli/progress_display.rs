@@ -23,7 +23,6 @@ pub fn progress(wish: ProgressPreference) -> Box<dyn Progress + Send> {
     }
 }
 
-/// Progress bar for the simulated time of a run or for the cases of a study. A short run shows no bar.
 #[derive(Default)]
 struct ProgressDisplay {
     start: Cell<Option<Instant>>,
@@ -34,13 +33,12 @@ struct ProgressDisplay {
 }
 
 const PARTS: u64 = 1000;
-/// Duration of a run after which its bar appears.
 const SHORTEST_SHOWN: Duration = Duration::from_millis(300);
 
 impl ProgressDisplay {
     fn create_bar(&self) -> ProgressBar {
         let bar = ProgressBar::new(PARTS);
-        // If the template is invalid, the default bar is used.
+        // The default bar is used if the template is invalid.
         let style = ProgressStyle::with_template("{prefix} {wide_bar} {msg} {eta}");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_prefix(self.name.borrow().clone());

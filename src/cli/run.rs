@@ -28,7 +28,7 @@ use crate::script::state::settings::{
     ErrorEstimation, JournalPreference, RunMode, RunSettings, StudyPreferences,
 };
 
-/// Maximum size of a report [bytes]. Larger existing files are not replaced.
+/// Maximum size of an existing report that may be replaced [bytes].
 const LARGEST_REPORT: u64 = 1 << 28;
 
 pub fn run(options: &RunOptions) -> Exit {
@@ -77,9 +77,8 @@ fn run_once(options: &RunOptions, interrupt: &Arc<AtomicBool>, files_read: Files
     exit_for(&outcome)
 }
 
-/// Estimation of the errors of a run, as selected by the options.
-/// With `auto`, the estimation depends on the run time.
-/// The estimation is done only on a terminal, because output that a program reads must not depend on the run time.
+/// Error estimation of a run, as selected by the options.
+/// With `auto`, errors are estimated only on a terminal: output that programs read must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,
@@ -204,7 +203,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
             Exit::Interrupted
         }
         Ending::Failed(diagnostic) => {
-            // In a long study, an exceeded time limit does not indicate an endless loop, so the usual hint would be misleading.
+            // The usual hint at an endless loop would be misleading after a time limit in a long study.
             let hint = match outcome.stopped_by {
                 Some(Stop::Time(_)) => Some("--max-time SECONDS allows more".to_owned()),
                 _ => diagnostic.hint.clone(),
@@ -217,8 +216,8 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
     }
 }
 
-/// Returns the exit code of a run that computes only a part of the studies.
-/// If the script fails after the studies, the run still counts as successful. Statements after the studies lack the results of the other parts.
+/// Exit code of a run that computes only a part of the studies.
+/// An error after the studies is ignored, because the results of the other parts are missing there.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

@@ -1,6 +1,4 @@
 //! `withy view`: writes a viewer page of a saved simulation, or of the simulations in the variables of a script.
-//!
-//! The command appends a line to a script and runs the script. The line writes the page.
 
 use std::fs;
 use std::io::stdout;

@@ -9,11 +9,10 @@ use super::Exit;
 use super::console::print_error;
 use crate::script::state::files_read::FilesRead;
 
-/// Interval of checks for changes. Polling works with all file systems and editors.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Calls `run` until Ctrl-C, each time after a change of the script or of a file that the run recorded.
-/// Returns the exit code of the last run if it was interrupted, and success otherwise.
+/// Calls `run` again after each change of the script or of a file that the run has read, until Ctrl-C.
+/// Returns the exit code of the last run if Ctrl-C interrupted it, otherwise success.
 pub fn watch(file: &Path, interrupt: &AtomicBool, run: impl Fn(FilesRead) -> Exit) -> Exit {
     let mut changed = String::new();
     for number in 1.. {

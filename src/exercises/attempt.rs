@@ -11,9 +11,6 @@ use crate::script::source::program::Program;
 pub const LARGEST: u64 = 1 << 20;
 
 /// Reads an attempt from a file in the given folder.
-///
-/// # Errors
-/// Fails if the file is a link, not a regular file, not UTF-8 text, or larger than a megabyte.
 pub fn load(path: &Path, folder: &Path) -> Result<Program, Diagnostic> {
     let refused = |why: &str| {
         let message = format!("cannot read the attempt '{}': {why}", path.display());

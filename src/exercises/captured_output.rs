@@ -14,7 +14,6 @@ pub struct CapturedOutput {
     pub further_lines: usize,
 }
 
-/// Writer that stores the beginning of the output and counts the remaining bytes. Clones share the same buffer.
 #[derive(Clone, Default)]
 pub struct CaptureWriter(Arc<Mutex<CapturedText>>);
 

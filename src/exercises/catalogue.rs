@@ -1,4 +1,4 @@
-//! Catalogue of all exercises in the order in which they are offered. The files of the exercises are embedded in the program.
+//! Catalogue of all exercises, whose files are embedded in the program.
 
 use super::error::ExerciseError;
 use super::exercise::Exercise;
@@ -47,7 +47,7 @@ macro_rules! exercise {
     };
 }
 
-/// All exercises, grouped by track. In each track the exercises proceed from easy to hard.
+/// All exercises, grouped by track, and in each track from easy to hard.
 pub const EXERCISES: &[Exercise] = &[
     exercise!("beams", "change_one_number"),
     exercise!("beams", "rectangle"),
@@ -79,7 +79,7 @@ pub const EXERCISES: &[Exercise] = &[
     exercise!("studies", "whose_stiffness"),
 ];
 
-/// Finds an exercise by `name`, which may be the name alone, `track/name`, or the path of the exercise file.
+/// Finds an exercise by its name, by `track/name`, or by the path of its file.
 ///
 /// # Errors
 /// Fails if the exercise does not exist. The error suggests a similar name.

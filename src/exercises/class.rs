@@ -1,4 +1,4 @@
-//! Grades the attempts of a class in parallel. Each attempt is judged independently. The marks are reported in a fixed order.
+//! Grades the attempts of a class in parallel.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,9 +11,9 @@ use super::submissions::Submission;
 
 /// Grades a class: `workers` threads call `judge` for each exercise of each submission.
 ///
-/// The callback `note` receives each mark as soon as it is known.
-/// The callback `tell` receives the marks student by student, and for each student in the order of the exercises.
-/// Returns true if all marks were reported. Grading ends early if `judge` returns `None` or `stop` is set.
+/// `note` receives each mark as soon as it is known.
+/// `tell` receives the marks student by student, in the order of the exercises.
+/// Returns false if grading ended before all marks were reported, because `judge` returned `None` or `stop` was set.
 pub fn grade<M: Send>(
     submissions: &[Submission],
     workers: usize,

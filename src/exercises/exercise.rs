@@ -1,8 +1,8 @@
-//! Exercise with its texts, which are embedded in the program, and its metadata.
+//! Exercises with their embedded texts.
 
 use super::judge::Judge;
 
-/// Exercise with its task, solution and judge. Its texts are files in `scripts/exercises`, which [`catalogue`](super::catalogue) embeds.
+/// Exercise with its task, solution and judge. The texts are files in `scripts/exercises`.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Exercise {
     /// Name of the track, which is also the name of its folder.

@@ -1,4 +1,4 @@
-//! Fingerprints for the detection of outdated marks. A fingerprint covers all data on which the mark of an attempt depends.
+//! Fingerprints of all data on which the mark of an attempt depends, for the detection of outdated marks.
 
 use super::attempt;
 use super::exercise::Exercise;
@@ -7,8 +7,6 @@ use crate::analysis::Journal;
 use crate::sandbox_fs::Folder;
 use crate::script::source::text::Source;
 
-/// Returns the fingerprint of a student's attempt.
-/// The fingerprint covers the text of the attempt, the files that the attempt may read, the exercise, the limits, and this program.
 pub fn fingerprint(submission: &Submission, exercise: &Exercise, limits: &[String]) -> String {
     let file = submission.attempt(exercise);
     let attempt = match file.as_deref().map(|path| attempt::load(path, &submission.folder)) {
@@ -33,7 +31,7 @@ fn reads_files(attempt: &Source) -> bool {
 }
 
 /// Maximum number of files that a fingerprint covers.
-/// Of a file with more than [`MOST_READ`] bytes, the fingerprint covers only the length and the time of the last change.
+/// Of a file with more than [`MOST_READ`] bytes, only the length and the time of the last change are hashed.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 

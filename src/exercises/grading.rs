@@ -1,4 +1,4 @@
-//! Grades submissions. A student receives a mark for every exercise, for any content of the files.
+//! Grades submissions. A student receives a mark for every exercise, whatever the files contain.
 
 use std::path::PathBuf;
 
@@ -54,7 +54,6 @@ pub struct Graded {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StudentReport {
     pub student: String,
-    /// Marks of all exercises, in the order of the catalogue.
     pub graded: Vec<Graded>,
 }
 

@@ -16,7 +16,6 @@ pub struct Judge {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Need {
     pub name: String,
-    /// Type of the variable, named as in messages and in the help.
     pub of: String,
 }
 

@@ -1,5 +1,5 @@
-//! Runs an attempt and then the script of its judge. The judge can access only the variables of the attempt that its header names.
-//! Other names in the attempt cannot replace names in the judge. Only the calls of `check` in the script of the judge count.
+//! Runs an attempt and then the script of its judge, which can access only the variables named in its header.
+//! Only the calls of `check` in the script of the judge count, and names in the attempt cannot replace names in the judge.
 
 use std::any::TypeId;
 use std::time::Duration;
@@ -19,7 +19,7 @@ use crate::script::packages::language;
 use crate::script::source::program::Program;
 use crate::script::state::settings::RunSettings;
 
-/// Default time limit, which applies to the attempt and to its judge separately.
+/// Default time limit, for the attempt and for its judge separately.
 pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 
 /// Result of judging an attempt.
@@ -27,17 +27,17 @@ pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
 pub enum AttemptVerdict {
     /// All checks of the judge passed.
     Passed,
-    /// The attempt runs, but some checks of the judge failed. The variant contains the messages of the failed checks.
+    /// Some checks of the judge failed. The variant contains their messages.
     WrongResult(Vec<String>),
     /// The attempt fails with an error.
     Error(Diagnostic),
     /// The attempt or its judge exceeded a limit.
     Stopped(Diagnostic),
-    /// The judging was interrupted from outside, for example by Ctrl-C.
+    /// The judging was interrupted, for example by Ctrl-C.
     Interrupted,
 }
 
-/// Runs an attempt and then its judge. The output of the attempt goes to the writers in `settings`; the judge prints nothing.
+/// Runs an attempt and its judge. Output of the attempt goes to the writers in `settings`; the judge prints nothing.
 pub fn judge(exercise: &Exercise, attempt: &Program, settings: RunSettings) -> AttemptVerdict {
     let mut limits = settings.limits;
     limits.time = limits.time.or(Some(DEFAULT_TIME_LIMIT));
@@ -72,7 +72,7 @@ impl JudgingContext {
     fn run_judge(&self, exercise: &Exercise, attempt: &Program) -> Result<(), AttemptVerdict> {
         let mut scope = Scope::new();
         let held = self.run_judge_within(&mut scope, exercise, attempt);
-        // The limits also apply while the data of the attempt are dropped, because dropping may need time and memory.
+        // The limits stay active while the data of the attempt are dropped, because dropping may need time and memory.
         let _limits_kept = self.engine.watch().map_err(|halt| self.verdict(halt))?;
         drop(scope);
         held
@@ -128,7 +128,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The type names of the script engine for texts and functions differ from the type names in the headers.
+            // The script engine has other names for the types of texts and functions than the headers of judges.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",
@@ -139,7 +139,7 @@ impl JudgingContext {
                     let value = callable(name, value, functions);
                     _ = seen.push_dynamic(name.as_str(), value);
                 }
-                // The judge accepts an integer where it requires a number.
+                // The judge accepts an integer as a number.
                 "whole number" if of == "number" => {
                     let number = value.as_int().unwrap_or_default() as f64;
                     seen.push(name.as_str(), number);
@@ -179,7 +179,6 @@ impl JudgingContext {
     }
 }
 
-/// Makes a function of the attempt callable by the judge. The function can call other functions of the same file, but it cannot access the judge.
 fn callable(name: &str, value: Dynamic, functions: &AST) -> Dynamic {
     let Some(function) = value.clone().try_cast::<FnPtr>() else { return value };
     let definition = functions.iter_functions().find(|known| known.name == function.fn_name());

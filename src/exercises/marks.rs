@@ -1,5 +1,4 @@
-//! File with the marks of a class, one mark per line in JSON. Each run appends its marks.
-//! The mark of an unchanged attempt is reused.
+//! File with the marks of a class: one mark per line in JSON. Marks of unchanged attempts are reused.
 
 use std::collections::BTreeMap;
 use std::fs::{File, TryLockError};
@@ -33,15 +32,12 @@ struct KnownMark {
 #[derive(Debug)]
 pub struct MarksFile(File);
 
-/// Opens the file of marks and reads it. The file is created if it does not exist.
-///
-/// # Errors
-/// Fails if the file cannot be read or written, if another run uses it, or if it is not a file of marks.
+/// Opens or creates the file of marks and reads it.
 pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let (folder, name) = (Folder::open(folder)?, Path::new(path.file_name().unwrap_or_default()));
     let mut file = folder.append(name)?;
-    // The file is locked before it is read, so that no mark of another run is missed.
+    // The file is locked before it is read, so that no mark written by another run is missed.
     file.try_lock().map_err(|refused| match refused {
         TryLockError::WouldBlock => io::Error::other("another process is writing to it"),
         TryLockError::Error(error) => error,
@@ -49,12 +45,12 @@ pub fn open(path: &Path) -> io::Result<(KnownMarks, MarksFile)> {
     let bytes = folder.read(name, LARGEST)?;
     let text = String::from_utf8_lossy(&bytes);
     let known: Vec<_> = text.lines().filter_map(read_line).collect();
-    // The file may consist of one incomplete line if a run was killed while it wrote the first mark.
+    // If a run was killed during its first write, the file consists of one incomplete line.
     let begun = text.trim();
     if known.is_empty() && !begun.starts_with(HEAD) && !HEAD.starts_with(begun) {
         return Err(io::Error::other("the file exists and is not a file of marks"));
     }
-    // The last line may be incomplete if a run was killed. An incomplete line is removed; a missing line break is added.
+    // A killed run may have left an incomplete last line, which is removed, or a line without line break, which is completed.
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     match &bytes[whole..] {
         [] => (),
@@ -86,7 +82,7 @@ impl KnownMarks {
 }
 
 impl MarksFile {
-    /// Appends a mark and flushes the file to disk. Without a fingerprint, the next run judges the attempt again.
+    /// Appends a mark and writes it to the disk. Without a fingerprint, the next run judges the attempt again.
     pub fn append(
         &mut self,
         submission: &Submission,

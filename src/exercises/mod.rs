@@ -1,7 +1,4 @@
-//! Exercises. An exercise consists of a start file with a gap, a judge that checks the physics of the attempt, hints, and a solution.
-//!
-//! [`catalogue`] lists all exercises, and [`judging`] runs an attempt and its judge. [`workbook`] is the folder of a student.
-//! [`submissions`] are the folders of a class, and [`marks`] is the file of marks. The module `cli` displays the results.
+//! Exercises: start files with a gap, judges that check the physics of an attempt, hints, and solutions.
 
 pub(crate) mod attempt;
 pub(crate) mod captured_output;

@@ -14,10 +14,9 @@ use crate::sandbox_fs::read_text;
 /// Maximum size of the progress file [bytes].
 const LARGEST: u64 = 1 << 20;
 
-/// Name of the progress file. A folder that contains this file is the folder of a student.
 pub const FILE: &str = "withy-progress.json";
 
-/// Progress of a student. Entries for exercises that do not exist in this version of the program are kept.
+/// Progress of a student, including entries for exercises that this version of the program does not have.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StudentProgress {
@@ -26,7 +25,7 @@ pub struct StudentProgress {
 }
 
 impl StudentProgress {
-    /// Reads the progress from a student's folder. The progress is empty if there is no progress file.
+    /// Reads the progress from a student's folder; it is empty if there is no progress file.
     pub fn read(folder: &Path) -> Result<Self, ExerciseError> {
         let path = folder.join(FILE);
         let text = match read_text(&path, LARGEST) {
@@ -40,7 +39,7 @@ impl StudentProgress {
     /// Writes the progress to a student's folder.
     ///
     /// # Errors
-    /// Fails if the file cannot be written. The old file is then unchanged.
+    /// Fails if the file cannot be written; the old file is then unchanged.
     pub fn write(&self, folder: &Path) -> Result<(), ExerciseError> {
         let text = format!("{:#}\n", serde_json::json!(self));
         Ok(write_atomic(folder.join(FILE), text.as_bytes())?)

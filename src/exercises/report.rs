@@ -1,4 +1,4 @@
-//! Serialisable verdicts. The process that runs an attempt sends its verdict to the process that displays it.
+//! Serialisable verdicts, which the process of an attempt sends to the process that displays them.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,9 +6,9 @@ use super::captured_output::CapturedOutput;
 use super::judging::AttemptVerdict;
 use crate::script::diagnose::{Diagnostic, Location};
 
-/// Maximum length of a message [characters].
+/// Maximum length of a message in a verdict [characters].
 const LONGEST: usize = 4000;
-/// Maximum length of the excerpt of a source line, and maximum length of the excerpt before the error [characters].
+/// Maximum length of the excerpt of a source line, and of its part before the error [characters].
 const EXCERPT: (usize, usize) = (400, 150);
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,4 +1,4 @@
-//! Folders of a class with the attempts of its students.
+//! Folders with the attempts of the students of a class.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,8 +15,7 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Returns the submissions in a folder, sorted by name. Each subfolder is one submission.
-    /// If the given folder contains attempts, it is the only submission.
+    /// Returns the submissions in a folder, sorted by name: its subfolders, or the folder itself if it contains attempts.
     ///
     /// # Errors
     /// Fails if the folder cannot be read, or if it contains nothing to grade.
@@ -46,19 +45,16 @@ impl Submission {
     }
 
     fn new(folder: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given. An error is then reported when the files of the submission are read.
+        // A path that cannot be resolved is used as given; the error is reported when files are read.
         let real = folder.canonicalize().unwrap_or_else(|_| folder.into());
         let name = real.file_name().map(|name| name.to_string_lossy().into_owned());
         Self { student: name.unwrap_or_else(|| ".".into()), folder: folder.into() }
     }
 
-    /// Returns true if the folder of the submission is a link, which could lead to the work of another student.
     pub fn is_link(&self) -> bool {
         fs::symlink_metadata(&self.folder).is_ok_and(|about| about.is_symlink())
     }
 
-    /// Returns the file of the student's attempt. It may be in the folder of its track, or directly in the folder of the submission.
-    /// The folder of the track may be inside the folder that `withy learn` creates.
     pub fn attempt(&self, exercise: &Exercise) -> Option<PathBuf> {
         let inside = self.folder.join(workbook::FOLDER);
         let places = [

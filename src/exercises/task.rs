@@ -1,4 +1,4 @@
-//! Task of an exercise, as paragraphs. The task is the comment at the beginning of the start file.
+//! Task of an exercise: the comment at the beginning of the start file, as paragraphs.
 
 use super::exercise::Exercise;
 

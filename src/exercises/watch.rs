@@ -1,7 +1,5 @@
-//! Detects that the file of an attempt was saved.
-//!
-//! All files are read a few times per second and compared with their previous contents.
-//! Polling works with all file systems and all editors, including editors that replace the file. A file that was saved without changes is ignored.
+//! Detects that the file of an attempt was saved with changes.
+//! The files are read periodically, because some file systems do not report changes.
 
 use std::time::Duration;
 
@@ -20,7 +18,6 @@ pub struct Watcher<'a> {
 
 struct Seen {
     content: Option<Vec<u8>>,
-    /// True if the file was empty or missing at the last check. Some editors empty or move a file before they write it.
     was_missing: bool,
 }
 
@@ -31,7 +28,7 @@ impl<'a> Watcher<'a> {
     }
 
     /// Returns the first exercise, in the order of the catalogue, whose file has changed.
-    /// A file that is empty or missing at only one check counts as unchanged, because an editor is probably saving it.
+    /// A file that is empty or missing at one check only is not a change, because an editor may be saving it.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);

@@ -1,4 +1,4 @@
-//! Folder of a student with the start files, the attempts and the progress file.
+//! Workbook: folder of a student with the start files, the attempts and the progress file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use crate::sandbox_fs::read_file;
 
 pub const FOLDER: &str = "withy-exercises";
 
-/// Folder with one file per exercise. The student's work is never overwritten.
+/// Folder with one file per exercise. Attempts are never overwritten.
 #[derive(Debug)]
 pub struct Workbook {
     folder: PathBuf,
@@ -26,10 +26,9 @@ pub enum Advice {
 }
 
 impl Workbook {
-    /// Workbook of the folder `here`: the nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
-    /// Finding the workbook does not write any files.
+    /// The nearest workbook among `here` and its parent folders, otherwise a new subfolder of `here`.
     pub fn near(here: &Path) -> Self {
-        // If the path cannot be resolved, it is used as given. An error is then reported when the folder is read.
+        // A path that cannot be resolved is used as given; the error is reported when the folder is read.
         let real = here.canonicalize().unwrap_or_else(|_| here.into());
         let is_workbook = |folder: &&Path| folder.join(progress::FILE).exists();
         match real.ancestors().find(is_workbook) {
@@ -39,7 +38,6 @@ impl Workbook {
         }
     }
 
-    /// Creates the folder and the missing start files. Returns the number of files written.
     pub fn fill(&self) -> Result<usize, ExerciseError> {
         let missing: Vec<_> =
             EXERCISES.iter().filter(|exercise| !self.file(exercise).exists()).collect();
@@ -78,7 +76,6 @@ impl Workbook {
         self.change(|progress| progress.record(exercise, passed))
     }
 
-    /// Returns the next hint of an exercise, and records that it was given.
     pub fn hint(&self, exercise: &Exercise) -> Result<Advice, ExerciseError> {
         let given = self.progress()?.hints(exercise);
         let hints = exercise.judge().hints;
@@ -89,10 +86,10 @@ impl Workbook {
         Ok(Advice::Hint { text, number: given + 1, count: hints.len() })
     }
 
-    /// Restores the start file of an exercise. The attempt is kept under another name. Returns the path of the kept attempt.
+    /// Restores the start file of an exercise, and returns the path under which the attempt is kept.
     ///
     /// # Errors
-    /// Fails if a file cannot be renamed or written. The attempt is not lost.
+    /// Fails if a file cannot be renamed or written; the attempt is not lost.
     pub fn reset(&self, exercise: &Exercise) -> Result<PathBuf, ExerciseError> {
         let file = self.file(exercise);
         let kept = free_name(&file);
@@ -106,7 +103,7 @@ impl Workbook {
         Ok(kept)
     }
 
-    /// Changes the progress file. The file is read again before each change, because another process of this program may have changed it.
+    /// Changes the progress file. It is read again before each change, because another process may have changed it.
     fn change(&self, change: impl FnOnce(&mut StudentProgress)) -> Result<(), ExerciseError> {
         let before = self.progress()?;
         let mut progress = before.clone();

@@ -1,4 +1,4 @@
-//! Constrained minimisation that uses derivatives of the objective and the constraints.
+//! Constrained minimisation with derivatives of the objective and the constraints.
 
 use std::cell::RefCell;
 
@@ -8,9 +8,9 @@ use super::design::{PENALTY, Scaled};
 use super::gradient_check::{REJECTED_DERIVATIVES, matches_derivatives, test_points};
 use super::{Design, Designed, Rating};
 
-/// Maximum number of runs of SLSQP. If a solution slightly violates a constraint, the next run starts from it with tightened constraints.
+/// Maximum number of runs of SLSQP. Each further run starts from a slightly infeasible solution, with tightened constraints.
 const RESTARTS: usize = 4;
-/// Step size at which SLSQP stops, as a fraction of the tolerance. It can be small, because convergence is fast near the solution.
+/// Step size at which SLSQP stops, as a fraction of the tolerance; small, because convergence is fast near the solution.
 const SHORTER: f64 = 0.1;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -20,10 +20,9 @@ pub struct SlopedRating {
     pub constraints: Vec<Vec<f64>>,
 }
 
-/// Objective and constraints with derivatives, or the reason why derivatives are missing.
 pub type SlopesOfRating = Result<SlopedRating, String>;
 
-/// Function that evaluates a design. It returns `None` if the run fails.
+/// Function that evaluates a design; `None` if the run fails.
 pub type Rate<'r, E> = dyn FnMut(&[f64]) -> Result<Option<Rating>, E> + 'r;
 
 pub type RateWithSlopes<'r, E> = dyn FnMut(&[f64]) -> Result<SlopesOfRating, E> + 'r;
@@ -133,8 +132,8 @@ impl<E> Descent<'_, '_, E> {
 }
 
 impl Design {
-    /// Minimises like [`solve`](Self::solve), with derivatives, by SLSQP (D. Kraft, 1988).
-    /// If derivatives are missing or SLSQP fails, `solve` continues from the best design found so far.
+    /// Minimises with derivatives by SLSQP (D. Kraft, 1988).
+    /// If derivatives are missing or SLSQP fails, the minimisation continues without derivatives from the best design found.
     pub fn solve_with<'f, E>(
         &self,
         sloped: &mut RateWithSlopes<'f, E>,
@@ -174,7 +173,7 @@ impl Design {
         if without.is_none() || runs >= self.most_runs {
             return Ok(found);
         }
-        // `solve` starts from the best design of SLSQP. The objective and constraints of this design are known and not computed again.
+        // The first design of `solve` is the best of SLSQP, which need not be evaluated again.
         let mut known = found.as_ref().map(|found| found.rating.clone());
         let asked_again = usize::from(known.is_some());
         let mut rest = Self { most_runs: self.most_runs - runs + asked_again, ..self.clone() };
@@ -232,7 +231,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // A violated constraint is tightened by twice its violation, because a solution of SLSQP may lie slightly on either side of the limit.
+            // A violated constraint is tightened by twice its violation, because SLSQP may end slightly on either side of the limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }
@@ -284,7 +283,7 @@ mod tests {
         assert!(2 * found.runs < without.unwrap().runs, "{found:?}");
     }
 
-    /// Test with the valley function of H. H. Rosenbrock (1960), also with a bound that excludes its minimum.
+    /// Rosenbrock's valley (H. H. Rosenbrock, 1960), also with a bound that excludes its minimum.
     #[test]
     fn a_valley_is_followed_to_its_end_or_to_a_bound() {
         let rosenbrock = |x: &[f64]| {

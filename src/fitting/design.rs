@@ -8,11 +8,9 @@ use super::SearchRange;
 
 /// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
-/// Largest violation at which a constraint counts as satisfied. Constraints are scaled to order one.
 const MET: f64 = 1e-6;
-/// Largest magnitude of an unbounded parameter in the search, as a multiple of its size. A parameter near this limit counts as diverged.
+/// Largest magnitude of an unbounded parameter in the search, as a multiple of its size, near which it counts as diverged.
 const FARTHEST: f64 = 1e15;
-/// Penalty for a design whose run fails: its objective is the worst objective so far plus this number.
 pub(super) const PENALTY: f64 = 10.0;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -35,12 +33,11 @@ pub struct Designed {
     pub parameters: Vec<f64>,
     pub rating: Rating,
     pub is_feasible: bool,
-    /// True if the search converged within the allowed number of runs and no parameter diverged.
     pub is_settled: bool,
-    /// Index of the unbounded parameter that diverged because the objective decreases without limit; `None` if no parameter diverged.
+    /// Index of the unbounded parameter that diverged because the objective decreases without limit; `None` without divergence.
     pub runaway: Option<usize>,
     pub runs: usize,
-    /// Number of evaluations with derivatives; the field `runs` also counts them.
+    /// Number of evaluations with derivatives, which are also counted in `runs`.
     pub gradient_runs: usize,
     pub derivative_free_reason: Option<String>,
 }
@@ -68,8 +65,8 @@ impl Rating {
         self.largest_violation() <= MET
     }
 
-    /// Returns true if this design is better than `other`: feasible designs precede infeasible ones.
-    /// Feasible designs are compared by the objective, infeasible designs by the violation.
+    /// Returns true if this design has a lower objective than `other`, or a smaller violation if both are infeasible.
+    /// A feasible design is better than any infeasible design.
     pub(super) fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_feasible(), other.is_feasible()) {
             (true, true) => self.objective < other.objective,
@@ -82,8 +79,8 @@ impl Rating {
 impl Design {
     /// Finds the feasible design with the lowest objective by COBYLA (M. J. D. Powell, 1994).
     ///
-    /// COBYLA uses linear models of objective and constraints on a simplex. The best of all evaluated designs is returned.
-    /// If a run fails, `rate` must return `None`, and the search avoids this design. If all runs fail, the result is `None`.
+    /// The result is the best of all evaluated designs; `None` if all runs fail.
+    /// `rate` must return `None` if a run fails; the search then avoids this design.
     pub fn solve<E>(
         &self,
         rate: impl FnMut(&[f64]) -> Result<Option<Rating>, E>,
@@ -93,7 +90,7 @@ impl Design {
         let rate = RefCell::new(rate);
         let search =
             RefCell::new(DesignSearch { best: None, last: None, worst: 0.0, runs: 0, error: None });
-        // COBYLA requests the objective and each constraint of a design in separate calls. Therefore the last result is stored.
+        // The last result is stored, because COBYLA requests the objective and each constraint of a design in separate calls.
         let rated = |u: &[f64]| -> Rating {
             let mut search = search.borrow_mut();
             if let Some((at, rating)) = &search.last

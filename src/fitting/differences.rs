@@ -1,22 +1,21 @@
-//! Derivatives of the results of runs by finite differences.
+//! Derivatives by finite differences.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::{Evaluate, Evaluation, SearchRange};
 
 /// Default perturbation, as a fraction of the size of a parameter.
-/// With this default, truncation and the noise of runs cause about equal errors of central differences, 1e-8 each.
+/// With this default, truncation and noise of runs contribute about equally to the error of central differences, 1e-8 each.
 pub const RELATIVE_STEP: f64 = 1e-4;
 
 enum Stencil {
     Central(f64),
-    /// One-sided difference of second order, for a parameter at a bound. It uses two points on the same side.
     OneSided(f64),
 }
 
 impl Stencil {
     fn of(range: SearchRange, x: f64, relative: f64) -> Self {
-        // A one-sided difference uses a point at a distance of two steps. The step is limited so that this point lies between the bounds.
+        // The step is limited so that the far point of a one-sided difference, two steps away, lies between the bounds.
         let step = (relative * range.size(x)).min(0.25 * (range.high - range.low));
         match (x - step >= range.low, x + step <= range.high) {
             (true, true) => Self::Central(step),
@@ -40,13 +39,12 @@ impl Stencil {
     }
 }
 
-/// Computes the derivatives of all values with respect to all parameters. The result has one column per parameter.
-///
-/// The differences are of second order and need two evaluations per parameter. All evaluations are requested in one call of `evaluate`.
-/// The argument `here` contains the values at the point `x`.
+/// Derivatives of all values (rows) with respect to all parameters (columns), by differences of second order.
+/// All points, two per parameter, are requested in one call of `evaluate`, so that they can run in parallel.
+/// `here` contains the values at the point `x`.
 ///
 /// # Errors
-/// Returns the error of `evaluate`. The inner `Err` contains the reason why a run failed.
+/// Returns the error of `evaluate`. The inner `Err` is the reason why a run failed.
 pub fn derivatives<E>(
     ranges: &[SearchRange],
     (x, here): (&[f64], &DVector<f64>),

@@ -14,15 +14,15 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Computes the estimate from the derivatives `J` of the weighted residuals at the minimum: `C = s² (JᵀJ)⁻¹` with the residual variance `s²`.
-    /// `squares` is the sum of the squared residuals. A parameter at a bound is not `free` and counts as known.
-    /// Returns `None` without degrees of freedom, or if the derivatives are linearly dependent.
-    /// The covariances of a parameter on which no residual depends are NaN.
+    /// Estimate from the derivatives `J` of the weighted residuals at the minimum: covariance `s² (JᵀJ)⁻¹` with the residual variance `s²`.
+    /// `squares` is the sum of the squared residuals. A parameter that is not `free`, because it is at a bound, counts as known.
+    /// The estimate is `None` without degrees of freedom, or if columns of the derivatives are linearly dependent.
+    /// Covariances of a parameter on which no residual depends are NaN.
     pub fn of(derivatives: &DMatrix<f64>, squares: f64, free: &[bool]) -> Option<Self> {
         let columns: Vec<usize> = (0..free.len()).filter(|at| free[*at]).collect();
         let freedom = derivatives.nrows().checked_sub(columns.len()).filter(|left| *left > 0)?;
         let chosen = derivatives.select_columns(&columns);
-        // The columns are normalised, because the parameters may have very different sizes.
+        // The columns are normalised, because the sizes of the parameters may differ by orders of magnitude.
         let sizes: Vec<f64> = chosen.column_iter().map(|column| column.norm()).collect();
         let scaled = DMatrix::from_fn(chosen.nrows(), chosen.ncols(), |row, column| {
             chosen[(row, column)] / sizes[column]
@@ -50,8 +50,8 @@ impl Estimate {
         Some(self.covariance[parameter][parameter].sqrt()).filter(|error| !error.is_nan())
     }
 
-    /// Returns half the width of the confidence interval of a parameter, by Student's distribution.
-    /// The argument `probability` is the confidence level, for example 0.95. Returns `None` if no residual depends on the parameter.
+    /// Half width of the confidence interval of a parameter by Student's distribution; `None` if no residual depends on the parameter.
+    /// `probability` is the confidence level, for example 0.95.
     pub fn half_width(&self, parameter: usize, probability: f64) -> Option<f64> {
         let quantile = student_quantile(0.5 + probability / 2.0, self.freedom as f64);
         Some(self.error(parameter)? * quantile)

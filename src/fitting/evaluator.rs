@@ -12,7 +12,7 @@ pub struct CountedEvaluator<'a, 'e, E> {
     ranges: &'a [SearchRange],
     pub runs: usize,
     pub gradient_runs: usize,
-    /// Reason why derivatives are computed by finite differences; `None` while they are requested from the function.
+    /// Reason for finite differences instead of derivatives of the function; `None` while the function is asked for derivatives.
     pub differences: Option<String>,
 }
 
@@ -30,8 +30,8 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Self { evaluate, slopes, ranges, runs: 0, gradient_runs: 0, differences: None }
     }
 
-    /// Returns the values at a point, with derivatives if the function provides them.
-    /// The derivatives of the first call are checked against finite differences.
+    /// Values at a point, with derivatives if the function provides them.
+    /// Derivatives of the first call are checked against finite differences.
     pub fn at(&mut self, x: &[f64]) -> Result<EvaluatedPoint, E> {
         let mut unknown = None;
         if self.differences.is_none() {
@@ -52,7 +52,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // If the function also fails without derivatives, its failure does not show that derivatives are missing or wrong.
+        // A failure that also occurs without derivatives does not show that derivatives are missing or wrong.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }
@@ -69,7 +69,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         Ok(matches_derivatives([low, high], here, |at| change[at]))
     }
 
-    /// Computes the derivatives at a point by finite differences. `here` contains the values at the point.
+    /// Derivatives at a point by finite differences. `here` contains the values at the point.
     ///
     /// # Errors
     /// Returns an error of the evaluated function. The inner `Err` is the reason why an evaluation failed.

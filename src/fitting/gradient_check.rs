@@ -1,12 +1,11 @@
 //! Checks derivatives that a function returns against finite differences.
-//! Derivatives are wrong if they miss a dependence of the function on its argument, for example by rounding or by a branch.
+//! Returned derivatives are wrong if they miss a dependence on a parameter, for example through rounding or a branch.
 
 use super::SearchRange;
 
 /// Largest perturbation of a parameter in the check, as a fraction of the size of the parameter.
 const DISTANCE: f64 = 1e-4;
 
-/// Relative tolerance of the check. It is far above the error of finite differences, and far below the error of wrong derivatives.
 const OFF: f64 = 0.02;
 
 /// Deviation that is attributed to rounding, as a fraction of the values.
@@ -19,7 +18,7 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     let moved = |sign: f64| {
         let parameters = x.iter().zip(ranges).enumerate();
         let moved = parameters.map(|(at, (x, range))| {
-            // Each parameter changes by a different fraction of its size, so that errors of the derivatives cannot cancel.
+            // Each parameter changes by another fraction of its size, so that errors of the derivatives cannot cancel.
             let part = 0.5 + 0.5 * (1.0 + at as f64).recip();
             range.clip(x + sign * part * DISTANCE * range.size(*x))
         });
@@ -28,11 +27,8 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Returns true if derivatives agree with the values at two test points and at the point `here` between the test points.
-///
-/// The callback `change` returns the difference of the values at the two test points that the derivatives predict.
-/// The predicted difference must agree with the actual difference.
-/// The mean of the values at the two test points must be close to the value at `here`.
+/// Compares derivatives with the values at two test points on both sides of the point `here`.
+/// `change` returns the difference between the two test points that the derivatives predict.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],
@@ -49,7 +45,7 @@ pub fn matches_derivatives(
     let off = norm(&|at| high[at] - low[at] - change(at));
     let aside = norm(&|at| 0.5 * (low[at] + high[at]) - here[at]);
     let floor = ROUNDING * norm(&|at| here[at]);
-    // Values that are not finite do not prove that the derivatives are wrong. Therefore the negated comparison is used, which is true for NaN.
+    // Values that are not finite do not prove wrong derivatives, so the negated comparison is used, which is true for NaN.
     !(off > OFF * difference.max(promised) + floor || aside > difference.max(promised) + floor)
 }
 

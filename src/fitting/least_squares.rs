@@ -1,4 +1,4 @@
-//! Least squares by a Levenberg–Marquardt method with bounds. The method needs few runs.
+//! Least squares by a Levenberg–Marquardt method with bounds on the parameters.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,13 +6,13 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps between two computations of the derivatives, in addition to the number of parameters.
+/// Maximum number of steps between two computations of the derivatives, minus the number of parameters.
 const MORE_STEPS: usize = 6;
-/// Largest change of a parameter at which the search has converged, as a fraction of the size of the parameter.
+/// Largest change of a parameter at which the search counts as converged, as a fraction of the size of the parameter.
 const SETTLED: f64 = 1e-7;
 /// Largest change of a parameter for which the derivatives still count as accurate, as a fraction of the size of the parameter.
 const NEAR: f64 = 0.02;
-/// Largest cosine of the angle between the residuals and a column of the Jacobian, at which the search has converged.
+/// Largest cosine of the angle between the residuals and a column of the Jacobian at which the search counts as converged.
 const ORTHOGONAL: f64 = 1e-7;
 /// Smallest predicted relative reduction of the sum of squares for which the search continues.
 const NOTHING: f64 = 1e-6;
@@ -30,7 +30,7 @@ pub struct LeastSquares {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminationReason {
     Settled,
-    /// No step reduces the sum of squares, although the derivatives predict a reduction. The cause is noise of the runs or a discontinuity.
+    /// No step reduces the sum of squares as the derivatives predict, because of noise of the runs or a discontinuity.
     Stalled,
     Unfinished,
 }
@@ -43,7 +43,7 @@ pub struct Fitted {
     pub estimate: Option<Estimate>,
     pub settling: TerminationReason,
     pub runs: usize,
-    /// Number of evaluations with derivatives; the field `runs` also counts them.
+    /// Number of evaluations with derivatives, which are also counted in `runs`.
     pub gradient_runs: usize,
     /// Reason why finite differences were used; `None` if the function provided all derivatives.
     pub differences: Option<String>,
@@ -54,7 +54,7 @@ struct LeastSquaresState {
     x: Vec<f64>,
     residuals: DVector<f64>,
     derivatives: DMatrix<f64>,
-    /// Largest norm of each column of the Jacobian so far. The parameters are scaled by these norms.
+    /// Largest norm so far of each column of the Jacobian, by which the parameters are scaled.
     sizes: Vec<f64>,
     damping: f64,
 }
@@ -87,7 +87,7 @@ impl LeastSquaresState {
 
     /// Step `δ` of the free parameters that minimises `|r + J δ|² + λ |D δ|²`.
     /// Here `r` are the residuals, `J` the Jacobian, `λ` the damping and `D` the diagonal scaling.
-    /// A parameter that would exceed a bound is fixed at the bound, and the step of the other parameters is computed again.
+    /// A parameter that would exceed a bound is fixed at the bound, and the step of the others is computed again.
     fn step(&self, ranges: &[SearchRange]) -> DVector<f64> {
         let mut free = self.free(ranges);
         let mut step = DVector::zeros(self.x.len());
@@ -138,7 +138,6 @@ impl LeastSquaresState {
     }
 
     /// Updates the derivatives after a step by the rank-one correction of C. G. Broyden (1965), in scaled parameters.
-    /// The argument `change` is the change of the residuals in the step.
     fn update_derivatives(&mut self, step: &DVector<f64>, change: &DVector<f64>) {
         let scaled =
             DVector::from_fn(step.len(), |at, _| step[at] * self.sizes[at] * self.sizes[at]);
@@ -169,19 +168,16 @@ impl LeastSquares {
     }
 
     /// Minimises the sum of squares of the residuals.
-    /// Derivatives are computed by central differences, and updated after each step as long as the updates reduce the sum of squares.
+    /// Derivatives are central differences, which rank-one corrections update as long as the sum of squares decreases.
     ///
     /// # Errors
     /// Returns an error of `evaluate`.
-    /// The inner error is the reason why a required evaluation failed or was not finite.
+    /// The inner error is the reason why an evaluation failed or a value was not finite.
     pub fn solve<E>(&self, evaluate: &mut Evaluate<'_, E>) -> Result<Result<Fitted, String>, E> {
         self.solve_with(evaluate, &mut |_| Ok(Err("differences are wanted".into())))
     }
 
-    /// Minimises like [`solve`](Self::solve), but with derivatives from `slopes`. If derivatives are missing, finite differences are used.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`solve`](Self::solve), or if `slopes` fails.
+    /// Minimises with derivatives from `slopes`, or with finite differences if derivatives are missing.
     pub fn solve_with<E>(
         &self,
         evaluate: &mut Evaluate<'_, E>,
@@ -274,7 +270,7 @@ impl LeastSquares {
                 return Ok(if is_near { Round::Converged } else { Round::NeedsDerivatives(None) });
             }
             let x: Vec<f64> = state.x.iter().zip(step.iter()).map(|(x, step)| x + step).collect();
-            // A step whose predicted reduction of the sum of squares is zero, for example at a bound, is not evaluated.
+            // A step with a predicted reduction of zero, for example at a bound, is not evaluated.
             let nothing =
                 || EvaluatedPoint { values: Err("nothing is promised".into()), derivatives: None };
             let EvaluatedPoint { values: found, derivatives } =

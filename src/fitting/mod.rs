@@ -1,5 +1,4 @@
 //! Parameter estimation from runs by least squares, constrained minimisation and root finding.
-//! The methods of this module call functions that return numbers. They do not depend on how these numbers are computed.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -26,11 +25,8 @@ pub use student::student_quantile;
 /// Values of a function at a point, or the reason why they could not be computed.
 pub type Evaluation = Result<Vec<f64>, String>;
 
-/// Values with their derivatives with respect to all parameters, or the reason why derivatives are missing.
 pub type Sloped = Result<Vec<(f64, Vec<f64>)>, String>;
 
-/// Function that may return derivatives. An error ends the whole search.
 pub type Slopes<'s, E> = dyn FnMut(&[f64]) -> Result<Sloped, E> + 's;
 
-/// Function that is evaluated at several points in one call, so that it can evaluate them in parallel. An error ends the whole search.
 pub type Evaluate<'e, E> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Evaluation>, E> + 'e;

@@ -1,6 +1,5 @@
 //! Start value and bounds of a parameter in a search.
 
-/// Start value and bounds of a parameter. A bound may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchRange {
     pub start: f64,
@@ -9,7 +8,6 @@ pub struct SearchRange {
 }
 
 impl SearchRange {
-    /// Start value. If it lies outside the bounds, the nearest bound is returned.
     pub fn first(self) -> f64 {
         self.clip(self.start)
     }
@@ -18,15 +16,12 @@ impl SearchRange {
         x.max(self.low).min(self.high)
     }
 
-    /// Scale of the parameter: the distance between its bounds, or the size at the start value if a bound is infinite.
     pub fn width(self) -> f64 {
         let range = self.high - self.low;
         if range.is_finite() && range > 0.0 { range } else { self.size(self.start) }
     }
 
-    /// Size of the parameter at the value `x`, with which changes of the parameter are compared.
-    /// The size is the magnitude of `x`, but at least a hundredth of the distance between the bounds.
-    /// If a bound is infinite, the size is at least a thousandth of the start value.
+    /// Size of a parameter: `|x|`, but at least 1/100 of the distance of its bounds or, if one is infinite, 1/1000 of the start value.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

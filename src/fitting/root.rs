@@ -14,23 +14,19 @@ pub struct Root {
 pub enum RootError<E> {
     /// The function has the same sign at both ends of the interval. The fields are the values at the ends.
     SameSign(f64, f64),
-    /// The function value is not finite. The fields are the argument and the value.
+    /// A function value is not finite. The fields are the argument and this value.
     NotFinite(f64, f64),
-    /// The sign changes at a pole: the values near the pole are larger in magnitude than at both ends of the interval.
-    /// The fields are an argument near the pole and the function value at this argument.
+    /// The sign changes at a pole, near which the values are larger in magnitude than at both ends of the interval.
+    /// The fields are an argument near the pole and the function value there.
     Pole(f64, f64),
-    /// The search did not converge within the maximum number of calls. The fields are the best argument and its value.
+    /// The search did not converge within the maximum number of calls. The fields are the best argument and its function value.
     Unfinished(f64, f64),
     Function(E),
 }
 
-/// Root of `function` between `from` and `to`, where the function must have different signs. `tolerance` is the tolerance of the argument.
+/// Root of `function` between `from` and `to`, where it must have different signs, with the error `tolerance` of the argument.
 ///
-/// Brent's method (Algorithms for Minimization without Derivatives, 1973, chapter 4) is used.
-/// Brent's method keeps the root in an interval and approaches it by secants and inverse quadratic interpolation.
-///
-/// # Errors
-/// Fails if the signs are equal, if a value is not finite, if the sign changes at a pole, if the search does not converge, or if the function fails.
+/// Method of R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4.
 pub fn root<E>(
     (from, to): (f64, f64),
     tolerance: f64,
@@ -54,7 +50,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // The variable `b` is the best estimate of the root. The function has opposite signs at `b` and `c`.
+        // `b` is the best estimate of the root, and the function has opposite signs at `b` and `c`.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;

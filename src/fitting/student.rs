@@ -6,7 +6,7 @@ const TERMS: usize = 500;
 const HALVINGS: usize = 200;
 
 /// Logarithm of the gamma function of a positive number, by the approximation of C. Lanczos (1964) with nine terms and g = 7.
-/// The relative error of the approximation of the gamma function is about 1e-15.
+/// The gamma function has a relative error of about 1e-15.
 fn ln_gamma(x: f64) -> f64 {
     const TERMS: [f64; 9] = [
         0.999_999_999_999_809_9,
@@ -27,7 +27,7 @@ fn ln_gamma(x: f64) -> f64 {
 }
 
 /// Regularised incomplete beta function `I_x(a, b)`.
-/// Lentz's method evaluates the continued fraction of the beta function (W. H. Press et al., Numerical Recipes, section 6.4).
+/// The continued fraction of W. H. Press et al., Numerical Recipes, section 6.4, is evaluated by Lentz's method.
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
@@ -59,7 +59,7 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
 /// Quantile of Student's distribution with `freedom` degrees of freedom. `probability` must be above one half.
 pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
     let tail = 2.0 * (1.0 - probability);
-    // Bisection solves I_x(ν/2, 1/2) = P for x = ν/(ν + t²), with the quantile t, ν degrees of freedom, and the probability P of both tails.
+    // Bisection solves `I_x(ν/2, 1/2) = P` for `x = ν/(ν + t²)`, with the quantile `t`, `ν` degrees of freedom and both tails `P`.
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;
@@ -76,7 +76,7 @@ pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Values of published tables. With one degree of freedom, the quantile is tan(π (p - 1/2)).
+    /// Values of published tables. For one degree of freedom, the quantile is `tan(π (p - 1/2))`.
     #[test]
     fn quantiles_are_those_of_tables() {
         for (probability, freedom, expected) in [

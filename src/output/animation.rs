@@ -1,7 +1,6 @@
-//! Animated PNG files. Browsers and Markdown viewers can play them.
+//! Animated PNG files, which browsers and Markdown viewers can play.
 //!
-//! All frames share a palette of the 256 most frequent colours. Each other colour is replaced by the nearest palette colour.
-//! For each frame, only the bounding box of its changes is stored.
+//! All frames share a palette of the 256 most frequent colours. Other colours are replaced by the nearest palette colour.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +14,9 @@ const MOST_PIXELS: f64 = 2e9;
 type Rgb = [u8; 3];
 type Pixels = Vec<u8>;
 
-/// Sequence of pictures of equal size. Each frame is drawn when it is needed.
 pub struct Animation<'a> {
     pub frames: usize,
     pub frames_per_second: u16,
-    /// Draws the frame with an index. Called twice for each frame: first to collect colours, then to write the frame.
     pub draw: &'a dyn Fn(usize) -> Result<Figure, OutputError>,
 }
 
@@ -32,10 +29,7 @@ struct Region {
 }
 
 impl Animation<'_> {
-    /// Bytes of the file. The animation is repeated endlessly. Programs that do not support animations show the first frame.
-    ///
-    /// # Errors
-    /// Fails if a frame cannot be painted, there are too many pixels, or there is no frame at all.
+    /// Bytes of the file. Viewers repeat the animation endlessly, or show only the first frame if they do not support animations.
     pub fn to_png(&self) -> Result<Vec<u8>, OutputError> {
         let (width, height) = (self.draw)(0)?.size();
         let pixels = f64::from(width) * f64::from(height) * self.frames as f64;
@@ -48,7 +42,7 @@ impl Animation<'_> {
         encoder.set_color(ColorType::Indexed);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Best);
-        // PNG filters store differences, which are useless here, because palette indices have no order.
+        // PNG filters are useless for palette indices, whose differences have no meaning.
         encoder.set_filter(FilterType::NoFilter);
         encoder.set_palette(palette.colours.concat());
         encoder.set_animated(self.frames as u32, 0).map_err(refused)?;
@@ -79,7 +73,7 @@ impl Animation<'_> {
         let mut counts: BTreeMap<Rgb, u64> = BTreeMap::new();
         for frame in 0..self.frames {
             let pixels = (self.draw)(frame)?.to_pixels()?;
-            // Most neighbouring pixels have the same colour, so equal pixels are counted in runs.
+            // Runs of equal pixels are counted together, because most neighbouring pixels are equal.
             for run in pixels.as_chunks().0.chunk_by(|a: &Rgb, b| a == b) {
                 *counts.entry(run[0]).or_default() += run.len() as u64;
             }
@@ -114,7 +108,7 @@ impl Palette {
     }
 }
 
-/// Bounding box of the difference between two frames. The box cannot be empty, so equal frames give one pixel.
+/// Bounding box of the difference between two frames; one pixel for equal frames, because the box must not be empty.
 fn changed(before: &[u8], now: &[u8], width: u32) -> Region {
     let columns = width as usize;
     let (mut left, mut right) = (columns, 0);

@@ -8,22 +8,22 @@ pub enum AxisScale {
     /// Linear: equal differences of numbers have equal lengths on the axis.
     #[default]
     Linear,
-    /// Logarithmic: equal ratios of numbers have equal lengths on the axis. Numbers up to a floor, including zero, are shown at the bottom.
+    /// Logarithmic: equal ratios of numbers have equal lengths on the axis. Zero and numbers up to a floor are at the bottom.
     Logarithmic,
 }
 
-/// Default floor of a logarithmic axis. It is well below the rounding error of a number near one.
+/// Default floor of a logarithmic axis, far below the rounding error of a number near one.
 pub const DEFAULT_FLOOR: f64 = 1e-18;
 
 /// Magnitude to which numbers are limited, so that the length of any range is finite.
 const LARGEST: f64 = 1e300;
 
-/// Largest width of a range that is attributed to rounding, as a fraction of its numbers. Such a range is shown as a constant.
+/// Largest width of a range that is attributed to rounding and shown as a constant, as a fraction of the numbers in the range.
 const ROUNDING: f64 = 1e-10;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Position of the tick, from 0 at the low end of its axis to 1 at the high end.
+    /// Position of the tick on its axis, from 0 at the low end to 1 at the high end.
     pub place: f64,
     pub label: String,
 }
@@ -31,7 +31,7 @@ pub struct Tick {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlotAxis {
     scale: AxisScale,
-    /// Low end of the axis. For a logarithmic axis, it is the exponent of the low end.
+    /// Low end of the axis, for a logarithmic axis as the exponent of ten.
     low: f64,
     high: f64,
     cut: AxisCut,
@@ -50,7 +50,7 @@ impl Default for PlotAxis {
 }
 
 impl PlotAxis {
-    /// Creates a linear axis from the smallest to the largest finite value. Each end is extended by `margin` times the length.
+    /// Creates a linear axis over the finite values, extended at each end by `margin` times the length.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());
@@ -98,7 +98,7 @@ impl PlotAxis {
         Self { scale: AxisScale::Logarithmic, low, high, cut: AxisCut::Nothing }
     }
 
-    /// Position of `x` on the axis: 0 at the low end, 1 at the high end, below 0 or above 1 outside the range, and NaN for NaN.
+    /// Position of `x` on the axis: 0 at the low end, 1 at the high end, and NaN for NaN.
     pub fn place(&self, x: f64) -> f64 {
         match self.scale {
             AxisScale::Linear => (x.clamp(-LARGEST, LARGEST) - self.low) / (self.high - self.low),
@@ -108,7 +108,7 @@ impl PlotAxis {
         }
     }
 
-    /// About `count` labelled ticks of the axis, with the common power of ten by which their labels are divided.
+    /// About `count` ticks with labels, and the common power of ten by which the labels are divided.
     pub fn ticks(&self, count: usize) -> (Vec<Tick>, Factor) {
         let count = count.max(2) as f64;
         match self.scale {
@@ -129,7 +129,7 @@ impl PlotAxis {
             other => other,
         };
         let decimals = (factor - power).max(0) as usize;
-        // Rounding may have moved the ends of the axis. A tolerance keeps the ticks at these ends.
+        // The tolerance keeps the ticks at the ends of the axis in spite of rounding.
         let (first, last) = ((self.low / step - 1e-6).ceil(), (self.high / step + 1e-6).floor());
         let ticks = (0..=(last - first).clamp(0.0, 100.0) as usize).map(|index| {
             let multiple = first + index as f64;

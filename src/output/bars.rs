@@ -1,4 +1,4 @@
-//! Bar charts. Horizontal bars start at zero. A name is written before each bar, and a number after it.
+//! Bar charts. Horizontal bars start at zero, with a name before and a number after each bar.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -88,7 +88,7 @@ impl Panel for BarChart {
             canvas.line([(x, plot.top), (x, plot.bottom)], 1.0, GREY);
         }
         for (text, (left, baseline)) in texts {
-            // White boxes behind the texts prevent the reference line from crossing the texts of shorter bars.
+            // White boxes behind the texts interrupt the reference line where it would cross a text.
             let (top, bottom) = (baseline - TEXT, baseline + 0.3 * TEXT);
             let right = left + fonts::width(&text, TEXT);
             canvas.fill(Area { left: left - 2.0, top, right: right + 2.0, bottom }, WHITE);

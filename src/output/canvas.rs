@@ -1,16 +1,14 @@
-//! Shapes of a picture: lines, discs, filled boxes and texts. Coordinates are in pixels from the top left corner.
-//!
-//! Charts draw on a canvas, and painters write the canvas to a file. Charts do not depend on painters, so the drawing library can be replaced.
+//! Shapes of a picture: lines, discs, boxes and texts. Coordinates are in pixels from the top left corner.
+//! Charts draw on a canvas, which painters write to a file, so that the drawing library can be replaced.
 
 use super::{colour::Colour, fonts};
 
-/// Point in pixels on a canvas, or in data units in a chart.
 pub type Point = (f64, f64);
 
-/// Magnitude to which coordinates are limited [pixels]. A point at this distance is far outside every picture, and overflow is prevented.
+/// Magnitude to which coordinates are limited to prevent overflow, far outside every picture [pixels].
 const FAR: f64 = 20_000.0;
 
-/// Box with sides along the axes. `top` is less than `bottom`, because y increases downwards.
+/// Box with sides along the axes. `top` is less than `bottom`, because `y` increases downwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     pub left: f64,
@@ -29,7 +27,7 @@ impl Area {
         }
     }
 
-    /// Square centred on a point. Its sides have the length `2 · reach`.
+    /// Square of side length `2 · reach` around a point.
     pub fn around((x, y): Point, reach: f64) -> Self {
         Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
@@ -98,7 +96,6 @@ impl Canvas {
         &self.shapes
     }
 
-    /// Draws a line. Points that are not finite are omitted. A single point is drawn as a dot.
     pub fn line(&mut self, points: impl IntoIterator<Item = Point>, width: f64, colour: Colour) {
         let points: Vec<Point> = points.into_iter().filter_map(reachable).collect();
         if !points.is_empty() {
@@ -119,7 +116,6 @@ impl Canvas {
         }
     }
 
-    /// Writes a text. `anchor` is a point on the baseline of the text.
     pub fn text(&mut self, text: &str, anchor: Point, size: f64, align: Align, colour: Colour) {
         self.write(text, anchor, size, align, TextDirection::Level, colour);
     }

@@ -14,7 +14,7 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Style of faint series: line width and marker radius [pixels], and the fraction of the colour in its mixture with white.
+/// Line width and marker radius of faint series [pixels], and the fraction of the colour in its mixture with white.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;
@@ -23,7 +23,6 @@ const NOTE: f64 = 12.0;
 pub enum SeriesColour {
     #[default]
     Next,
-    /// Colour of the series with this index. Related series can share a colour.
     OfSeries(usize),
     Black,
 }
@@ -36,13 +35,12 @@ pub enum SeriesEmphasis {
     Pale,
 }
 
-/// Series of a chart: a named curve. Points that are not finite leave a gap.
+/// Named curve of a chart. Points that are not finite leave a gap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     pub name: String,
     pub points: Vec<Point>,
-    /// Line style of the series. If `None`, the line is continuous.
-    /// After each complete use of the palette, the chart then selects the next line style.
+    /// Line style; if `None`, the line is continuous until all colours of the palette are used, and then has the next style.
     pub stroke: Option<Stroke>,
     pub marker: Marker,
     pub ink: SeriesColour,
@@ -136,7 +134,7 @@ impl LineChart {
         self
     }
 
-    /// Fixes the ends of the axes and clips the data to them. An axis without limits is fitted to the visible part of the series.
+    /// Fixes the ends of the axes and clips the data to them. An axis without limits is fitted to the visible points.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -154,8 +152,8 @@ impl LineChart {
     }
 
     /// Combines the series of several charts in the axes of the first chart.
-    /// Each series gets the name of its chart. If the chart has several series, the name of the series is appended.
-    /// Lines of the second chart are dashed, lines of the third chart dotted.
+    /// Each series is renamed to its chart, followed by its own name if the chart has several series.
+    /// Lines of the second chart are dashed, and lines of the third chart are dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,
@@ -168,7 +166,7 @@ impl LineChart {
             chart.series.into_iter().fold(shared, |shared, series| {
                 let name =
                     if is_alone { whose.clone() } else { format!("{whose}: {}", series.name) };
-                // An equal curve of the first chart remains visible in the gaps of a dashed line.
+                // An equal curve of the first chart remains visible in the gaps of a dashed curve.
                 let stroke = series.stroke.or((which > 0).then(|| Stroke::of_palette_pass(which)));
                 shared.series(Series { name, stroke, ..series })
             })
@@ -194,7 +192,6 @@ impl LineChart {
         self
     }
 
-    /// Writes a text into the chart, to the right of a data point and slightly below it.
     pub fn annotate(mut self, at: Point, text: impl Into<String>) -> Self {
         self.notes.push((at, text.into()));
         self

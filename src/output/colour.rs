@@ -1,4 +1,4 @@
-//! Colours for white paper. They can be distinguished by colour-blind readers and in black-and-white prints.
+//! Colours for white paper that colour-blind readers can distinguish, also in black-and-white prints.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
@@ -21,7 +21,7 @@ const HUES: [Colour; 7] = [
 ];
 
 /// Nine equally spaced samples of the viridis colour map (Smith and van der Walt, matplotlib), from pale to dark.
-/// The palest tenth of the viridis map is omitted, because it is not visible on white paper.
+/// The palest tenth of viridis is omitted, because it is not visible on white paper.
 const RAMP: [Colour; 9] = [
     Colour(189, 223, 38),
     Colour(128, 211, 75),
@@ -34,14 +34,13 @@ const RAMP: [Colour; 9] = [
     Colour(68, 1, 84),
 ];
 
-/// Number of different hues for series. Additional series repeat the hues.
 pub const HUE_COUNT: usize = HUES.len();
 
 pub fn hue(index: usize) -> Colour {
     HUES[index % HUES.len()]
 }
 
-/// Colour of a ramp from pale (`part` 0) to dark (`part` 1). Equal differences of `part` are perceived as equal.
+/// Colour of a ramp from pale (`part` 0) to dark (`part` 1), in which equal differences of `part` look equal.
 pub fn ramp(part: f64) -> Colour {
     let place = clamp_part(part) * (RAMP.len() - 1) as f64;
     let below = (place as usize).min(RAMP.len() - 2);

@@ -1,4 +1,4 @@
-//! Colour bars, which are the legend of a continuous colour scale.
+//! Colour bars: legends of continuous colour scales.
 
 use super::{
     axis::{PlotAxis, extent},
@@ -22,7 +22,7 @@ enum BarWidth {
     Wedge(f64, f64),
 }
 
-/// Colour scale with its bar. The bar is drawn only if there are at least two different numbers.
+/// Colour scale with its bar, which is drawn only if there are at least two different numbers.
 pub struct ColourBar {
     label: String,
     axis: Option<PlotAxis>,
@@ -31,7 +31,6 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// Creates a colour bar over all finite `numbers`. `shade` gives the colours from 0 (smallest number) to 1 (largest number).
     pub fn new(
         label: &str,
         numbers: impl IntoIterator<Item = f64>,
@@ -49,7 +48,6 @@ impl ColourBar {
         self
     }
 
-    /// Position of a number in the colour scale: 0 for the smallest number, 1 for the largest number, and 1 if all numbers are equal.
     pub fn part(&self, number: f64) -> f64 {
         self.axis.map_or(1.0, |axis| axis.place(number))
     }
@@ -69,7 +67,7 @@ impl ColourBar {
         let height = plot.bottom - top;
         for piece in 0..PIECES {
             let (low, high) = (piece as f64 / PIECES as f64, (piece + 1) as f64 / PIECES as f64);
-            // Each piece of the bar overlaps the piece below it, so that no seams are visible.
+            // Each piece of the bar overlaps the piece below it, so that there are no visible seams.
             let (piece_top, bottom) = (plot.bottom - height * high, plot.bottom - height * low);
             let under = if piece == 0 { 0.0 } else { 0.5 };
             let right = left

@@ -5,10 +5,9 @@ use std::io::{self, Write};
 
 use super::OutputError;
 
-/// Table of named columns of numbers. Numbers that are read back from the file are equal bit for bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CsvTable {
-    /// Comment lines above the table, each written after a `#`: title, units, origin.
+    /// Comment lines above the table, such as title and units, written after `#`.
     pub comments: Vec<String>,
     pub columns: Vec<(String, Vec<f64>)>,
 }
@@ -28,7 +27,7 @@ impl CsvTable {
         self
     }
 
-    /// Keeps every n-th row and the last row, so that about `numbers` values remain. The number n is stated in a comment line.
+    /// Keeps every n-th row and the last row, so that about `numbers` values remain, and states n in a comment line.
     #[must_use]
     pub fn thinned(mut self, numbers: usize) -> Self {
         let rows = self.columns.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
@@ -52,10 +51,7 @@ impl CsvTable {
         Ok(String::from_utf8_lossy(&bytes).into_owned())
     }
 
-    /// Writes the CSV file in pieces. An error of `file` ends the writing, so that the output of a long table can be interrupted.
-    ///
-    /// # Errors
-    /// Fails if writing to `file` fails, or if the columns have different lengths.
+    /// Writes the CSV file in pieces. An error of `file` ends the writing, so that a long table can be interrupted.
     pub fn write(&self, mut file: &mut dyn Write) -> io::Result<()> {
         let rows = self.common_length().map_err(io::Error::other)?;
         for line in self.comments.iter().flat_map(|comment| comment.lines()) {
@@ -88,7 +84,6 @@ impl CsvTable {
     }
 }
 
-/// Text of a cell. Texts that spreadsheets would evaluate as formulas get a leading apostrophe. Numbers are not changed.
 pub fn csv_cell(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if is_formula && text.parse::<f64>().is_err() {
@@ -98,7 +93,6 @@ pub fn csv_cell(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Comment line above a table. Spreadsheets split it into cells, so every cell is protected by [`csv_cell`].
 pub(super) fn comment_line(text: &str) -> String {
     const CUTS: [char; 3] = [',', ';', '\t'];
     let mut line = "#".to_owned();

@@ -1,4 +1,4 @@
-//! Preparation of curves for drawing. Curves are split at gaps, clipped to the plot, and thinned to the resolution.
+//! Splits curves at gaps, clips them to the plot, and thins them to the resolution of the picture.
 
 use super::canvas::{Area, Point};
 use crate::elementary::hypot;
@@ -9,7 +9,7 @@ const STRIP: f64 = 0.5;
 /// Largest number of points of a curve that is not thinned.
 const LONG: usize = 2000;
 
-/// Splits a curve, given in pixels, at its gaps and at the sides of `window`. A long curve is thinned.
+/// Splits a curve [pixels] at its gaps and at the sides of `window`, and thins it if it is long.
 pub fn pieces(points: impl IntoIterator<Item = Point>, window: &Area) -> Vec<Vec<Point>> {
     let runs = runs(points);
     let length: usize = runs.iter().map(Vec::len).sum();
@@ -31,7 +31,6 @@ fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     runs
 }
 
-/// Keeps the first, lowest, highest and last point in each vertical strip. These points cover the same pixels as all points in the strip.
 fn thinned(run: &[Point]) -> Vec<Point> {
     let strip = |point: &Point| (point.0 / STRIP).floor();
     let mut kept = Vec::new();
@@ -86,7 +85,6 @@ fn clipped(a: Point, b: Point, window: &Area) -> Option<(Point, Point)> {
         .then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
 
-/// Splits a curve into dashes. `pattern` contains alternating lengths of strokes and gaps.
 pub fn dashes(run: &[Point], pattern: &[f64]) -> Vec<Vec<Point>> {
     let whole =
         run.windows(2).map(|pair| hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum::<f64>();

@@ -1,11 +1,10 @@
-//! Tables of numbers, booleans and texts for other programs. They have a header line and no comment lines.
+//! Tables of numbers, booleans and texts for other programs, without comment lines.
 
 use std::io::{self, Write};
 
 use super::OutputError;
 use super::csv::{csv_cell, exact};
 
-/// Table of columns of equal length. Values may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataTable {
     pub columns: Vec<DataColumn>,
@@ -56,10 +55,7 @@ impl DataValues {
 
 impl DataTable {
     /// Writes the CSV file in pieces. Numbers have 17 digits, from which a float can be restored exactly.
-    /// An error of the argument `file` ends the writing, so that the output of a long table can be interrupted.
-    ///
-    /// # Errors
-    /// Fails if writing to `file` fails, or if the columns have different lengths.
+    /// An error of `file` ends the writing, so that a long table can be interrupted.
     pub fn write_csv(&self, heading: TableHeading, file: &mut dyn Write) -> io::Result<()> {
         let rows = self.rows().map_err(io::Error::other)?;
         let mut writer = ::csv::Writer::from_writer(file);

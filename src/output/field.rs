@@ -1,4 +1,4 @@
-//! Pictures of beams that are coloured by a quantity along them. Larger values are drawn darker and wider.
+//! Pictures of beams coloured by a quantity along them. Larger values are darker and wider.
 
 use super::{
     axis::typeset_number,
@@ -15,7 +15,7 @@ use super::{
 use crate::elementary::hypot;
 
 const WIDTHS: (f64, f64) = (2.0, 10.0);
-/// Length of a beam piece in a single colour [pixels]. The length is larger if the number of pieces would otherwise be too large.
+/// Length of a beam piece of a single colour [pixels]; longer if there would be too many pieces.
 const PIECE: f64 = 3.0;
 const MOST_PIECES: f64 = 4000.0;
 const NUMBER: f64 = 12.0;
@@ -45,7 +45,7 @@ impl FieldPicture {
         self
     }
 
-    /// Sets the ends of the axes. Both axes have the same scale, so one of them may show more than requested.
+    /// Sets the ends of the axes. Because both axes have the same scale, one of them may show more than requested.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -133,7 +133,6 @@ impl FieldPicture {
     }
 }
 
-/// Directions from the mark of the largest value to its label. The first direction in which the label has room is used.
 const AROUND: [(f64, f64); 8] = [
     (1.0, -1.0),
     (-1.0, -1.0),

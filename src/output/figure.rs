@@ -26,7 +26,6 @@ impl PictureKind {
     }
 }
 
-/// Picture of fixed size. Equal drawings give equal bytes on every machine, independent of the installed fonts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     canvas: Canvas,
@@ -35,7 +34,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Creates a picture from `canvas` with the given size [pixels]. The size is rounded up to whole pixels.
+    /// Creates a picture from `canvas` with the given size [pixels], rounded up to whole pixels.
     pub fn new(canvas: Canvas, (width, height): (f64, f64)) -> Result<Self, OutputError> {
         if !SIDES.contains(&width) || !SIDES.contains(&height) {
             return Err(OutputError::PictureSize { width, height });

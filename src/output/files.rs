@@ -1,17 +1,13 @@
 //! Atomic writing of files.
 //!
-//! The bytes are written to a hidden file in the folder of the target. When this file is completely written to disk, it is renamed to the target.
-//! A program that reads the file never sees it incomplete. After a failure, an older file is unchanged.
+//! A file is first written under a hidden name to the disk, and then renamed. It is never visible while it is incomplete.
 
 use std::{fs, path::Path};
 
 use super::OutputError;
 use crate::sandbox_fs::Folder;
 
-/// Writes `bytes` to a file at a path given by the user. Missing folders are created. An existing file or link is replaced. Links are not followed.
-///
-/// # Errors
-/// Fails if the folder cannot be created, if the file cannot be written, or if the path is that of a folder, a pipe or a device.
+/// Writes `bytes` to a file at a path given by the user. Missing folders are created, and an existing file or link is replaced.
 pub fn write_atomic(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), OutputError> {
     let path = path.as_ref();
     let not_a_file = || OutputError::NotAFile { path: path.into() };

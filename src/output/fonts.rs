@@ -1,7 +1,5 @@
-//! Text in the font DejaVu Sans, which is embedded in the program, so that pictures do not depend on installed fonts.
-//!
-//! Sizes are in pixels per em, and lengths in pixels.
-//! Coordinates start at the left end of the baseline; `x` increases to the right and `y` downwards.
+//! Text in the font DejaVu Sans, which is embedded so that pictures do not depend on installed fonts.
+//! Coordinates [pixels] start at the left end of the baseline; `x` increases to the right and `y` downwards.
 
 use std::sync::LazyLock;
 
@@ -10,13 +8,12 @@ use ab_glyph::{Font, FontRef, GlyphId, Outline, OutlineCurve, OutlinedGlyph, PxS
 use super::canvas::Point;
 use crate::elementary::{hypot, square};
 
-/// Largest number of characters of a text. Further characters are omitted.
 const LONGEST: usize = 400;
 
 /// Largest distance between a curve and the polyline that replaces it [pixels].
 const FLATNESS: f64 = 0.03;
 
-/// Embedded font. Loading the embedded bytes cannot fail, and `None` would only remove the text from pictures.
+/// Embedded font. If it could not be loaded, pictures would have no text.
 static FACE: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
@@ -28,13 +25,12 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// Size at which `text` fits into the width `room` [pixels]. The size is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // Slight reduction of the size, without which rounding could make a text of exactly the available width too long.
+    // The slight reduction of the size prevents that rounding makes a text of exactly the available width too long.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }
 }
 
-/// Text with a width of at most `room` pixels. A longer text is shortened and ends with an ellipsis.
 pub fn fit(text: &str, size: f64, room: f64) -> String {
     if text.chars().count() <= LONGEST && width(text, size) <= room {
         return text.into();
@@ -49,7 +45,6 @@ pub fn fit(text: &str, size: f64, room: f64) -> String {
     }
 }
 
-/// Breaks `text` into lines of at most `room` pixels. Lines are broken between words if possible.
 pub fn lines(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
@@ -79,7 +74,6 @@ pub fn glyphs(text: &str, size: f64) -> Vec<OutlinedGlyph> {
     set(text, size).0.into_iter().filter_map(|glyph| face.outline_glyph(place(glyph))).collect()
 }
 
-/// Outlines of `text` at `size` pixels per em. Each glyph consists of closed contours. Holes have the opposite orientation.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let Some(face) = FACE.as_ref() else { return Vec::new() };
     let per_unit = per_unit(face, size);
@@ -134,7 +128,6 @@ fn contours(outline: &Outline, place: impl Fn(ab_glyph::Point) -> Point) -> Vec<
     contours
 }
 
-/// Appends interior points of the quadratic Bézier curve with the control points `a`, `b` and `c`. TrueType fonts have no cubic curves.
 fn bend(contour: &mut Vec<Point>, a: Point, b: Point, c: Point) {
     let sag = hypot(a.0 - 2.0 * b.0 + c.0, a.1 - 2.0 * b.1 + c.1) / 4.0;
     let pieces = (sag / FLATNESS).sqrt().ceil().clamp(1.0, 8.0) as usize;

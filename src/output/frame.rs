@@ -13,10 +13,10 @@ const CAPTION: f64 = 12.0;
 const LABEL: f64 = 13.0;
 const NUMBER: f64 = 12.0;
 const EDGE: f64 = 14.0;
-/// Smallest size of a text, as a fraction of its normal size. A text that would be smaller is broken into lines.
+/// Smallest size of a text, as a fraction of its normal size, below which the text is broken into lines.
 const SMALLEST: f64 = 0.8;
 const MOST_LINES: usize = 4;
-/// Largest number of points for which every point has a marker. On longer curves, only the points that remain after thinning have markers.
+/// Largest number of points of a curve with a marker at every point. On longer curves, only points that remain after thinning have markers.
 const MOST_MARKS: usize = 2000;
 /// Distance between ticks on the horizontal and on the vertical axis [pixels].
 const TICK_EVERY: (f64, f64) = (85.0, 50.0);
@@ -31,7 +31,6 @@ pub struct Margins {
 }
 
 impl Margins {
-    /// Returns the margins that are sufficient for two panels: on each side, the larger of both margins.
     pub fn widest(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -41,7 +40,7 @@ impl Margins {
         }
     }
 
-    /// Box inside the margins of `area`. The box is never empty.
+    /// Box inside the margins of `area`; never empty.
     pub fn inside(&self, area: &Area) -> Area {
         let (left, top) = (area.left + self.left, area.top + self.top);
         let (right, bottom) = (area.right - self.right, area.bottom - self.bottom);
@@ -94,7 +93,7 @@ impl Frame {
         canvas.text("no data", middle, 14.0, Align::Middle, GREY);
     }
 
-    /// Draws the frame without the data. `plot` is the part of `area` inside the margins.
+    /// Draws the frame without the data. `plot` is `area` without its margins.
     pub fn draw(&self, canvas: &mut Canvas, area: &Area, plot: &Area) {
         let room = area.right - plot.left - EDGE;
         let title = FittedText::of(&self.title, TITLE, room);
@@ -120,16 +119,16 @@ impl Frame {
         (plot.left + self.x.place(x) * plot.width(), plot.bottom - self.y.place(y) * plot.height())
     }
 
-    /// Visible pieces of a data curve, as points on the canvas [pixels].
+    /// Pieces of a data curve inside the plot [pixels].
     pub fn curve(&self, plot: &Area, points: &[Point]) -> Vec<Vec<Point>> {
-        // The window is slightly larger than the plot. Otherwise, rounding could clip a line along the side of the plot.
+        // The window is slightly larger than the plot, so that rounding does not clip a line along a side of the plot.
         let window = Area {
             left: plot.left - 0.01,
             top: plot.top - 0.01,
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // Axes move infinite values to the ends of the axis. A curve must have a gap at an infinite value.
+        // A curve has a gap at an infinite value, which axes would move to the end of the axis.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }
@@ -137,7 +136,7 @@ impl Frame {
         curve::pieces(points.iter().map(place), &window)
     }
 
-    /// Positions of the markers of a curve: its data points, without the points where the curve is clipped.
+    /// Positions of the markers of a curve: its data points, but not the points where the curve is clipped.
     pub fn marks(&self, plot: &Area, points: &[Point]) -> Vec<Point> {
         if points.len() > MOST_MARKS {
             return self.curve(plot, points).concat();
@@ -196,7 +195,6 @@ impl Frame {
     }
 }
 
-/// Title or label. A text that is too long for a line is first reduced in size and then broken into several lines.
 struct FittedText {
     lines: Vec<String>,
     /// Size of the letters of a reduced title or label [pixels].

@@ -1,4 +1,4 @@
-//! Heat maps: cells in rows and columns. A number determines the colour of each cell on a logarithmic scale. Cells without a number are hatched.
+//! Heat maps: cells in rows and columns, coloured by a number on a logarithmic scale, and hatched without a number.
 
 use super::{
     axis::power_of_ten,
@@ -45,7 +45,7 @@ pub struct HeatMap {
 }
 
 impl HeatMap {
-    /// Creates a heat map without cells. The two `powers` of ten are the ends of the colour scale, from the palest to the darkest colour.
+    /// Creates a heat map without cells. The colour scale from pale to dark goes from the first to the second power of ten.
     pub fn new(title: impl Into<String>, shows: impl Into<String>, powers: (i32, i32)) -> Self {
         Self {
             title: title.into(),
@@ -72,7 +72,7 @@ impl HeatMap {
         self
     }
 
-    /// Adds a row at the bottom. Missing cells are white. Cells in excess of the columns are not shown.
+    /// Adds a row at the bottom. Missing cells are white, and surplus cells are not shown.
     pub fn row(mut self, name: impl Into<String>, cells: Vec<HeatCell>) -> Self {
         self.rows.1.push(name.into());
         self.cells.push(cells);
@@ -118,7 +118,7 @@ impl HeatMap {
     }
 
     fn colour(&self, part: f64) -> Colour {
-        // The palest colours are mixed with white, because cells are large areas in which texts must be readable.
+        // The palest colours are mixed with white, so that texts in the cells are readable.
         if part < 0.06 { mix(WHITE, ramp(0.0), 0.35) } else { ramp(part) }
     }
 
@@ -133,7 +133,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // One pixel is added to the width, so that rounding does not cut off a letter.
+        // The additional pixel prevents that rounding cuts off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

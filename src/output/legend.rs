@@ -1,4 +1,4 @@
-//! Legends: names of the curves, between the title and the plot.
+//! Legends: names of the curves, between title and plot.
 
 use super::{
     canvas::{Align, Area, Canvas},
@@ -16,7 +16,6 @@ const BETWEEN: f64 = 20.0;
 const LINE: f64 = 16.0;
 const REST: f64 = 110.0;
 
-/// Largest number of rows. If there are more entries, the last row shows the number of missing entries.
 const MOST_ROWS: usize = 4;
 const MOST_LINES: usize = 3;
 

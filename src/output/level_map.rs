@@ -1,4 +1,4 @@
-//! Level maps: cells over two numeric axes. A number determines the colour of each cell on a linear scale. Cells without a number are hatched.
+//! Level maps: cells over two numeric axes, coloured by a number on a linear scale, and hatched without a number.
 
 use super::{
     axis::{AxisScale, PlotAxis},
@@ -13,13 +13,12 @@ use crate::elementary::ln;
 
 /// Largest relative difference of two ratios of neighbouring numbers that count as equal.
 const EQUAL_RATIOS: f64 = 1e-6;
-/// Largest number of cells along an axis. Smaller cells would not be visible, and a picture of millions of cells would have many megabytes.
+/// Largest number of cells along an axis. Smaller cells would not be visible, and more cells would make the file large.
 const MOST_CELLS: usize = 160;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LevelAxis {
     pub label: String,
-    /// Centres of the cells, in increasing order.
     pub middles: Vec<f64>,
 }
 
@@ -33,7 +32,7 @@ pub struct LevelMap {
     values: Vec<Vec<f64>>,
 }
 
-/// Means of the finite values in blocks of `across` by `up` cells. The mean of a block without finite values is NaN.
+/// Means of the finite values in blocks of `across` by `up` cells; NaN for a block without finite values.
 fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
     let row = |rows: &[Vec<f64>]| {
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
@@ -51,7 +50,7 @@ fn means(values: &[Vec<f64>], (across, up): (usize, usize)) -> Vec<Vec<f64>> {
 }
 
 impl LevelAxis {
-    /// Scale of the axis. It is logarithmic if all numbers are positive and have equal ratios, otherwise linear.
+    /// Scale of the axis: logarithmic if all numbers are positive with equal ratios of neighbours, otherwise linear.
     pub fn scale(&self) -> AxisScale {
         let ratios: Vec<f64> = self.middles.windows(2).map(|pair| pair[1] / pair[0]).collect();
         let is_equal = |ratio: &f64| (ratio / ratios[0] - 1.0).abs() < EQUAL_RATIOS;
@@ -62,7 +61,6 @@ impl LevelAxis {
         }
     }
 
-    /// Boundaries of the cells: arithmetic means of neighbouring centres, or geometric means on a logarithmic axis.
     fn ends(&self) -> Vec<f64> {
         self.ends_by(self.scale())
     }
@@ -77,7 +75,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // The extrapolated boundary is infinite if the centre is near the largest float. The centre is then used as the boundary.
+            // If the extrapolated boundary is infinite, the centre of the cell near the largest float is the boundary.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };
@@ -112,7 +110,7 @@ impl LevelAxis {
         let ends = self.ends();
         let (low, high) = (ends[0], ends[ends.len() - 1]);
         match self.scale() {
-            // A logarithmic axis needs ends with a ratio above one. For other ends, the axis is linear.
+            // An axis whose ends are almost equal is linear, because a logarithmic axis needs ends with a ratio above one.
             AxisScale::Logarithmic if ln(high / low) > 1e-3 => PlotAxis::powers_between(low, high),
             _ => PlotAxis::between(low, high),
         }
@@ -120,9 +118,9 @@ impl LevelAxis {
 }
 
 impl LevelMap {
-    /// Creates a map over two axes. `values` are given by rows, starting with the lowest row. `label` names the quantity.
-    /// Cells whose values are not finite are hatched.
-    /// On axes with more than 160 numbers, neighbouring cells are merged to one cell with their mean value. A caption states that cells are merged.
+    /// Creates a map over two axes. `values` are rows of cells from the bottom, and `label` names the quantity.
+    /// Cells with a value that is not finite are hatched.
+    /// On axes with more than 160 numbers, neighbouring cells are merged to their mean value, which a caption states.
     pub fn new(
         title: impl Into<String>,
         label: impl Into<String>,
@@ -188,7 +186,7 @@ impl Panel for LevelMap {
                 let (right, top) = frame.place(plot, (x[1], y[1]));
                 let cell = Area { left, top, right, bottom };
                 match value.is_finite() {
-                    // Cells overlap slightly, so that no seams are visible.
+                    // Cells overlap slightly, so that there are no visible seams.
                     true => {
                         let cell = Area {
                             right: (right + 0.3).min(plot.right),

@@ -4,14 +4,14 @@ use super::canvas::Point;
 use crate::elementary::hypot;
 
 pub const LINK: f64 = 1.2;
-/// Largest length of the straight pieces at the ends of a spring [pixels], and their largest length as a fraction of the spring length.
+/// Largest length of the straight ends of a spring: in pixels, and as a fraction of the length of the spring.
 const LEAD: (f64, f64) = (8.0, 0.15);
 /// Preferred length of a coil of a spring [pixels].
 const TURN: f64 = 12.0;
 const TURNS: (f64, f64) = (3.0, 12.0);
 /// Half width of a spring and of the cylinder of a damper [pixels].
 const BREADTH: f64 = 5.0;
-/// Largest half length of a cylinder [pixels], and its largest half length as a fraction of the length of the damper.
+/// Largest half length of the cylinder of a damper: in pixels, and as a fraction of the length of the damper.
 const CYLINDER: (f64, f64) = (9.0, 0.2);
 
 pub struct Link {
@@ -37,7 +37,7 @@ impl Link {
         vec![self.from, self.at((self.length, 0.0))]
     }
 
-    /// Zigzag line. The number of coils increases with the distance of the points, within limits.
+    /// Zigzag line whose number of coils increases, within limits, with the distance of its ends.
     pub fn spring(&self) -> Vec<Vec<Point>> {
         let lead = LEAD.0.min(LEAD.1 * self.length);
         let teeth = 2.0 * (self.length / TURN).round().clamp(TURNS.0, TURNS.1);

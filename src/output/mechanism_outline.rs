@@ -1,4 +1,4 @@
-//! Drawing of a mechanism without its beams, for pictures of section results: outlines of rigid bodies, and symbols.
+//! Outlines of rigid bodies, and symbols, in pictures of section results.
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -10,7 +10,6 @@ use super::{
 
 const OUTLINE: f64 = 1.6;
 
-/// Rigid bodies as lines, and symbols drawn over them, in data units.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MechanismOutline {
     pub bodies: Vec<Vec<Point>>,

@@ -1,9 +1,5 @@
-//! Tables, files and pictures from plain data. This module does not depend on simulations.
-//!
-//! A canvas collects the shapes of a picture, and the modules `svg` and `png` write the canvas to a file.
-//! The modules of `terminal` draw charts and heat maps with characters. The module `viewer` writes pages for browsers.
-//!
-//! Pictures look the same on every machine, because the font of their texts is embedded in the program. Equal data give equal bytes.
+//! Tables, files and pictures from plain data, without dependence on simulations.
+//! A canvas collects the shapes of a picture, and painters write the canvas to a file.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

@@ -1,4 +1,4 @@
-//! Pictures of motion. Snapshots at several times are drawn in one plot. Early snapshots are pale and late ones dark.
+//! Pictures of motion: snapshots at several times in one plot, from pale (early) to dark (late).
 
 use super::{
     canvas::{Area, Canvas, Point},
@@ -22,14 +22,12 @@ const PARTICLE: f64 = 4.5;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionFrame {
     pub time: f64,
-    /// Centre line of each beam in the snapshot. The order of the beams is the same in all snapshots.
     pub lines: Vec<Vec<Point>>,
     pub marks: Vec<Point>,
     pub particles: Vec<Point>,
     pub bodies: Vec<Vec<Point>>,
 }
 
-/// Snapshots of a motion in the plane. Both axes have the same scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionPicture {
     title: String,
@@ -57,13 +55,11 @@ impl MotionPicture {
         self
     }
 
-    /// Sets the names of the beams, in the order of the lines in each snapshot.
     pub fn beams(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Self {
         self.beams = names.into_iter().map(Into::into).collect();
         self
     }
 
-    /// Adds a snapshot. Later snapshots are drawn over earlier ones, independent of the order of the calls.
     pub fn snapshot(mut self, snapshot: MotionFrame) -> Self {
         self.snapshots.push(snapshot);
         self
@@ -84,7 +80,7 @@ impl MotionPicture {
         self
     }
 
-    /// Sets the ends of the axes. Both axes have the same scale, so one of them may show more than requested.
+    /// Sets the ends of the axes. Because both axes have the same scale, one of them may show more than requested.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
@@ -97,7 +93,6 @@ impl MotionPicture {
         framed.fold(Page::row(), Page::panel)
     }
 
-    /// Limits of the axes that contain all data of all pictures. Limits set in the first picture have precedence.
     pub fn shared_limits(pictures: &[Self]) -> AxisLimits {
         let given = pictures.first().map_or_else(AxisLimits::default, |first| first.limits);
         let points = pictures.iter().flat_map(Self::points);

@@ -14,24 +14,18 @@ const ALIGNMENT: usize = 64;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArchive {
-    /// Arrays. Their names must be distinct.
     pub arrays: Vec<NpzArray>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NpzArray {
     pub name: String,
-    /// Lengths of the dimensions. The last dimension varies fastest in `values`.
     pub shape: Vec<usize>,
-    /// Numbers of the array. The last index varies fastest.
     pub values: Vec<f64>,
 }
 
 impl NpzArchive {
     /// Bytes of the `.npz` file. Equal arrays give equal bytes.
-    ///
-    /// # Errors
-    /// Fails if the number of values does not match the shape, or if two arrays have the same name.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         let options = SimpleFileOptions::default()

@@ -1,11 +1,8 @@
-//! Number formats for human readers. The texts are short and show no errors of binary arithmetic.
-//!
-//! Numbers with `1e-4 ≤ |x| < 1e7` are written in decimal notation, other numbers with a power of ten.
-//! The text has the smallest number of digits from which the number can be read back exactly.
+//! Short number formats for human readers, without artefacts of binary arithmetic.
 
 use crate::elementary::rounded_to;
 
-/// Shortest text from which `x` can be read back exactly, such as `0.05`, `374.28285`, `3`, `1e-12`, `1.5e10`, `inf`, `nan`.
+/// Shortest text from which `x` can be read back exactly: decimal for `1e-4 ≤ |x| < 1e7`, otherwise with a power of ten.
 pub fn format_number(x: f64) -> String {
     if x.is_nan() {
         "nan".into()
@@ -18,13 +15,13 @@ pub fn format_number(x: f64) -> String {
     }
 }
 
-/// Text of `x`, rounded to `digits` significant digits (at least one), in the notation of [`format_number`].
+/// Text of `x`, rounded to `digits` significant digits (at least one).
 /// For example, `significant(1/3, 3)` is `0.333`, and `significant(2.0, 3)` is `2`.
 pub fn significant(x: f64, digits: usize) -> String {
     format_number(rounded_to(digits, x))
 }
 
-/// Text of `x` with a power of ten and exactly `digits` significant digits (at least one); zero is `0`.
+/// Text of `x` with a power of ten and exactly `digits` significant digits (at least one), or `0` for zero.
 /// For example, `scientific(3.14e-15, 2)` is `3.1e-15`.
 pub fn scientific(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
@@ -34,7 +31,6 @@ pub fn scientific(x: f64, digits: usize) -> String {
     }
 }
 
-/// Number of digits after the decimal point for `digits` significant digits. The number is limited, because a float has at most 17 digits.
 fn decimals(digits: usize) -> usize {
     digits.clamp(1, 17) - 1
 }

@@ -1,4 +1,4 @@
-//! Panels, and pages that arrange panels in a grid.
+//! Panels, and pages of panels in a grid.
 
 use super::{
     OutputError,
@@ -9,12 +9,11 @@ use super::{
     frame::Margins,
 };
 
-/// Picture, or a part of a picture, that adapts to a given area.
 pub trait Panel {
     /// Preferred size as a separate picture [pixels].
     fn size(&self) -> (f64, f64);
 
-    /// Preferred size on a page with the given number of rows and columns [pixels]. It is smaller than the size of a separate picture.
+    /// Preferred size on a page with several rows and columns [pixels], smaller than that of a separate picture.
     fn size_among(&self, rows: usize, columns: usize) -> (f64, f64) {
         let (width, height) = self.size();
         let width = if columns > 1 { width * SIZE_IN_COLUMNS.0 } else { width };
@@ -58,7 +57,6 @@ const HEIGHT_IN_ROWS: f64 = 0.6;
 const SIZE_IN_COLUMNS: (f64, f64) = (0.72, 0.85);
 const TITLE: f64 = 18.0;
 
-/// Panels in a grid. The plots of a column have the same width, and the plots of a row have the same height.
 #[derive(Default)]
 pub struct Page {
     title: String,
@@ -75,7 +73,6 @@ impl Page {
         Self::grid(usize::MAX)
     }
 
-    /// Creates an empty page that is filled row by row, with at most `columns` panels in a row.
     pub fn grid(columns: usize) -> Self {
         Self { title: String::new(), columns: columns.max(1), panels: Vec::new() }
     }

@@ -1,4 +1,4 @@
-//! Apache Parquet files. Typed columns form one row group, and dimensions are metadata of the file.
+//! Apache Parquet files: typed columns in one row group, with dimensions as metadata.
 
 use std::sync::Arc;
 
@@ -13,10 +13,7 @@ use parquet::schema::types::{Type, TypePtr};
 use super::{DataColumn, DataTable, DataValues, OutputError};
 
 impl DataTable {
-    /// Bytes of an uncompressed `.parquet` file. The metadata `dimension.NAME` contains the dimension of the column NAME.
-    ///
-    /// # Errors
-    /// Fails if columns have different lengths, or if two columns have the same name.
+    /// Bytes of an uncompressed `.parquet` file, in which the metadata `dimension.NAME` is the dimension of the column NAME.
     pub fn to_parquet(&self) -> Result<Vec<u8>, OutputError> {
         self.rows()?;
         self.written_to_parquet()

@@ -18,7 +18,7 @@ pub struct AxisLimits {
     pub y: Option<(f64, f64)>,
 }
 
-/// Box in the plane, given by centre, width and height, both nonzero.
+/// Box in the plane, given by its centre and its nonzero width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     centre: Point,
@@ -26,7 +26,7 @@ pub struct View {
 }
 
 impl View {
-    /// Box between the limits of both axes. An axis without limits is fitted, with a margin, to the points inside the limits of the other axis.
+    /// Box between the limits of both axes. An axis without limits is fitted to the points inside the limits of the other axis.
     pub fn of(points: impl Iterator<Item = Point> + Clone, limits: &AxisLimits) -> Self {
         let within = |value: f64, ends: Option<(f64, f64)>| {
             ends.is_none_or(|(low, high)| (low..=high).contains(&value))
@@ -45,13 +45,13 @@ impl View {
         };
         let (x, width) = side(|point| point.0, limits.x);
         let (y, height) = side(|point| point.1, limits.y);
-        // A horizontal line has no height, and a point has no size. The box is enlarged so that the axes are readable.
+        // The box is enlarged, because a horizontal line has no height and a point has no size.
         let size = width.max(height).max(1e-6 * x.abs().max(y.abs()));
         let size = if size > 1e-280 { size } else { 1.0 };
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// Enlarges the box so that symbols around the points `about` are not cut off. Symbol sizes are in pixels. Limits have precedence.
+    /// Enlarges the box so that symbols around the points `about`, whose size is in pixels, are not cut off. Limits have precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,

@@ -1,9 +1,7 @@
-//! Painter of PNG files with anti-aliasing. Each pixel is mixed with the colour of a shape by the fraction that the shape covers.
+//! Painter of PNG files with anti-aliasing: pixels are mixed with the colour of a shape by the fraction that it covers.
 //!
-//! Boxes and pixels of the library plotters are correct, but its thick lines and polygons have ragged edges.
-//! This module computes from distances which fraction of a pixel a line covers.
-//! A line of half width `r` covers `r + ½ − d` of a pixel at a distance `d` from its centre line.
-//! For a pixel near several segments, the nearest segment is used.
+//! Lines are painted here, because thick lines and polygons of the library plotters have ragged edges.
+//! A line of half width `r` covers the fraction `r + ½ − d` of a pixel at the distance `d` from its nearest segment.
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, RGBColor};
 use plotters::style::Color;
@@ -20,7 +18,6 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, Output
     encode(&pixels(canvas, width, height)?, width, height).map_err(refused)
 }
 
-/// Pixels of `canvas` as red, green and blue, row by row from the top.
 pub fn pixels(canvas: &Canvas, width: u32, height: u32) -> Result<Vec<u8>, OutputError> {
     let Colour(paper, ..) = WHITE;
     let mut pixels = vec![paper; width as usize * height as usize * 3];

@@ -1,11 +1,10 @@
-//! Replacement of characters in foreign text that control a terminal or are invisible.
+//! Replacement of control characters and invisible characters in texts from scripts and files.
 
 use std::borrow::Cow;
 
 const REPLACEMENT: char = '\u{fffd}';
 
-/// Replaces control characters (such as the start of an escape sequence), bidirectional characters and characters of zero width.
-/// Line breaks and tabs of the text are kept. The number of characters of the text does not change.
+/// Replaces control characters except line breaks and tabs, bidirectional characters, and characters of zero width, one by one.
 pub fn printable(text: &str) -> Cow<'_, str> {
     let is_harmful = |(at, letter): (usize, char)| is_harmful(letter) && !is_line_break(text, at);
     if !text.char_indices().any(is_harmful) {
@@ -15,7 +14,6 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.char_indices().map(safe).collect())
 }
 
-/// Replaces the same characters as [`printable`], but keeps colour sequences of the form `ESC[1;31m`.
 pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     let mut pieces = text.split("\x1b[");
     let Some(first) = pieces.next().filter(|first| first.len() < text.len()) else {
@@ -32,7 +30,6 @@ pub fn printable_in_colours(text: &str) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
-/// Replaces the same characters as [`printable`], and replaces line breaks and tabs by blanks.
 pub fn printable_line(text: &str) -> String {
     printable(&text.replace(['\n', '\r', '\t'], " ")).into_owned()
 }

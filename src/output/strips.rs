@@ -1,4 +1,4 @@
-//! Diagrams of section forces. Values are drawn as strips normal to the beams. Both axes have the same scale.
+//! Diagrams of section forces, drawn as strips normal to the beams.
 
 use super::{
     axis::typeset_number,
@@ -18,13 +18,12 @@ const ORDINATE: f64 = 1.0;
 /// Distance between ordinates [pixels].
 const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
-/// Largest ordinate of a diagram, as a fraction of the size of the beams.
+/// Largest ordinate, as a fraction of the size of the beams.
 const LARGEST: f64 = 0.2;
-/// Smallest extreme value with a label, as a fraction of the largest value.
+/// Smallest extreme value that has a label, as a fraction of the largest value.
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 
-/// Side of a beam on which positive values are drawn, as seen along the beam.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BeamSide {
     #[default]
@@ -35,7 +34,6 @@ pub enum BeamSide {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeamStrip {
     pub line: Vec<Point>,
-    /// Points along the beam with their values. At a jump of the value, the point occurs twice.
     pub values: Vec<(Point, f64)>,
 }
 
@@ -109,7 +107,6 @@ impl StripPicture {
     }
 
     /// Size of the bounding box of all beams, or the length of the longest beam if it is smaller.
-    /// The diagrams of many small neighbouring beams therefore do not overlap.
     fn beam_size(&self) -> f64 {
         let points = || self.strips.iter().flat_map(|strip| strip.line.iter().copied());
         let side = |pick: fn(Point) -> f64| {

@@ -12,13 +12,12 @@ pub enum Stroke {
     Solid,
     Dashed,
     Dotted,
-    /// Continuous line with a marker at every point, for few measured or computed points.
     Marked,
     MarkersOnly,
 }
 
 impl Stroke {
-    /// Line style of a series. `round` is the number of times that the palette has already been used completely.
+    /// Line style of a series; `round` counts how often the palette has been used completely.
     pub fn of_palette_pass(round: usize) -> Self {
         [Stroke::Solid, Stroke::Dashed, Stroke::Dotted][round % 3]
     }
@@ -27,7 +26,7 @@ impl Stroke {
         matches!(self, Stroke::Marked | Stroke::MarkersOnly)
     }
 
-    /// Draws a piece of a curve without gaps, given in pixels. Markers are drawn separately.
+    /// Draws a piece of a curve [pixels] without its markers.
     pub fn draw(self, canvas: &mut Canvas, run: &[Point], width: f64, colour: Colour) {
         let pattern: &[f64] = match self {
             Stroke::Solid | Stroke::Marked => {

@@ -1,7 +1,5 @@
 //! Painter of SVG files, based on the library plotters. Text is converted to outlines, so that no fonts are needed.
-//! The SVG description of the picture contains its texts.
-//!
-//! The coordinates of plotters are integers. Therefore the picture is drawn on a grid of [`GRID`] steps per pixel.
+//! Because the coordinates of plotters are integers, the picture is drawn on a grid of [`GRID`] steps per pixel.
 
 use plotters::prelude::{DrawingBackend, RGBColor, SVGBackend, ShapeStyle};
 
@@ -32,8 +30,6 @@ pub fn paint(canvas: &Canvas, width: u32, height: u32) -> Result<String, OutputE
     Ok(head(canvas, width, height, size) + drawn.replace(" opacity=\"1\"", "").as_str())
 }
 
-/// Start of the SVG document as written by the library plotters. It states a wrong picture size, and has no title and description.
-/// The function [`head`] replaces the start of the document that the library plotters has written.
 fn opening(grid: (u32, u32)) -> String {
     let mut empty = String::new();
     drop(SVGBackend::with_string(&mut empty, grid));
@@ -69,7 +65,7 @@ fn refused(error: impl std::fmt::Display) -> OutputError {
 fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), OutputError> {
     match shape {
         Shape::Line { points, width, colour } => {
-            // A dot is drawn as a line whose second point equals the first point.
+            // A dot is a line whose second point equals its first point.
             let end = points.last().filter(|_| points.len() == 1);
             backend.draw_path(
                 points.iter().chain(end).copied().map(on_grid),
@@ -90,7 +86,7 @@ fn paint_shape(backend: &mut SVGBackend<'_>, shape: &Shape) -> Result<(), Output
     .map_err(refused)
 }
 
-/// Combines the contours of a glyph to one polygon. Bridges of zero width connect the first contour to the other contours.
+/// Combines the contours of a glyph to one polygon, by bridges of zero width from the first contour.
 fn one_polygon(contours: &[Vec<Point>], text: &Text) -> Vec<(i32, i32)> {
     let home = contours.first().and_then(|contour| contour.first());
     let walk = contours

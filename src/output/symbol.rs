@@ -1,4 +1,4 @@
-//! Symbols of mechanics: supports, joints, sliders and loads. Their size is the same in every picture, except the size of obstacles.
+//! Symbols of mechanics: supports, joints, sliders, loads and obstacles.
 
 mod obstacle;
 mod symbol_frame;
@@ -16,19 +16,19 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space around a symbol, so that the symbol is not cut off [pixels].
+/// White space around a symbol that is not cut off [pixels].
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symbol {
     Hinge,
-    /// Support that fixes position and angle. Its direction is the direction of the beam, pointing away from the support.
+    /// Support that fixes position and angle. The symbol points along the beam, away from the support.
     Clamp,
-    /// Support that fixes the component of the position along its direction. The direction points away from the ground.
+    /// Support that fixes the position along the direction of the symbol, which points away from the ground.
     Roller,
     /// Support that fixes the angle and one component of the position.
     Guided,
-    /// Support that fixes the angle and no component of the position.
+    /// Support that fixes only the angle.
     HeldAngle,
     Motor,
     Carriage,
@@ -37,7 +37,7 @@ pub enum Symbol {
     Slider,
     Force,
     LineForce,
-    /// Moment. It is counter-clockwise if its direction points to the right, and clockwise if its direction points to the left.
+    /// Moment, counter-clockwise if the direction of the symbol points to the right, and clockwise if it points to the left.
     Moment,
     /// Spring from the point of the symbol to the end of the direction vector.
     Spring,
@@ -46,9 +46,9 @@ pub enum Symbol {
     /// Segment of a tendon, from the point of the symbol to the end of the direction vector.
     Tendon,
     TorsionSpring,
-    /// Straight boundary of the ground through the point of the symbol. The direction of the symbol is the outer normal.
+    /// Straight boundary of the ground. The direction of the symbol is the outer normal.
     Wall,
-    /// Disc that is fixed to the ground. Its centre is the point of the symbol, and its radius is the length of the direction vector.
+    /// Disc that is fixed to the ground. The length of the direction of the symbol is the radius.
     Disc,
 }
 
@@ -91,7 +91,7 @@ impl Symbol {
 pub struct PlacedSymbol {
     pub symbol: Symbol,
     pub at: Point,
-    /// Direction of the symbol; zero if the symbol has no direction. Only for discs and connecting symbols, the length has a meaning.
+    /// Direction of the symbol; zero if it has none. The length has a meaning only for discs and connecting symbols.
     /// Springs, dampers and tendons end at `at + direction`.
     pub direction: Point,
 }

@@ -8,9 +8,7 @@ use super::width::{columns, padded};
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Text, aligned to the left.
     Text(String),
-    /// Number as text, aligned to the right.
     Number(String),
 }
 
@@ -69,7 +67,6 @@ impl TextTable {
         self
     }
 
-    /// Adds a row. Blanks are added to a row that is shorter than the header. A longer row makes the table wider.
     pub fn row<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) -> &mut Self {
         self.rows.push(cells.into_iter().map(Into::into).collect());
         self

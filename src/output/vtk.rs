@@ -1,7 +1,5 @@
-//! VTK files for ParaView and other programs. There is one grid for each frame, and a collection with the times of the frames.
-//!
-//! The files are XML. A byte count precedes the base64 data. The base64 format keeps every bit.
-//! The base64 format can contain denormal numbers and NaN, which programs reject in the text format.
+//! VTK files for ParaView: one grid for each frame, and a collection with the times of the frames.
+//! The data are in base64, because programs reject denormal numbers and NaN in the text format.
 //! Reference: VTK User's Guide, "VTK File Formats": XML file formats; uncompressed, `header_type="UInt64"`.
 
 use std::fmt::Write;
@@ -9,13 +7,12 @@ use std::fmt::Write;
 use super::base64::base64;
 use super::{OutputError, Point};
 
-/// VTK cell types of a point and of a line segment. A body consists of several cells, because some programs cannot read polylines.
+/// VTK cell types of a point and of a line segment. Polylines are not used, because some programs cannot read them.
 const VERTEX: u8 = 1;
 const LINE: u8 = 3;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtkGrid {
-    /// Bodies. In the file, the cell field `body` contains the index of the body of each cell.
     pub cells: Vec<VtkCell>,
     pub fields: Vec<VtkField>,
 }
@@ -36,7 +33,7 @@ pub struct VtkField {
 #[derive(Clone, Debug, PartialEq)]
 pub enum VtkValues {
     Numbers(Vec<f64>),
-    /// Vectors in the plane. Their third component in the file is zero.
+    /// Vectors in the plane, which get a third component of zero in the file.
     Vectors(Vec<Point>),
 }
 
@@ -125,7 +122,7 @@ pub fn vtk_collection(frames: &[(f64, String)]) -> String {
 }
 
 fn heading(comment: &str, kind: &str, more: &str) -> String {
-    // Two hyphens would end the comment, and control characters are invalid in XML.
+    // Hyphens are replaced, because two of them would end the comment, and control characters, because they are invalid in XML.
     let comment = comment.replace('-', "\u{2010}").replace(char::is_control, " ");
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- {comment} -->\n\

@@ -1,10 +1,8 @@
-//! Width of texts in a terminal, in columns.
-//!
-//! Widths follow Unicode Standard Annex #11 (East Asian Width). Each character is treated separately, as in terminals.
+//! Width of texts in a terminal [columns], by Unicode Standard Annex #11 (East Asian Width), as the sum of the characters.
 
 use unicode_width::UnicodeWidthChar;
 
-/// Number of columns of a character. Control characters, for example tabs, have no columns.
+/// Number of columns of a character; zero for control characters, including tabs.
 pub fn columns_of(letter: char) -> usize {
     letter.width().unwrap_or(0)
 }
@@ -22,7 +20,6 @@ pub fn beginning(text: &str, most: usize) -> &str {
     beyond.map_or(text, |(end, _)| &text[..end])
 }
 
-/// Text of at most `most` columns. A wider text is shortened and ends with `mark`.
 pub fn cut(text: &str, most: usize, mark: char) -> String {
     match beginning(text, most) {
         whole if whole.len() == text.len() => text.to_owned(),
@@ -32,7 +29,7 @@ pub fn cut(text: &str, most: usize, mark: char) -> String {
 }
 
 pub fn padded(text: &str, width: usize) -> String {
-    // Formatting in Rust would count characters instead of columns, and is limited to a width of 65 535.
+    // Formatting in Rust is not used, because it counts characters instead of columns and is limited to a width of 65 535.
     format!("{text}{}", " ".repeat(width.saturating_sub(columns(text))))
 }
 

@@ -1,4 +1,4 @@
-//! Catches panics, which are internal errors, and returns their message and location. Rust's own output of a panic is suppressed.
+//! Catches panics, which are internal errors, and returns their message and location.
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -8,7 +8,7 @@ thread_local! {
     static PLACE: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
-/// Suppresses Rust's output of panics, and stores the location of each panic instead. Code that [catches](caught) a panic must report it.
+/// Suppresses Rust's output of panics. Code that [catches](caught) a panic must report it.
 pub fn silence() {
     panic::set_hook(Box::new(|panic| {
         let place = panic.location().map(|place| format!(" ({place})")).unwrap_or_default();
@@ -18,10 +18,10 @@ pub fn silence() {
 
 /// Calls `work` and catches its panics.
 ///
-/// After a panic, data that `work` modifies may be inconsistent. The caller must discard such data unless they are known to be valid.
+/// After a panic, the caller must discard data that `work` modifies, because they may be inconsistent.
 ///
 /// # Errors
-/// Returns the message of the panic. The message contains the location if panics are [silenced](silence).
+/// Returns the message of the panic, with its location if panics are [silenced](silence).
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(work)).map_err(|panic| message(&*panic))
 }

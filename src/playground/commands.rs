@@ -15,15 +15,13 @@ use crate::script::source::program::Program;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Exit code for failed checks, the same as in the program `withy`.
 const CHECK_FAILED: u8 = 1;
 
-/// Maximum depth of nested calls. The stack of a WebAssembly module in Chromium is sufficient for 80 nested calls.
 const DEPTH: usize = 64;
 
 const HELP_WIDTH: usize = 72;
 
-/// Limits of a run in the browser. No thread supervises a limit of memory, and the web page ends runs that take too long.
+/// Limits of a run in the browser, without memory and time: no thread can supervise memory, and the page ends long runs.
 pub(super) fn limits() -> Limits {
     Limits { memory: None, depth: DEPTH, ..Limits::default() }
 }
@@ -65,7 +63,7 @@ fn fail(diagnostic: &Diagnostic) -> ExitCode {
     ExitCode::from(FAILURE)
 }
 
-/// Returns a hint without its parts about command line options for limits, which the playground does not have.
+/// Hint without its parts about command line options for limits, which the playground does not have.
 fn without_options(hint: &str) -> Option<String> {
     let parts: Vec<&str> = hint.split("; ").filter(|part| !part.contains("--max-")).collect();
     (!parts.is_empty()).then(|| parts.join("; "))

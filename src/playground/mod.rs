@@ -1,4 +1,4 @@
-//! Program for the page `docs/playground`, which executes it as a WebAssembly module in a browser.
+//! WebAssembly program of the page `docs/playground`.
 
 mod commands;
 mod completion;

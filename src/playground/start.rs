@@ -6,7 +6,6 @@ use std::process::ExitCode;
 use super::commands::{check, help, run};
 use super::completion::complete_at;
 
-/// Exit code for errors of the script or the arguments, the same as in the program `withy`.
 pub(super) const FAILURE: u8 = 2;
 
 const USAGE: &str = "\

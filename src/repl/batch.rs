@@ -1,4 +1,4 @@
-//! Sessions without a terminal. Inputs come from a pipe or the command line. The first error ends the session.
+//! Sessions whose inputs come from a pipe or the command line. The first error ends the session.
 
 use std::io::{self, BufRead, Read};
 
@@ -7,7 +7,7 @@ use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
-/// Returns true if a line continues a previous input that could be complete: it begins with a dot, `else` or `catch`.
+/// Returns true if a line continues an input that could be complete, because it begins with a dot, `else` or `catch`.
 fn continues(line: &str) -> bool {
     let line = line.trim_start();
     let is_word = |word: &str| {
@@ -37,7 +37,6 @@ fn lines_of(mut reader: impl BufRead) -> impl Iterator<Item = io::Result<String>
     })
 }
 
-/// Evaluates inputs from `lines`, until there are no more lines, an input fails, or the user quits.
 pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     let mut input = String::new();
     let mut lines = lines_of(lines).peekable();
@@ -59,7 +58,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
             );
         }
         // An input is evaluated only when the next line is known, because that line may continue the input.
-        // An interactive program at the other end of the pipe must end an input with a semicolon or an empty line.
+        // A program that waits for each reply must end its inputs with a semicolon or an empty line.
         let is_complete = is_command(&input)
             || completeness_of_script(&input) == Completeness::Complete
                 && (input.trim_end().ends_with(';')
@@ -73,7 +72,7 @@ pub fn run(shell: &mut Shell, lines: impl BufRead) -> CommandOutcome {
     }
     match input.trim() {
         "" => CommandOutcome::Success,
-        // An incomplete input is also evaluated, so that the session reports its error.
+        // An incomplete input is evaluated too, so that its error is reported.
         _ => shell.submit(&input),
     }
 }

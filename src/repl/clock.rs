@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-/// Clock that measures the time since an arbitrary fixed moment, such as the start of the program.
+/// Clock that measures the time since an arbitrary fixed moment.
 pub trait Clock {
-    /// Time since the moment at which the clock starts to count.
+    /// Time since the moment at which the clock started.
     fn now(&self) -> Duration;
 }
 

@@ -52,12 +52,10 @@ impl PlotCurve {
 pub enum PlotShape {
     Whole(CurveAbscissa, Vec<Point>),
     Number(f64),
-    /// Plane vector. Its two components are points of two separate curves.
     Vector(Vec2),
     None(String),
 }
 
-/// Interprets a value of type `of` as curves. Numbers, vectors, arrays of numbers or points, and two arrays of equal length can be drawn.
 pub fn shape(value: &Dynamic, of: &str) -> PlotShape {
     if let Some(number) = number(value) {
         return PlotShape::Number(number);
@@ -109,7 +107,7 @@ fn shape_of_array(array: &Array) -> PlotShape {
 }
 
 fn number(value: &Dynamic) -> Option<f64> {
-    // Variables captured by closures are shared values, which must be locked for reading.
+    // Shared values, such as variables captured by closures, must be locked for reading.
     let value = value.flatten_clone();
     value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
 }
@@ -118,7 +116,6 @@ fn numbers(array: &Array) -> Option<Vec<f64>> {
     array.iter().map(|value| if value.is_array() { None } else { number(value) }).collect()
 }
 
-/// Splits the operand of a command at the commas outside brackets and string literals.
 pub fn parts(operand: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut depth, mut begin, mut is_between_bars, mut before) =

@@ -1,6 +1,5 @@
 //! Names and help at a place of a script that is being written.
-//!
-//! The statements of the script are evaluated in a dry run, without the commands of the prompt. Statements with an error, such as the unfinished one, have no effect.
+//! The script is evaluated in a dry run, in which statements with an error, such as the unfinished one, have no effect.
 
 use std::ops::Range;
 use std::time::Instant;
@@ -21,7 +20,7 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Names that a script can use at byte `offset`. Names that the evaluation does not reach have no known type.
+/// Names that a script can use at byte `offset`. The type of a name is unknown if the evaluation does not reach it.
 ///
 /// # Errors
 /// Fails only because of internal errors.
@@ -51,8 +50,7 @@ pub fn names_at(
     Ok(names)
 }
 
-/// Help on the name at byte `offset` of a script, as at the prompt but without values, and the position of the name [bytes].
-/// `None` if there is no name, or no help on it.
+/// Help on the name at byte `offset` of a script, without its value, and the position of the name [bytes].
 pub fn help_at(program: &Program, offset: usize, limits: Limits) -> Option<(Range<usize>, String)> {
     let text = &*program.text;
     let target = HelpTarget::at(text, offset)?;
@@ -91,10 +89,9 @@ fn after_statements<T: Send>(
     })?
 }
 
-/// Words that continue a statement after a block.
 const CONTINUING: &[&str] = &["else", "catch", "while", "until"];
 
-/// Statements of a text, with the comments before them. A bracket that is never closed does not hide the following statements.
+/// Statements of a text, with the comments before them. An unclosed bracket does not hide the statements after it.
 fn statements(text: &str) -> Vec<&str> {
     let tokens: Vec<Token> = scan(text).into_iter().filter(Token::is_significant).collect();
     let (partners, _) = pair(&tokens);

@@ -1,4 +1,4 @@
-//! Side effects of an input other than changes of variables. They determine whether the input can be evaluated repeatedly.
+//! Side effects of an input other than changes of variables, because of which it must not be evaluated repeatedly.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 
@@ -6,10 +6,8 @@ use super::session::Session;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 
-/// Largest nesting depth of arrays and maps that is searched for shared values, simulations and scenes.
 const DEEPEST: usize = 8;
 
-/// Record of the state of simulations, scenes, shared values and files. Later changes of this state are detected, but not undone.
 pub struct SideEffects {
     simulations: Vec<(SimulationHandle, SimulationPosition)>,
     scenes: Vec<(SceneHandle, String)>,
@@ -17,7 +15,6 @@ pub struct SideEffects {
     files: usize,
 }
 
-/// Position of a simulation: its counters, the number of its scheduled functions, and the memory of its snapshots.
 type SimulationPosition = (usize, u64, usize, usize);
 
 impl SideEffects {
@@ -55,7 +52,7 @@ impl SideEffects {
         }
     }
 
-    /// First change since this state was recorded, as the predicate of a sentence with the subject "it"; `None` without a change.
+    /// First change since the state was recorded, as the predicate of a sentence such as "it … "; `None` without a change.
     pub fn change(&self, session: &Session) -> Option<String> {
         let moved = self.simulations.iter().find(|(handle, was)| place(handle) != *was);
         if let Some((handle, _)) = moved {

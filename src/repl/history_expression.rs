@@ -1,4 +1,4 @@
-//! Evaluation of an expression at all earlier states of a simulation. The states are restored from snapshots or computed again in a copy.
+//! Evaluation of an expression at all earlier states of a simulation, restored from snapshots or computed again in a copy.
 
 use rhai::Dynamic;
 
@@ -11,7 +11,7 @@ use crate::script::handles::simulation::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 
-/// Largest number of states at which an expression is evaluated. More states would exceed the resolution of a terminal.
+/// Largest number of states at which an expression is evaluated, sufficient for the resolution of a terminal.
 const MOST_STATES: usize = 1000;
 
 const DIGITS: usize = 6;
@@ -21,10 +21,10 @@ pub struct Followed {
     pub text: String,
 }
 
-/// Evaluates an expression at every earlier state of a simulation that can be restored. The simulation is not changed.
+/// Evaluates an expression at every earlier state of a simulation that can be restored, without changing the simulation.
 ///
 /// # Errors
-/// Fails if the expression fails at a state, advances or rewinds the simulation, or is interrupted. The error has already been printed.
+/// Fails if the expression fails, is interrupted, or advances or rewinds the simulation. The error has already been printed.
 pub fn evaluate_history(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -39,7 +39,7 @@ pub fn evaluate_history(
     evaluate_snapshots(shell, subject, text, &kept)
 }
 
-/// Evaluates the expression at the stored snapshots, from the last to the first. The history at a snapshot ends at its time.
+/// Evaluates the expression at the stored snapshots, from the last to the first.
 fn evaluate_snapshots(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -71,7 +71,7 @@ fn evaluate_snapshots(
     Ok(Followed { points, text: words })
 }
 
-/// Evaluates the expression at the rows of the history by repeating the run. Returns `None` if the repeated run differs from the original.
+/// Evaluates the expression at rows of the history by repeating the run; `None` if the repeated run differs from the original.
 fn evaluate_rerun(
     shell: &mut Shell,
     subject: &SimulationHandle,
@@ -98,7 +98,7 @@ fn evaluate_rerun(
 
 enum PlaybackStep {
     Back(std::vec::IntoIter<usize>),
-    /// Evaluation at every `every`-th row of the history, in a repeated run.
+    /// Every `every`-th row of the history, reached by repeating the run.
     NextRow {
         next: usize,
         rows: usize,

@@ -1,5 +1,4 @@
 //! Interactive sessions. Inputs are evaluated and recorded, and the effects of failed inputs are undone.
-//! [`editor`] provides completion, hints and highlighting. Only the module `terminal` depends on a terminal.
 
 pub(crate) mod batch;
 pub mod clock;

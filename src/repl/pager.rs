@@ -7,7 +7,7 @@ pub enum PagerOutcome {
     Shown,
     /// Ctrl-C was pressed.
     Interrupted,
-    /// The text must be printed without pages, because it is short or because pages are disabled.
+    /// The text must be printed without pages, because it is short or pages are disabled.
     NotPaged,
 }
 
@@ -16,6 +16,6 @@ pub trait Pager {
     /// Sets the size of the terminal.
     fn resize(&mut self, columns: usize, lines: usize);
 
-    /// Shows a long text in pages. The callback `was_interrupted` returns true once after each Ctrl-C.
+    /// Shows a text in pages. `was_interrupted` returns true once after each Ctrl-C.
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome;
 }

@@ -1,4 +1,4 @@
-//! Record of the successful inputs of a session, as a script that repeats them.
+//! Record of the successful inputs of a session, as a script.
 
 use std::fmt::Write;
 use std::ops::Range;
@@ -18,7 +18,6 @@ const HEADER: &str = "//! A session of withy: its successful inputs.";
 enum RecordedInput {
     Statements(Source),
     Expression(Source),
-    /// Statements that return early. In a saved script, these statements would end the script.
     EarlyReturn(Source),
     Moved(Source),
 }
@@ -37,7 +36,6 @@ pub struct SessionRecord {
 }
 
 impl SessionRecord {
-    /// Records statements that succeeded and have no value.
     pub fn worked(&mut self, text: &str) {
         self.entries.push(RecordedInput::Statements(text.trim().into()));
     }
@@ -46,20 +44,17 @@ impl SessionRecord {
         self.entries.push(RecordedInput::Expression(text.trim().into()));
     }
 
-    /// Records an input that ended early by `return`.
     pub fn returned(&mut self, text: &str) {
         self.entries.push(RecordedInput::EarlyReturn(text.trim().into()));
     }
 
-    /// Records the simulations that a failed statement advanced or rewound, by comparison with their positions `before` the statement.
-    /// Returns true if a simulation was advanced or rewound.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         let known = self.entries.len();
         for was in before {
             let (time, steps) = (was.handle.time(), was.handle.simulation().counts().steps);
             if steps != was.steps {
                 let method = if time > was.time { "run_to" } else { "rewind" };
-                // The saved script repeats the advance or rewind, which may fail again. Therefore the script catches its error.
+                // The saved script catches errors of this repeated call, because it may fail again.
                 let call = format!("{}.{method}({});", was.name, format_number(time));
                 self.entries
                     .push(RecordedInput::Moved(format!("try {{ {call} }} catch {{ }}").into()));
@@ -68,7 +63,7 @@ impl SessionRecord {
         self.entries.len() > known
     }
 
-    /// Converts the record to a script. `engine` must not remove statements by optimisation.
+    /// Converts the record to a script. `engine` must not optimise, because that would remove statements.
     pub fn script(&self, engine: &Engine) -> String {
         let asked: Vec<bool> =
             self.sources().map(|source| source.is_some_and(uses_answer)).collect();
@@ -107,7 +102,7 @@ impl SessionRecord {
         script
     }
 
-    /// Names of functions that were defined more than once. A script can contain only one definition of each name.
+    /// Names of functions that were defined more than once, which a script does not allow.
     pub fn redefined(&self) -> Vec<String> {
         let mut seen = Vec::new();
         let mut twice = Vec::new();
@@ -193,7 +188,6 @@ pub fn functions_of(source: &Source) -> impl Iterator<Item = &str> {
 
 struct FunctionText {
     name: (String, usize),
-    /// Byte range of a function definition, from its doc comments or `private` to the closing brace.
     bytes: Range<usize>,
 }
 

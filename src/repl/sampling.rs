@@ -1,4 +1,4 @@
-//! Repeated measurements of a run time: number of repetitions, and statistics.
+//! Repeated measurements of a run time, and their statistics.
 
 use std::rc::Rc;
 use std::time::Duration;
@@ -8,15 +8,13 @@ use rhai::Dynamic;
 use super::clock::Clock;
 use super::session::Rounds;
 
-/// Largest duration of an input for which the evaluation is repeated.
 pub const LONGEST: Duration = Duration::from_secs(1);
 /// Total run time after which an evaluation is not repeated again.
 const TOTAL_TIME_LIMIT: Duration = Duration::from_secs(2);
-/// Total run time below which the evaluation is repeated, whatever the error of the median.
 const LEAST_TIME: Duration = Duration::from_millis(200);
 const LEAST_RUNS: usize = 7;
 const MOST_RUNS: usize = 10_000;
-/// Relative error of the median run time below which the evaluation is not repeated again.
+/// Relative error of the median run time below which an evaluation is not repeated again.
 const KNOWN: f64 = 0.01;
 
 pub struct Sampling {
@@ -24,7 +22,6 @@ pub struct Sampling {
     start: Option<Duration>,
     round_start: Duration,
     durations: Vec<Duration>,
-    /// Number of runs after which the error of the median is computed again.
     next_evaluation: usize,
 }
 
@@ -74,7 +71,6 @@ impl Sampling {
 }
 
 impl Figures {
-    /// Relative standard error of the median. A normal distribution with the quartiles of the measured durations is assumed.
     fn error(&self) -> f64 {
         let (low, high) = self.quartiles;
         let deviation = (high - low).as_secs_f64() / 1.349;

@@ -1,4 +1,4 @@
-//! Sessions without a terminal. Inputs are evaluated one after the other and share their state.
+//! Sessions, which evaluate inputs one after the other.
 
 mod preview;
 
@@ -39,9 +39,9 @@ pub enum Reply {
     /// Success with the value of an expression.
     Value(Dynamic),
     /// A statement failed. Earlier statements of the same input keep their effect.
-    /// The failed statement keeps only its changes of scenes, of simulations, and of variables shared by closures.
+    /// A failed statement keeps its changes of scenes, simulations, and variables shared by closures.
     Failed(Diagnostic),
-    /// Ctrl-C interrupted a statement. The effects are those of a failed statement.
+    /// Ctrl-C interrupted a statement, with the same effect as a failure.
     Interrupted,
     /// The reader of the output has closed the pipe.
     PipeClosed,
@@ -55,7 +55,7 @@ struct StatementCheckpoint {
     positions: Vec<SimulationPositions>,
 }
 
-/// Session: its variables, functions, constants, imports and script engine.
+/// Variables, functions, constants, imports and script engine of a session.
 pub struct Session {
     engine: ScriptEngine,
     folder: PathBuf,
@@ -96,8 +96,7 @@ impl Session {
         self.context().set_inputs(Inputs::default());
     }
 
-    /// Discards a Ctrl-C that was pressed between evaluations.
-    /// A Ctrl-C stops every evaluation until this function is called.
+    /// Discards a Ctrl-C that was pressed between evaluations, which would stop all evaluations.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }
@@ -108,7 +107,7 @@ impl Session {
         self.eval_program(program)
     }
 
-    /// Evaluates a file like typed input. Inputs of the script keep the values `inputs` until the next file is loaded.
+    /// Evaluates a file like a typed input. Its script inputs keep the values `inputs` until the next file is loaded.
     pub fn load(&mut self, program: Program, inputs: Inputs) -> Reply {
         self.context().set_inputs(inputs);
         let declared = self.declare_inputs(&program);
@@ -155,8 +154,8 @@ impl Session {
             }
         };
         let returns = statements::returns(&ast);
+        // Statements are evaluated one by one, so that statements before an error keep their effect.
         // An input that may return early is evaluated as a whole.
-        // Other inputs are evaluated statement by statement, so that statements before an error keep their effect.
         let pieces = if returns { ast.statements().len().max(1) } else { 1 };
         let mut value = Dynamic::UNIT;
         for (number, piece) in ast.statements().chunks(pieces).enumerate() {
@@ -194,13 +193,12 @@ impl Session {
         self.record.worked(&format!("{before}{functions}"));
     }
 
-    /// Records the call of a command that succeeded. The session does not record commands itself.
+    /// Records the call of a command that succeeded.
     pub fn record_success(&mut self, text: &str) {
         self.record.worked(text);
     }
 
-    /// Records the advances and rewinds of simulations by commands, which are not recorded themselves.
-    /// Returns true if a simulation was advanced or rewound.
+    /// Records the simulations that a command advanced or rewound since their positions `before`, and returns true if there are any.
     pub fn record_movement(&mut self, before: &[SimulationPositions]) -> bool {
         self.record.record_movement(before)
     }
@@ -233,14 +231,14 @@ impl Session {
         let Self { engine: host, transcript, scope, .. } = self;
         let reply = |halt| reply_to(halt, transcript);
         let guard = host.watch().map_err(reply)?;
-        // An input of the session may declare an input of the script again with another default, so earlier declarations are forgotten.
+        // Earlier declarations are forgotten, because an input of the session may declare a script input again with another default.
         host.context().inputs().forget_declarations();
         let piece = SourcePiece { name: PROMPT, text, before, scope };
         let parse = |engine: &Engine| parse_piece(engine, &piece, || transcript.variables());
         let ast = host.run(&guard, || transcript.to_program(), parse).map_err(reply)?;
         pitfalls::messages(text, before).iter().for_each(|note| host.context().print_message(note));
         self.library = self.library.merge(&ast.clone_functions_only());
-        // The source name distinguishes errors in functions of the session from errors in functions of imported files.
+        // The source name distinguishes functions typed at the prompt from functions of imported files in error messages.
         self.library.set_source(PROMPT);
         self.global.source = Some(PROMPT.into());
         self.global.lib.clear();
@@ -252,7 +250,7 @@ impl Session {
         let Self { engine: host, transcript, scope, global, .. } = self;
         let whole = || transcript.to_program();
         let outcome = host.run(guard, whole, |engine| {
-            // A deprecated function of Rhai is used, because no other function keeps imports and constants between inputs.
+            // This deprecated function of Rhai is used, because no other keeps imports and constants between inputs.
             #[allow(deprecated)]
             engine.eval_statements_raw(global, &mut Caches::new(), scope, statements)
         });
@@ -272,13 +270,11 @@ impl Session {
         Reply::Value(value)
     }
 
-    /// Makes the constants after the first `known` variables visible to functions as `global::NAME`, even if a function was defined earlier.
     fn publish_constants(&mut self, known: usize) {
         let shared = self.global.constants.get_or_insert_with(Default::default);
         shared.borrow_mut().extend(scope::constants_after(&self.scope, known));
     }
 
-    /// Drops shadowed variables, which can no longer be accessed, to save memory in long sessions.
     fn drop_shadowed(&mut self) {
         if let Some(visible) = scope::visible(&self.scope) {
             self.scope = visible;
@@ -307,12 +303,12 @@ impl Session {
         &self.scope
     }
 
-    /// Functions that the session has defined, without closures.
+    /// Functions defined in the session, without closures.
     pub fn functions(&self) -> impl Iterator<Item = rhai::ScriptFnMetadata<'_>> {
         self.library.iter_functions().filter(|function| !function.name.starts_with("anon$"))
     }
 
-    /// Imported modules with their names. The module imported last comes first.
+    /// Imported modules with their names, the last import first.
     pub fn modules(&self) -> impl Iterator<Item = (&str, &rhai::Module)> {
         self.global.iter_imports()
     }
@@ -330,7 +326,7 @@ impl Session {
     /// Converts the successful inputs to a script.
     ///
     /// # Errors
-    /// Fails if the inputs cannot be combined to a script. The error contains the reason.
+    /// Fails with the reason if the inputs cannot be combined to a script.
     pub fn script(&self) -> Result<String, Diagnostic> {
         let script = self.record.script(self.engine());
         let program = Program::named("the saved session", &script);

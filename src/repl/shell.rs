@@ -1,4 +1,4 @@
-//! Evaluation of inputs, which are statements or commands. Replies are written to the output of the session.
+//! Evaluation of inputs, which are statements or commands, and output of replies.
 
 mod refusing;
 mod watched_expressions;
@@ -204,7 +204,7 @@ impl Shell {
         self.watched.clear();
     }
 
-    /// Returns true if a file may be written, that is, if it does not exist or has not been changed since this shell wrote it.
+    /// Returns true if a file does not exist, or is unchanged since this shell wrote it.
     pub fn may_write(&self, path: &Path) -> bool {
         let ours = || self.saved.get(path).map(String::as_bytes);
         let is_there = path.symlink_metadata().is_ok();
@@ -222,7 +222,7 @@ impl Shell {
         self.session.context().flush();
     }
 
-    /// Prints a reply that may be long. If there is a pager, it shows the reply.
+    /// Prints a reply that may be long, in pages if there is a pager.
     pub fn print_in_pages(&mut self, text: &str) -> CommandOutcome {
         let interrupt = self.session.context().interrupt_flag();
         let shown = match &mut self.pager {
@@ -272,7 +272,7 @@ impl Shell {
     }
 }
 
-/// Removes the position of an error in an input that a command generated, because the user has not typed this input.
+/// Removes the error position in an input that a command generated, because the user has not typed this input.
 fn without_position_in(input: &str, reply: Reply) -> Reply {
     let is_made = |location: &Location| {
         let line = location.program.text.lines().nth(location.line.saturating_sub(1));
@@ -339,7 +339,7 @@ impl Shell {
     }
 
     /// Calls a method of the last used simulation for a command, records the call, and shows the watched expressions.
-    /// If the call fails, the completed part of its effect is recorded.
+    /// If the call fails, a completed part of an advance or rewind is recorded.
     pub fn call_latest_and_watch(&mut self, call: &str) -> CommandOutcome {
         let input = match self.input_for_latest(call) {
             Ok(input) => input,
@@ -370,7 +370,7 @@ impl Shell {
         }
     }
 
-    /// Evaluates a method of the last used simulation without effects on the session.
+    /// Evaluates a method of the last used simulation without changes of variables.
     ///
     /// # Errors
     /// Fails if there is no last used simulation.
@@ -379,7 +379,7 @@ impl Shell {
         Ok(self.session.evaluate_preview(&format!("{name}.{call}")))
     }
 
-    /// End time of the next step of the last used simulation; `None` if the simulation has reached `end`.
+    /// End time of the next step of the last used simulation [time]; `None` if it has reached `end`.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();
@@ -388,7 +388,7 @@ impl Shell {
     }
 }
 
-/// Error of a command that needs a simulation when there is none.
+/// Error of a command that needs a simulation if there is none.
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")

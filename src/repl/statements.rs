@@ -1,4 +1,4 @@
-//! Boundaries between the statements of an input. The syntax tree of the engine does not contain them, so parts of the text are parsed again.
+//! Boundaries between the statements of an input, found by parsing parts of its text, because the engine does not report them.
 
 use rhai::{AST, ASTFlags, ASTNode, Engine, Scope, Stmt, Token};
 
@@ -11,7 +11,6 @@ pub fn count(engine: &Engine, text: &str) -> Option<usize> {
     read(engine, &Scope::new(), &text.into(), 0).ok().map(|ast| ast.statements().len())
 }
 
-/// Last position in a valid text that separates its first `first` statements from the rest. The search also works after an interrupt.
 pub fn boundary(engine: &Engine, text: &str, first: usize) -> Option<usize> {
     Sources::of(engine).undisturbed(|| boundary_of(engine, text, first))
 }
@@ -27,19 +26,18 @@ fn boundary_of(engine: &Engine, text: &str, first: usize) -> Option<usize> {
         let ends = matches!(lexeme.0, Token::SemiColon | Token::RightBrace);
         ends.then(|| source.offset_of(lexeme) + 1)
     });
-    // Positions reported by the engine may be within a character. Such positions are skipped.
+    // Positions within a character, which the engine may report, are skipped.
     let ends = ends.filter(|end| text.is_char_boundary(*end));
     let cuts: Vec<usize> = std::iter::once(0).chain(ends).collect();
     cuts.into_iter().rev().find(is_right)
 }
 
-/// Returns true if a `return` statement outside functions may end an input early.
 pub fn returns(ast: &AST) -> bool {
     let mut found = false;
     for statement in ast.statements() {
         statement.walk(&mut Vec::new(), &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::Return(_, flags, _))) = path.last() {
-                // The engine represents `throw` as a return statement with the break flag.
+                // The engine represents `throw` as a return statement with the flag `BREAK`.
                 found |= !flags.intersects(ASTFlags::BREAK);
             }
             true

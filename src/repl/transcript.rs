@@ -1,5 +1,4 @@
-//! Transcript of all inputs of a session. It assigns the position of an error to the input that contains the error.
-//! For example, an error in a function that was typed at line 3 and called at line 20 is shown at line 3.
+//! Transcript of all inputs of a session, by which the position of an error is assigned to the input with the error.
 
 use std::sync::Arc;
 
@@ -9,7 +8,7 @@ use crate::script::source::program::Program;
 
 pub const PROMPT: &str = "prompt";
 
-/// Largest number of lines that the engine can count. In a longer session, counting starts again at line 1.
+/// Largest number of lines in a session, limited by the engine, after which lines are counted from 1 again.
 const MOST_LINES: usize = 60_000;
 
 struct TranscriptInput {
@@ -18,7 +17,6 @@ struct TranscriptInput {
     is_valid: bool,
 }
 
-/// All inputs of a session. For the engine, they are one long text in which each input has its own lines.
 pub struct Transcript {
     pieces: Vec<TranscriptInput>,
     lines: usize,
@@ -34,7 +32,6 @@ impl Transcript {
         self.lines + 1
     }
 
-    /// Appends an input. Returns the number of lines before it.
     pub fn add(&mut self, program: Program) -> usize {
         let lines = program.text.lines().count().max(1);
         if self.lines + lines > MOST_LINES {
@@ -63,7 +60,6 @@ impl Transcript {
         }
     }
 
-    /// All inputs as one program that keeps their line numbers. The lines of failed inputs are blank, except those of the last input.
     pub fn to_program(&self) -> Program {
         let mut text = String::new();
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -81,7 +77,6 @@ impl Transcript {
         self.typed(&text)
     }
 
-    /// Variables that are declared outside functions, with the lines of their declarations in [`Transcript::to_program`].
     pub fn variables(&self) -> Vec<(String, usize)> {
         let shown = self.shown();
         let of_piece = |piece: &TranscriptInput| {
@@ -100,7 +95,6 @@ impl Transcript {
             .map(|(_, piece)| piece)
     }
 
-    /// Changes the positions of an error so that they refer to the original inputs. Loaded files have separate line numbers.
     pub fn relocate(&self, mut diagnostic: Diagnostic) -> Diagnostic {
         for step in &mut diagnostic.trace {
             if step.file.is_none()

@@ -2,10 +2,9 @@
 
 use super::Random;
 
-/// Returns random points in the unit cube by Latin hypercube sampling (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245).
+/// Random points in the unit cube (M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245), one list per coordinate.
 ///
 /// If the range of a coordinate is divided into as many equal intervals as there are points, each interval contains one point.
-/// The result has one list per coordinate, with the values of all points.
 pub fn latin_hypercube(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     let coordinate = |_| {

@@ -1,7 +1,7 @@
 //! Random sampling of parameters: distributions, sets of points, and sensitivity indices.
 //!
-//! Equal seeds give equal points on every machine. The random number generator is ChaCha with twelve rounds, whose output is defined bit by bit.
-//! The conversion of random bits to numbers is implemented here, because the conversion in a library may change with its version.
+//! Equal seeds give equal points on every machine, because the generator (ChaCha with twelve rounds) is defined bit by bit.
+//! Random bits are converted to numbers here, because the conversion in a library may change with its version.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

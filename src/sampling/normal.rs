@@ -2,17 +2,15 @@
 
 use crate::elementary::ln;
 
-/// Largest distance of the probability from 1/2 for which the approximation for the centre of the distribution is used.
 const CENTRE: f64 = 0.425;
 
 fn polynomial(coefficients: [f64; 8], x: f64) -> f64 {
     coefficients.into_iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// Quantile of the standard normal distribution. The quantile is infinite for the probabilities 0 and 1.
+/// Quantile of the standard normal distribution; infinite for the probabilities 0 and 1.
 ///
-/// Rational approximations of M. J. Wichura, Applied Statistics 37 (1988) 477-484, algorithm AS 241 (PPND16).
-/// The relative error of the quantile is about 1e-16.
+/// Rational approximations of M. J. Wichura, Applied Statistics 37 (1988) 477-484, algorithm AS 241 (PPND16), relative error about 1e-16.
 pub fn normal_quantile(probability: f64) -> f64 {
     let from_middle = probability - 0.5;
     if from_middle.abs() <= CENTRE {
@@ -106,7 +104,7 @@ const FAR: Ratio = (
 mod tests {
     use super::*;
 
-    /// Values of published tables (Abramowitz and Stegun, section 26.5), and the check values of Wichura for the probabilities 0.25, 0.001 and 1e-20.
+    /// Values of Abramowitz and Stegun, section 26.5, and check values of Wichura for the probabilities 0.25, 0.001 and 1e-20.
     #[test]
     fn values_are_those_of_tables() {
         for (probability, expected) in [

@@ -3,11 +3,9 @@
 use rand_chacha::ChaCha12Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Generator of all random numbers of studies. It is ChaCha with twelve rounds (D. J. Bernstein, 2008), initialised by a seed.
-/// Equal seeds give equal numbers on every machine.
+/// Generator of the random numbers of studies: ChaCha with twelve rounds (D. J. Bernstein, 2008), with equal numbers for equal seeds.
 pub struct Random(ChaCha12Rng);
 
-/// Number of random bits of a uniform number, which is the precision of a double.
 const BITS: u32 = 53;
 
 impl Random {
@@ -17,8 +15,6 @@ impl Random {
         Self(ChaCha12Rng::from_seed(key))
     }
 
-    /// Returns a uniform random number in the open interval (0, 1).
-    /// The interval (0, 1) is divided into 2⁵³ equal parts. The random number is the rounded midpoint of a part.
     pub fn unit(&mut self) -> f64 {
         let part = self.0.next_u64() >> (u64::BITS - BITS);
         ((part as f64 + 0.5) / (1_u64 << BITS) as f64).min(1.0 - f64::EPSILON / 2.0)
@@ -28,8 +24,8 @@ impl Random {
         self.0.next_u32()
     }
 
-    /// Returns a uniform random integer below `count`.
-    /// The largest values of the generator are rejected. Otherwise, some integers would be slightly more probable than others.
+    /// Uniform random integer below `count`.
+    /// The largest values of the generator are rejected, because they would make some integers more probable than others.
     pub fn below(&mut self, count: u64) -> u64 {
         let whole = u64::MAX - u64::MAX % count.max(1);
         loop {
@@ -40,7 +36,7 @@ impl Random {
         }
     }
 
-    /// Permutes the values at random, so that all permutations are equally probable (R. Durstenfeld, 1964).
+    /// Permutes the values at random, with equal probability of all permutations (R. Durstenfeld, 1964).
     pub fn shuffle<T>(&mut self, values: &mut [T]) {
         for last in (1..values.len()).rev() {
             let other = self.below(last as u64 + 1);

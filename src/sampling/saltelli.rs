@@ -2,13 +2,11 @@
 
 use super::sobol;
 
-/// Returns points in the unit cube for Sobol' indices (A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270).
+/// Points in the unit cube for Sobol' indices (A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270).
 ///
-/// The points form groups of `dimensions + 2` points, called blocks.
-/// The first two points of a block are independent of each other.
+/// The points form blocks of `dimensions + 2` points. The result has one list per coordinate.
 /// The first two points of a block are the halves of one point of a Sobol' sequence with `2 · dimensions` coordinates.
-/// Each further point differs from the first point in one coordinate, whose value is that of the second point.
-/// The result has one list per coordinate, with the values of all `blocks · (dimensions + 2)` points.
+/// Each further point of a block is the first point with one coordinate of the second.
 pub fn saltelli(blocks: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let pairs = sobol(blocks, 2 * dimensions, seed);
     (0..dimensions)

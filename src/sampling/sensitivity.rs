@@ -1,17 +1,13 @@
 //! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
-/// Minimum number of Saltelli blocks or of independent points for an estimate.
-/// The uncertainty of a sensitivity index is about the inverse square root of the number of blocks or points.
+/// Minimum number of Saltelli blocks or of independent points, whose inverse square root is about the uncertainty of an index.
 const FEWEST: usize = 30;
 
-/// Sobol' indices of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index (main effect), as a fraction of the total variance of the result.
-    /// The numerator is the variance of the mean of the result over all other parameters.
+    /// First-order index: variance of the mean of the result over all other parameters, as a fraction of the total variance.
     pub first: f64,
     /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
-    /// `None` if the sample does not allow an estimate of the total index.
     pub total: Option<f64>,
 }
 
@@ -25,9 +21,8 @@ fn variance(values: &[f64]) -> f64 {
     mean(values.iter().map(|x| (x - middle) * (x - middle)))
 }
 
-/// Returns the indices of all parameters from results on a full grid.
-/// The last parameter of the grid varies fastest, and `lengths` contains the number of values of each parameter.
-/// All values of a parameter have the same probability, so the indices are exact. Returns `None` if the result is constant.
+/// Exact indices of all parameters from results on a full grid with equally probable values; `None` if the result is constant.
+/// `lengths` is the number of values of each parameter. The last parameter varies fastest.
 pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceShare>> {
     let whole = variance(results);
     (whole > 0.0).then(|| {
@@ -51,7 +46,7 @@ pub fn grid_indices(lengths: &[usize], results: &[f64]) -> Option<Vec<VarianceSh
 /// Indices of all parameters from results at the points of [`saltelli`](super::saltelli).
 /// Estimators: M. J. W. Jansen, Computer Physics Communications 117 (1999) 35-43.
 ///
-/// Blocks with a result that is not finite are omitted. Returns `None` if fewer than 30 blocks remain or the result is constant.
+/// Blocks with a result that is not finite are omitted. The indices are `None` if fewer than 30 blocks remain or the result is constant.
 pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<VarianceShare>> {
     let is_whole = |block: &&[f64]| block.iter().all(|result| result.is_finite());
     let blocks: Vec<&[f64]> = results.chunks_exact(parameters + 2).filter(is_whole).collect();
@@ -66,13 +61,11 @@ pub fn saltelli_indices(parameters: usize, results: &[f64]) -> Option<Vec<Varian
     (whole > 0.0 && blocks.len() >= FEWEST).then(|| (0..parameters).map(of).collect())
 }
 
-/// Returns the first-order index of one parameter from results at arbitrary independent points. `values` contains the parameter at these points.
+/// First-order index of one parameter with `values` at independent points; `None` for fewer than 30 finite results or a constant result.
 ///
-/// The points are sorted by the parameter and divided into groups.
-/// The index is a fraction of the total variance: the variance of the group means, minus the contribution of the scatter within groups.
-/// The number of groups is the cube root of the number of points, rounded down, but at least three.
-/// Results that are not finite are omitted.
-/// Returns `None` if fewer than 30 points remain or the result is constant.
+/// The points are sorted by the parameter and divided into groups, of which there are at least three.
+/// The numerator of the index is the variance of the group means, minus the contribution of the scatter within groups.
+/// The number of groups is the cube root of the number of points, rounded down.
 pub fn rank_indices(values: &[f64], results: &[f64]) -> Option<VarianceShare> {
     let pairs = values.iter().copied().zip(results.iter().copied());
     let mut pairs: Vec<(f64, f64)> = pairs.filter(|(_, result)| result.is_finite()).collect();

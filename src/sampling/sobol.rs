@@ -4,9 +4,8 @@ use super::Random;
 
 const BITS: usize = 32;
 
-/// Primitive polynomial and initial direction numbers of each coordinate, beginning with the second coordinate.
-/// The first number of each entry of the table contains the inner coefficients of the polynomial as bits.
-/// The values are those of the file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
+/// Inner coefficients of the primitive polynomial, as bits, and initial direction numbers of each coordinate after the first.
+/// Source: file new-joe-kuo-6.21201 of S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635-2654.
 const DIRECTIONS: [(u32, &[u32]); 39] = [
     (0, &[1]),
     (1, &[1, 3]),
@@ -51,7 +50,7 @@ const DIRECTIONS: [(u32, &[u32]); 39] = [
 
 pub const MOST_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
-/// Returns the direction numbers of a coordinate as multiples of 2⁻³². Coordinates are counted from 0.
+/// Direction numbers of a coordinate, counted from 0, as multiples of 2⁻³².
 fn directions(dimension: usize) -> [u32; BITS] {
     let mut numbers = [0; BITS];
     let Some((coefficients, initial)) = dimension.checked_sub(1).map(|at| DIRECTIONS[at]) else {
@@ -72,11 +71,10 @@ fn directions(dimension: usize) -> [u32; BITS] {
     numbers
 }
 
-/// Returns the first `count` points of a Sobol' sequence, in Gray code order (I. A. Antonov and V. M. Saleev, 1979).
-/// The number of dimensions is at most [`MOST_DIMENSIONS`].
+/// First `count` points of a Sobol' sequence in Gray code order (I. A. Antonov and V. M. Saleev, 1979), one list per coordinate.
+/// The number of dimensions must be at most [`MOST_DIMENSIONS`].
 ///
-/// The bits of each coordinate are combined with random bits by exclusive or. This digital shift preserves the uniformity.
-/// The coordinates lie strictly between 0 and 1. The result has one list per coordinate, with the values of all points.
+/// Each coordinate is combined with random bits by exclusive or, which preserves the uniformity (digital shift).
 pub fn sobol(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::seeded(seed);
     (0..dimensions)

@@ -1,4 +1,4 @@
-//! Operations on the entries of an open folder through the file descriptor of the folder. Links are not followed.
+//! Operations on the entries of an open folder through its file descriptor, without following links.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -67,7 +67,7 @@ impl Dir {
         Ok(self.0.entries()?.flatten().map(|entry| entry.file_name()).collect())
     }
 
-    /// Writes the folder to disk. This function has no effect on systems that cannot write folders to disk.
+    /// Writes the folder to disk, if the system supports it.
     pub fn sync(&self) -> io::Result<()> {
         #[cfg(unix)]
         {

@@ -1,4 +1,4 @@
-//! Operations on the entries of a folder in WebAssembly. The file system belongs to one run, and it has no links and no other processes.
+//! Operations on the entries of a folder in WebAssembly, whose file system has no links and no other processes.
 
 use std::ffi::{OsStr, OsString};
 pub use std::fs::Metadata;

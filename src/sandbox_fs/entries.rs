@@ -19,8 +19,8 @@ pub struct FolderEntry {
 }
 
 impl Folder {
-    /// Returns the files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target.
-    /// An entry that cannot be inspected is omitted.
+    /// Files and subfolders of this folder, sorted by name. A link is listed as a link, not as its target.
+    /// An entry whose type and size cannot be read is omitted.
     pub fn entries(&self) -> io::Result<Vec<FolderEntry>> {
         let entry = |name: OsString| {
             let about = self.0.metadata(&name).ok()?;
@@ -32,10 +32,7 @@ impl Folder {
         Ok(all)
     }
 
-    /// Opens a subfolder by its name. A link is not followed.
-    ///
-    /// # Errors
-    /// Fails if no folder has this name, or if it is a link.
+    /// Opens a subfolder by its name, without following a link.
     pub fn below(&self, name: &OsStr) -> io::Result<Self> {
         match is_plain(Path::new(name)) {
             true => self.enter(name),

@@ -1,4 +1,4 @@
-//! Open folder. Its files are accessed through the file descriptor of the folder, not through its path.
+//! Open folder, whose files are accessed through its file descriptor, not through its path.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -8,31 +8,25 @@ use std::path::{Component, Path};
 use super::dir::Dir;
 use super::reading;
 
-/// Open folder. If the folder is renamed or replaced by a link, this value still refers to the original folder.
+/// Open folder. It remains the same folder even if it is renamed or replaced by a link.
 #[derive(Debug)]
 pub struct Folder(pub(super) Dir);
 
-/// Returns true if a path is relative and contains no `..`, so that it cannot leave the folder.
+/// Returns true if a path is relative and contains no `..`, so that it cannot leave a folder.
 pub fn is_plain(name: &Path) -> bool {
     let mut parts = name.components();
     name.components().next().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
 impl Folder {
-    /// Opens a folder at a path given by the user. Links are followed.
-    ///
-    /// # Errors
-    /// Fails if `path` is not the path of a folder.
+    /// Opens a folder at a path given by the user, following links.
     pub fn open(path: &Path) -> io::Result<Self> {
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         Dir::open(path).map(Self)
     }
 
-    /// Opens a folder for writing. The folder and its parents are created if necessary.
-    /// The folder itself must not be a link, because a link could lead to another location.
-    ///
-    /// # Errors
-    /// Fails if the folder cannot be created, or if it is a link.
+    /// Opens a folder for writing; the folder and its parents are created if necessary.
+    /// A link in place of the folder is rejected, because it could lead anywhere.
     pub fn open_or_create(path: &Path) -> io::Result<Self> {
         let above = path.parent().filter(|above| !above.as_os_str().is_empty());
         let above = above.unwrap_or(Path::new("."));
@@ -45,10 +39,7 @@ impl Folder {
         }
     }
 
-    /// Opens an existing folder under the same conditions as [`open_or_create`](Self::open_or_create), but never creates a folder.
-    ///
-    /// # Errors
-    /// Fails if `path` is not the path of a folder, or if it is a link.
+    /// Opens an existing folder that is not a link.
     pub fn find(path: &Path) -> io::Result<Self> {
         match path.components().next_back() {
             Some(Component::Normal(name)) => {
@@ -100,18 +91,12 @@ impl Folder {
         Ok((folder, name.file_name().ok_or_else(refused)?))
     }
 
-    /// Reads a regular file below this folder. `most` is the maximum length [bytes]. Links are not followed.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist, is longer than `most`, or is a link, a pipe, a device or a folder.
+    /// Reads a regular file of at most `most` bytes below this folder, without following links.
     pub fn read(&self, name: &Path, most: u64) -> io::Result<Vec<u8>> {
         reading::read(self.open_file(name)?, most)
     }
 
-    /// Opens a regular file below this folder for reading. Links are not followed.
-    ///
-    /// # Errors
-    /// Fails if the file does not exist, or is a link, a pipe, a device or a folder.
+    /// Opens a regular file below this folder for reading, without following links.
     pub fn open_file(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter)?;
         let about = folder.0.metadata(name)?;
@@ -124,7 +109,6 @@ impl Folder {
         Ok(file)
     }
 
-    /// Returns true if a file, a folder or a link of this name exists below this folder. The target of a link need not exist.
     pub fn has(&self, name: &Path) -> bool {
         let found = self.parent_of(name, Self::enter);
         found.is_ok_and(|(folder, name)| folder.0.metadata(name).is_ok())
@@ -134,16 +118,12 @@ impl Folder {
         Ok(self.open_file(name)?.try_lock().is_ok())
     }
 
-    /// Creates a new file for writing. Missing parent folders are also created.
     pub fn create(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         folder.0.create_file(name)
     }
 
-    /// Opens a regular file for appending. The file is created if it does not exist.
-    ///
-    /// # Errors
-    /// Fails if `name` is a link, a pipe, a device or a folder.
+    /// Opens a regular file for appending, and creates it if it does not exist.
     pub fn append(&self, name: &Path) -> io::Result<fs::File> {
         let (folder, name) = self.parent_of(name, Self::enter_or_create)?;
         let file = folder.0.append_to_file(name)?;
@@ -151,7 +131,6 @@ impl Folder {
         Ok(file)
     }
 
-    /// Renames a file in this folder. An existing file with the new name is replaced.
     pub fn replace(&self, name: &Path, new: &Path) -> io::Result<()> {
         self.0.rename(name.as_os_str(), new.as_os_str())?;
         self.sync()
@@ -161,8 +140,7 @@ impl Folder {
         self.0.remove_file(name.as_os_str())
     }
 
-    /// Writes the folder to disk, so that renamed files keep their new names after a power failure.
-    /// The call has no effect on systems that cannot write folders to disk.
+    /// Writes the folder to disk, if the system supports it, so that renamed files keep their new names after a power failure.
     pub(super) fn sync(&self) -> io::Result<()> {
         self.0.sync()
     }
@@ -246,7 +224,7 @@ mod tests {
         assert_eq!(fs::read(own.join("a.2")).unwrap(), b"old");
     }
 
-    /// Test in which another thread repeatedly replaces folders and files by links while they are read and written.
+    /// While files are read and written, another thread repeatedly replaces folders and files by links.
     #[test]
     fn races_do_not_lead_out() {
         let (home, own, other) = home();

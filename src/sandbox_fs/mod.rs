@@ -1,8 +1,7 @@
-//! Access to files below an open folder through the file descriptor of the folder.
-//! The folder cannot be exchanged during the access, and links are not followed.
-//! Only regular files are opened, so that a pipe or a device cannot block the program.
+//! Access to files below an open folder through its file descriptor, so that the folder cannot be exchanged meanwhile.
+//! Links are not followed, and only regular files are opened, because a pipe or a device could block the program.
 //!
-//! Paths on the command line are trusted and may lead anywhere. Paths in scripts are not trusted, and must be accessed through this module.
+//! Paths in scripts are not trusted and must be accessed through this module. Paths on the command line are trusted.
 
 #[cfg_attr(target_family = "wasm", path = "dir_wasm.rs")]
 mod dir;

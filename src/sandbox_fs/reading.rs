@@ -5,20 +5,14 @@ use std::path::Path;
 
 use super::dir::open_file;
 
-/// Reads a file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.
-///
-/// # Errors
-/// Fails if `path` does not lead to a regular file, or if the file is too long or unreadable.
+/// Reads a file of at most `most` bytes at a path given by the user, following links.
 pub fn read_file(path: &Path, most: u64) -> io::Result<Vec<u8>> {
-    // The type of the file is checked before it is opened, because opening a device may have side effects.
+    // The type is checked before the file is opened, because opening a device may have side effects.
     expect_ordinary(std::fs::metadata(path)?.is_file())?;
     read(open_file(path)?, most)
 }
 
-/// Reads a UTF-8 text file at a path given by the user. `most` is the maximum length [bytes]. Links are followed.
-///
-/// # Errors
-/// Fails if `path` does not lead to a regular file, or if the file is too long, unreadable or not UTF-8.
+/// Reads a UTF-8 text file of at most `most` bytes at a path given by the user, following links.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     let bytes = read_file(path, most)?;
     String::from_utf8(bytes).map_err(|_| io::Error::other("it is not UTF-8 text"))
@@ -29,7 +23,7 @@ pub(super) fn read(file: std::fs::File, most: u64) -> io::Result<Vec<u8>> {
     expect_ordinary(about.is_file())?;
     expect_length(about.len(), most)?;
     let mut bytes = Vec::new();
-    // The system may report a wrong length, for example for files in /proc. Therefore the number of bytes is limited while reading.
+    // The number of bytes is limited while reading, because the system may report a wrong length, for example in /proc.
     file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     expect_length(bytes.len() as u64, most)?;
     Ok(bytes)

@@ -1,4 +1,4 @@
-//! Temporary folders with unpredictable names. If a process is killed, a later process removes its folder.
+//! Temporary folders with unpredictable names. The folder of a killed process is removed by a later process.
 
 use std::fs::{self, File};
 use std::io;
@@ -10,21 +10,18 @@ use tempfile::TempDir;
 use super::Folder;
 
 const PREFIX: &str = "withy-scratch-";
-/// Name of a file in each temporary folder. The file is locked until the process ends, which shows other processes that the folder is in use.
 const HELD: &str = ".held";
-/// Largest age of a temporary folder without a lock file that may belong to a process that is starting. An older folder counts as abandoned.
+/// Age from which a temporary folder without lock file counts as abandoned; a younger one may belong to a starting process.
 const BEGINNING: Duration = Duration::from_secs(3600);
 
-/// New folder in the temporary folder of the system. It is removed when this value is dropped.
 #[derive(Debug)]
 pub struct Scratch {
     folder: TempDir,
-    /// Locked file in the folder. The lock ends when the process ends, even if the process is killed.
+    /// Locked file in the folder. The lock ends with the process, even if the process is killed.
     _held: File,
 }
 
 impl Scratch {
-    /// Creates a temporary folder, and removes the folders of processes that were killed.
     pub fn new() -> io::Result<Self> {
         Self::within(&std::env::temp_dir())
     }
@@ -49,7 +46,6 @@ impl Scratch {
         tempfile::Builder::new().prefix("part-").tempdir_in(self.path())
     }
 
-    /// Removes the temporary folders of processes that were killed. A folder that cannot be removed is ignored.
     fn remove_stale(&self, home: &Path) {
         for path in stale(home, self.path()).unwrap_or_default() {
             let _ = fs::remove_dir_all(path);

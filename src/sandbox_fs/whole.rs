@@ -1,4 +1,4 @@
-//! Writes files atomically and durably, and renames files of other programs that would otherwise be replaced.
+//! Writes files atomically and durably, and keeps files of other programs under new names instead of replacing them.
 
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -10,13 +10,12 @@ use std::time::Duration;
 use super::folder::Folder;
 use super::reading;
 
-/// Maximum number of names tried for a temporary file.
 pub(super) const TRIES: usize = 100;
 
-/// Largest age of an unlocked temporary file that may belong to a running process, which has created the file but not yet locked it.
+/// Age from which an unlocked temporary file counts as abandoned; a younger one may not have been locked yet.
 const ABANDONED: Duration = Duration::from_secs(60);
 
-/// Complete file under a temporary name. It is removed when this value is dropped, unless it was [renamed](Self::rename_to_final).
+/// Complete file under a temporary name, removed when this value is dropped unless it was [renamed](Self::rename_to_final).
 #[derive(Debug)]
 pub struct Prepared {
     folder: Folder,
@@ -25,10 +24,10 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Gives the file its final name, and writes the folder to disk. An existing file with this name is replaced.
+    /// Gives the file its final name, replaces an existing file with this name, and writes the folder to disk.
     ///
     /// # Errors
-    /// Fails if the file cannot be renamed. After a failure, nothing is changed.
+    /// Fails if the file cannot be renamed; nothing is then changed.
     pub fn rename_to_final(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.name)?;
         self.folder.sync()
@@ -37,25 +36,22 @@ impl Prepared {
 
 impl Drop for Prepared {
     fn drop(&mut self) {
-        // If `rename_to_final` succeeded, no file has the temporary name, so this error is ignored.
+        // The error is ignored, because after `rename_to_final` no file has the temporary name.
         let _ = self.folder.0.remove_file(&self.partial);
     }
 }
 
 impl Folder {
-    /// Writes a file below this folder atomically and durably. An existing file with this name is replaced.
-    /// An existing link with this name is also replaced, not followed. Missing parent folders are created.
+    /// Writes a file below this folder atomically and durably, and creates missing parent folders.
+    /// An existing file or link with the same name is replaced; the link is not followed.
     ///
     /// # Errors
-    /// Fails if writing fails, or if `name` is the name of a folder, a pipe or a device. Existing files are then unchanged.
+    /// Fails if writing fails, or if `name` is that of a folder, a pipe or a device. Existing files are then unchanged.
     pub fn write_atomic(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }
 
-    /// Calls `write` to write the content of a file under a temporary name. [`Prepared::rename_to_final`] then gives the file the name `name`.
-    ///
-    /// # Errors
-    /// Fails in the same cases as [`write_atomic`](Self::write_atomic), or if `write` fails.
+    /// Writes a file under a temporary name by `write`. [`Prepared::rename_to_final`] then gives it the name `name`.
     pub fn prepare(
         &self,
         name: &Path,
@@ -74,7 +70,6 @@ impl Folder {
         Ok(prepared)
     }
 
-    /// Creates a hidden temporary file beside `name`. The file is locked while it is open.
     fn create_partial(&self, name: &OsStr) -> io::Result<(fs::File, OsString)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
         let mut tries = TRIES;
@@ -86,7 +81,7 @@ impl Folder {
             partial.push(format!(".{}-{count}.part", process_id()));
             match self.0.create_file(&partial) {
                 Ok(file) => {
-                    // A lock that fails is ignored. On a file system without locks, no temporary file counts as abandoned.
+                    // The file remains unlocked on a file system without locks, where no temporary file counts as abandoned.
                     let _ = file.try_lock();
                     return Ok((file, partial));
                 }
@@ -105,19 +100,18 @@ impl Folder {
             };
             let name = Path::new(&entry.name);
             if is_partial(&entry.name) && is_old() && folder.is_unlocked(name).unwrap_or(false) {
-                // A file that cannot be removed is ignored, because another process may have removed it already.
+                // The error is ignored, because another process may have removed the file already.
                 let _ = folder.remove(name);
             }
         }
     }
 
-    /// Renames a file below this folder to the first unused name. `free` returns the possible new names in turn. Returns the new name.
     pub fn keep_as(&self, name: &Path, free: impl Fn(usize) -> PathBuf) -> io::Result<PathBuf> {
         let (folder, own) = self.parent_of(name, Self::enter)?;
         for number in 1..TRIES * TRIES {
             let new = free(number);
             let Some(kept) = new.file_name() else { break };
-            // The new name is reserved by an empty file before the file is renamed, so that no other file is replaced.
+            // An empty file reserves the new name, so that no other file is replaced.
             match folder.0.create_file(kept) {
                 Ok(_) => {
                     folder.0.rename(own, kept)?;
@@ -141,7 +135,6 @@ impl Folder {
     }
 }
 
-/// Number of this process. WebAssembly has no processes.
 fn process_id() -> u32 {
     if cfg!(target_family = "wasm") { 0 } else { std::process::id() }
 }

@@ -1,5 +1,4 @@
-//! Record of the files that this program wrote to a folder.
-//! The record distinguishes files written by this program from files of other programs, and from files edited after they were written.
+//! Record of the files that this program wrote to a folder, to distinguish them from files of other programs and edited files.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
@@ -7,9 +6,8 @@ use std::path::Path;
 
 use super::Folder;
 
-/// Name of the file with the record of written files. The file is hidden, because users do not need it.
 const FILE: &str = ".withy-written";
-/// Maximum size of the record [bytes]. A larger record is not read: all files then count as files of other programs and are not replaced.
+/// Maximum size of the record [bytes]. If it is larger, all files count as files of other programs and are not replaced.
 const LARGEST: u64 = 16 << 20;
 const PIECE: usize = 1 << 16;
 
@@ -64,20 +62,18 @@ impl<W: Write> Write for ChecksumWriter<W> {
     }
 }
 
-/// Checksums and lengths of the files that this program has written to a folder, by name.
-/// The last two contents of each file are recorded.
-/// A new content is recorded before it replaces the old one, so a file may still have its old content.
+/// Checksums and lengths of the last two contents of each file that this program has written to a folder.
+/// Two contents are kept, because a new one is recorded before it replaces the old one.
 #[derive(Debug, Default)]
 pub struct WrittenFiles {
     files: BTreeMap<String, [Option<FileChecksum>; 2]>,
-    /// True if the last line of the record is incomplete.
     is_truncated: bool,
 }
 
 impl WrittenFiles {
-    /// Reads the record of a folder. Damaged lines are ignored.
+    /// Reads the record of a folder, without damaged lines.
     pub fn of(folder: &Folder) -> Self {
-        // If the record cannot be read, all files count as files of other programs and are not replaced.
+        // Without a readable record, all files count as files of other programs and are not replaced.
         let text = folder.read(Path::new(FILE), LARGEST).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let is_torn = !text.is_empty() && !text.ends_with('\n');
@@ -89,7 +85,6 @@ impl WrittenFiles {
     }
 
     /// Returns true if no file has this name, or if the file is unchanged since this program wrote it.
-    /// Another run may have added a line to the record. Therefore the record is read again before false is returned.
     pub fn may_replace(&mut self, folder: &Folder, name: &str) -> bool {
         let path = Path::new(name);
         if !folder.has(path) {
@@ -113,7 +108,7 @@ impl WrittenFiles {
         }
     }
 
-    /// Records the content of a file. The caller must do this before the file gets its final name. The record is written to disk immediately.
+    /// Records the content of a file on disk. Must be called before the file gets its final name.
     pub fn record(&mut self, folder: &Folder, name: &str, written: FileChecksum) -> io::Result<()> {
         let is_last = self.files.get(name).is_some_and(|known| known[1] == Some(written));
         if name.contains(['\n', '\r']) || is_last {
@@ -128,7 +123,6 @@ impl WrittenFiles {
     }
 }
 
-/// Parses a line `checksum length name` of the record. If several lines have the same name, the last two lines are valid.
 fn entry(line: &str) -> Option<(String, FileChecksum)> {
     let (checksum, rest) = line.split_once(' ')?;
     let (length, name) = rest.split_once(' ')?;

@@ -1,10 +1,4 @@
 //! The scripting language: Rhai with numbers as in scientific languages and with helpful errors.
-//! Tables list the functions that scripts can call.
-//!
-//! A domain is a [`BindingTable`](bindings::table::BindingTable) of bindings. [`engine`] registers the tables and runs a script on a large stack.
-//! [`diagnose`] converts every error to a message with line and column of the script.
-//! The modules of the language contain no mechanics: bindings are short and call the solver library.
-//!
 //! Each module may use only the modules before it in this list:
 //! `messages, source, state, bindings, dialect, library, diagnose, engine, help, presentation, handles, studies, packages`.
 

@@ -27,7 +27,7 @@ impl Place<'_> {
     }
 }
 
-/// Candidates for the word at a place. After a typed colon, candidates are returned only if the colon completes `::`.
+/// Completion candidates for the word at a place. After a typed colon, candidates are returned only if it completes `::`.
 pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionResponse> {
     if trigger == Some(":") && !at.before().ends_with("::") {
         return None;
@@ -35,7 +35,7 @@ pub fn completion(at: &Place, trigger: Option<&str>) -> Option<lsp::CompletionRe
     let names = at.document.names(at.uri, at.offset)?;
     let (start, candidates) = complete(&at.document.text, at.offset, &names);
     let range = positions::range(&at.document.text, start..at.offset);
-    // Candidates that insert only blanks are omitted, because the editor indents lines.
+    // Candidates that insert only blanks are omitted, because the editor itself indents lines.
     let words = candidates.into_iter().filter(|known| !known.replacement.trim().is_empty());
     Some(words.map(|known| item(known, range)).collect::<Vec<_>>().into())
 }

@@ -23,13 +23,11 @@ use crate::script::source::scanner::scan;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time without a change after which a document is checked.
 const PAUSE: Duration = Duration::from_millis(150);
 
-/// Largest run time of a check. After it, the rest of the script is not checked.
+/// Largest run time of a check; the rest of the script is then not checked.
 const LONGEST_CHECK: Duration = Duration::from_secs(10);
 
-/// Starts a check of a document, and stops its previous check. The errors are sent to the client.
 pub fn start(uri: &Uri, document: &mut Document) {
     stop(document);
     document.check = Arc::default();
@@ -41,7 +39,7 @@ pub fn start(uri: &Uri, document: &mut Document) {
             return;
         }
         let found = check(&program, &stopped);
-        // While stdout is locked, no other message can be written between the test of `stopped` and the result.
+        // Holding the lock of stdout prevents another message between the test of `stopped` and the result.
         let _output = stdout().lock();
         if !stopped.load(Ordering::Relaxed) {
             let notes = pitfalls(&program.text).into_iter();
@@ -61,7 +59,7 @@ pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>
     send(lsp_server::Notification::new(method.into(), shown));
 }
 
-/// Error of a script, or a warning if the check was stopped; `None` if no error was found.
+/// Error of a script, or a warning if the check was stopped; `None` if there is no error.
 fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<lsp::Diagnostic> {
     let settings = RunSettings {
         interrupt: Arc::clone(stopped),
@@ -88,7 +86,7 @@ fn error_diagnostic(error: &Diagnostic, program: &Program) -> lsp::Diagnostic {
     let is_here = |at: &&Location| at.program.name == program.name;
     let here = error.location.as_ref().filter(is_here);
     let elsewhere = error.location.as_ref().filter(|at| !is_here(at));
-    // An error in an imported file is shown at the outermost call in this script.
+    // An error in an imported file is shown at the call in this script that led to it.
     let called = || error.trace.iter().rev().find(|frame| frame.file.is_none())?.line;
     let range = match here {
         Some(at) => positions::range(&at.program.text, at.bytes()),

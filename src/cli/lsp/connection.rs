@@ -7,8 +7,8 @@ use std::thread;
 use lsp_server::{ErrorCode, Message};
 use serde_json::json;
 
-/// Messages from stdin, until it is closed. A separate thread reads them, so that the client never waits while a request is answered.
-/// A message that is not valid is answered with an error.
+/// Messages from stdin, until it is closed, read by a separate thread so that the client can always write.
+/// An invalid message is answered with an error.
 pub fn messages() -> Receiver<Message> {
     let (sender, receiver) = channel();
     thread::spawn(move || {
@@ -30,7 +30,7 @@ pub fn messages() -> Receiver<Message> {
     receiver
 }
 
-/// Writes a message. Errors are ignored, because a client that does not read any more also closes stdin.
+/// Sends a message to the client. Write errors are ignored, because a client that stops reading also closes stdin.
 pub fn send(message: impl Into<Message>) {
     let _ = message.into().write(&mut stdout().lock());
 }

@@ -19,7 +19,6 @@ use crate::script::library;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::limits::Limits;
 
-/// Time limit for evaluating the statements before the cursor when a request is answered.
 const LONGEST_ANSWER: Duration = Duration::from_secs(1);
 
 pub fn limits() -> Limits {
@@ -30,13 +29,12 @@ pub struct Document {
     pub version: i32,
     pub text: String,
     pub check: Arc<AtomicBool>,
-    /// Text before the line of the last request, and the names that are known after this text.
     names: RefCell<Option<(String, CompletionContext)>>,
 }
 
 impl Document {
     pub fn new(version: i32, text: String) -> Self {
-        // Editors do not count a byte order mark.
+        // The byte order mark is removed, because editors do not count it in positions.
         let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
         Self { version, text, check: Arc::default(), names: RefCell::default() }
     }
@@ -61,7 +59,6 @@ impl Document {
         self.names.take();
     }
 
-    /// Names that are known at the start of the line that contains byte `offset`.
     pub fn names(&self, uri: &Uri, offset: usize) -> Option<CompletionContext> {
         let start = self.text[..offset].rfind('\n').map_or(0, |end| end + 1);
         let before = &self.text[..start];
@@ -80,7 +77,7 @@ pub struct Documents(pub HashMap<Uri, Document>);
 
 impl Documents {
     /// URI and text of the script that a script in `folder` imports by `path`.
-    /// A module of the standard library is written to a file, so that the editor can open it.
+    /// A library module is first written to a file, so that the editor can open it.
     pub fn imported(&self, folder: &Path, path: &str) -> Option<(Uri, String)> {
         if let Some(module) = library::find(path) {
             let module = module.ok()?;

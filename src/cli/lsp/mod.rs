@@ -1,6 +1,4 @@
-//! `withy lsp`: a language server, which editors start. It checks scripts while they are written, and answers requests for completion, help and definitions.
-//!
-//! Messages of the Language Server Protocol are read from stdin and written to stdout.
+//! `withy lsp`: a language server with which editors check scripts, complete names, show help and find definitions.
 
 mod answers;
 mod checks;

@@ -1,4 +1,4 @@
-//! Positions of the protocol: lines, and columns in UTF-16 code units, counted from 0.
+//! Positions in the Language Server Protocol: lines and UTF-16 columns, counted from 0.
 
 use std::iter;
 use std::ops::Range;
@@ -28,7 +28,6 @@ pub fn range(text: &str, part: Range<usize>) -> lsp::Range {
     lsp::Range { start: position(text, part.start), end: position(text, part.end) }
 }
 
-/// Byte of a text at a position. Positions after the end of a line or of the text are moved to this end.
 pub fn offset(text: &str, at: lsp::Position) -> usize {
     let Some(start) = line_starts(text).nth(at.line as usize) else { return text.len() };
     let line = text[start..].split(['\n', '\r']).next().unwrap_or_default();

@@ -31,7 +31,7 @@ pub fn lsp() -> Exit {
             }
             Message::Notification(Notification { method, .. }) if method == "exit" => break,
             Message::Notification(Notification { method, params }) => {
-                // A notification has no answer, so that an error in it cannot be reported.
+                // An error in a notification cannot be reported, because notifications have no answer.
                 let _ = panics::caught(|| server.handle_notification(&method, params));
             }
             Message::Response(_) => (),
@@ -45,11 +45,9 @@ pub fn lsp() -> Exit {
 
 #[derive(Clone, Copy, Default)]
 enum Phase {
-    /// Before the request `initialize`.
     #[default]
     Start,
     Running,
-    /// After the request `shutdown`.
     ShutDown,
 }
 
@@ -199,7 +197,7 @@ impl Server {
                     checks::start(&of.text_document_identifier.uri, document);
                 }
             }
-            // Other documents may import the saved file.
+            // The other open documents are checked again, because they may import the saved file.
             LspNotificationMethod::TextDocumentDidSave => {
                 for (uri, document) in &mut self.documents.0 {
                     document.forget_names();

@@ -29,7 +29,7 @@ pub(in crate::cli) fn watch(
     stop: &AtomicBool,
 ) -> Result<(), ExerciseError> {
     let mut event_loop = EventLoop::open(workbook, limits)?;
-    // A panic is caught, so that the terminal can be restored before the panic is reported.
+    // A panic is caught, so that it is reported only after the terminal has been restored.
     let done = caught(|| {
         let mut terminal = RawTerminal::enter()?;
         event_loop.work(&mut terminal, stop)
@@ -135,7 +135,7 @@ impl<'a> EventLoop<'a> {
     }
 
     fn select_exercise(&mut self, exercise: &'static Exercise) {
-        // An unreadable progress file is not reported, because the next attempt to write it reports the error.
+        // An error of reading the progress file is ignored here, because the next write reports it.
         let progress = self.workbook.progress().unwrap_or_else(|_| self.state.progress.clone());
         self.state = TuiState::open(exercise, shown(&self.workbook.file(exercise)), progress);
         self.solution = self.painter.solution(exercise);

@@ -1,4 +1,4 @@
-//! Judges an attempt in a separate process. Keys are handled in the meantime, and the attempt can be killed.
+//! Judges an attempt in a separate process, so that keys are handled meanwhile and the attempt can be killed.
 
 use std::io::{self, Read};
 use std::process::{self, Child, Command, ExitStatus, Stdio};
@@ -20,12 +20,10 @@ use crate::script::messages::stop::Stop;
 use crate::script::state::limits::Limits;
 use crate::script::state::settings::{RunMode, RunSettings};
 
-/// Time by which the process may exceed its time limits before it is killed.
 const SLACK: Duration = Duration::from_secs(12);
-/// Maximum size of the report [bytes].
+/// Maximum size of the report on an attempt [bytes].
 const LONGEST: u64 = 1 << 20;
 
-/// Process that judges one attempt. It is killed when this value is dropped.
 pub struct JudgeProcess {
     process: Child,
     messages: Receiver<String>,
@@ -38,7 +36,7 @@ impl JudgeProcess {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        // The process gets its own process group, so that signals from keys, such as Ctrl-C, reach only the watching process.
+        // With a process group of its own, the process does not receive signals from keys such as Ctrl-C.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn()?;
@@ -113,7 +111,7 @@ fn killed_report(status: ExitStatus, limits: &Limits) -> AttemptReport {
 }
 
 /// Returns true if the process probably ended because of its memory use.
-/// A process aborts when an allocation fails. The system kills a process that uses too much memory.
+/// A Rust program aborts if an allocation fails, and the system kills a process that uses too much memory.
 #[cfg(unix)]
 fn is_out_of_memory(status: ExitStatus) -> bool {
     use nix::libc::{SIGABRT, SIGKILL};
@@ -136,7 +134,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     exit_with_parent();
     let output = CaptureWriter::default();
     let captured = output.clone();
-    // The lock ensures that only one report is printed. The report on an exceeded limit comes from another thread.
+    // The lock prevents a second report by the thread that watches the limits.
     let turn = Arc::new(Mutex::new(()));
     let last_turn = Arc::clone(&turn);
     let resort = move |stop: Stop| {
@@ -158,7 +156,7 @@ pub fn try_here(workbook: &Workbook, exercise: &Exercise, options: &LimitOptions
     };
     let _turn = turn.lock().unwrap_or_else(PoisonError::into_inner);
     send_report(&AttemptReport { outcome: verdict.into(), printed: output.captured() });
-    // The process exits without dropping the data of the attempt, because dropping may take long.
+    // The process exits without dropping the data of the attempt, because that may take long.
     process::exit(0)
 }
 
@@ -169,7 +167,7 @@ fn send_report(report: &AttemptReport) {
     }
 }
 
-/// Requests that the system kills this process when its parent ends, because only the parent reads the report.
+/// Requests the system to kill this process when its parent ends, because only the parent reads the report.
 #[cfg(target_os = "linux")]
 fn exit_with_parent() {
     use nix::sys::signal::Signal;

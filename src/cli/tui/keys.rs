@@ -14,7 +14,6 @@ pub enum Key {
     Enter,
     Escape,
     Interrupt,
-    /// Ctrl-Z, which suspends the program.
     Suspend,
     Other,
 }

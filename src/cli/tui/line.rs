@@ -1,4 +1,4 @@
-//! A line of styled text on the screen. A line that is too long is wrapped or cut.
+//! Lines of styled text on the screen.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -17,7 +17,7 @@ pub const BAD: LineStyle = Cow::Borrowed("1;31");
 pub const HEADING: LineStyle = Cow::Borrowed("1;36");
 pub const WARNING: LineStyle = Cow::Borrowed("33");
 
-/// Line of text segments with their styles. It contains no control characters.
+/// Text segments with their styles, without control characters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ScreenLine(Vec<(String, LineStyle)>);
 
@@ -122,7 +122,6 @@ fn push(lines: &mut [ScreenLine], piece: String, style: &LineStyle) {
     }
 }
 
-/// Wraps a text between words at a width of `columns`. All lines after the first begin with `indent`.
 pub fn wrapped(text: &str, indent: &str, columns: usize) -> Vec<String> {
     let options = Options::new(columns.max(1))
         .subsequent_indent(if crate::output::columns(indent) * 2 < columns { indent } else { "" })
@@ -155,7 +154,7 @@ pub fn labelled(
     lines
 }
 
-/// Converts text with ANSI colour codes to lines. Other escape sequences are removed.
+/// Converts text with ANSI colour codes to lines, without other escape sequences.
 pub fn coloured(text: &str) -> Vec<ScreenLine> {
     let mut style = PLAIN;
     let mut lines = vec![ScreenLine::default()];

@@ -1,7 +1,4 @@
-//! `withy learn watch` in a terminal. One screen shows the task, the file, the result and the hints.
-//! Each attempt runs in a separate process.
-//!
-//! The module `event_loop` reads keys, changes the state, starts the process of a run and draws the screen.
+//! `withy learn watch` in a terminal: one screen with the task, the file, the result and the hints.
 
 mod event_loop;
 pub(super) mod judge_process;

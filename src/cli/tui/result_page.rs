@@ -92,7 +92,7 @@ fn excerpt(place: &ScriptPosition, columns: usize) -> Vec<ScreenLine> {
     }
     let number = format!("{:>5} │ ", place.line);
     let room = columns.saturating_sub(crate::output::columns(&number) + 1).max(8);
-    // The beginning of the source line is cut if the location would otherwise not be visible.
+    // The beginning of the source line is omitted if the error would otherwise not be visible.
     let skipped = if at + length.max(1) <= room { 0 } else { at.saturating_sub(room / 3) };
     let (before, seen) =
         if skipped > 0 { ("…", text_from_column(&text, skipped + 1)) } else { ("", text) };

@@ -1,8 +1,4 @@
 //! Converts the state to the lines of the screen, without side effects.
-//!
-//! The top of the screen shows the title of the exercise, a bar of passed exercises, and the file to edit.
-//! The middle shows the task, the result and the hints, and scrolls if it is longer than the screen.
-//! The bottom shows a notice about the last pressed key, and the available keys.
 
 use super::line::{
     FAINT, GOOD, HEADING, LineStyle, PLAIN, STRONG, ScreenLine, WARNING, labelled, paragraph,
@@ -32,7 +28,7 @@ impl PageLayout {
     }
 }
 
-/// Maximum width of text, because wider text is harder to read [columns].
+/// Maximum width of text [columns], because wider text is harder to read.
 const WIDEST: usize = 100;
 
 pub fn screen(
@@ -151,7 +147,7 @@ fn progress(state: &TuiState, columns: usize) -> ScreenLine {
     let (passed, count) = (state.passed(), EXERCISES.len());
     let word = format!(" {passed} of {count} passed");
     let room = columns.saturating_sub(word.len() + 2).clamp(4, BAR);
-    // The division rounds down, so that the bar is full only when all exercises are passed.
+    // The division rounds down, so that the bar is full only if all exercises are passed.
     let full = room * passed / count;
     let bar = ScreenLine::of("[", PLAIN)
         .and(&"#".repeat(full), GOOD)

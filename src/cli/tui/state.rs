@@ -1,4 +1,4 @@
-//! State of the screen, and the effect of each key on the state. It is plain data without side effects.
+//! State of the screen of `withy learn watch`, and the effect of keys on the state.
 
 use std::mem;
 
@@ -11,7 +11,6 @@ use crate::exercises::report::{AttemptOutcome, AttemptReport};
 #[derive(Clone, Debug)]
 pub struct TuiState {
     pub exercise: &'static Exercise,
-    /// Path of the exercise file, as the user would type it.
     pub file: String,
     pub progress: StudentProgress,
     pub last: Option<AttemptReport>,
@@ -23,7 +22,6 @@ pub struct TuiState {
     pub top: ScrollPosition,
     pub notice: Option<String>,
     pub confirmation: Option<Confirmation>,
-    /// Exercise number that the user is typing in the list; 0 without input.
     pub typed: usize,
 }
 
@@ -66,7 +64,6 @@ pub enum KeyAction {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ScrollWindow {
     pub top: usize,
-    /// Largest possible value of `top`, at which the end of the page is visible.
     pub last: usize,
     pub rows: usize,
 }
@@ -104,8 +101,7 @@ impl TuiState {
         }
     }
 
-    /// Returns the first exercise after the current one that has not been passed.
-    /// After the last exercise, the search continues from the beginning of the catalogue.
+    /// Returns the first exercise after the current one, cyclically, that has not been passed.
     pub fn next(&self) -> Option<&'static Exercise> {
         let (before, from) = EXERCISES.split_at(index(self.exercise));
         let others = from.iter().skip(1).chain(before);

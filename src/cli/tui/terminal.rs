@@ -1,4 +1,4 @@
-//! Controls the terminal for `withy learn watch`: switches to the alternate screen and raw mode, and restores the terminal.
+//! Alternate screen and raw mode of the terminal for `withy learn watch`.
 
 use std::io::{self, IsTerminal, Write, stdin, stdout};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,10 +17,10 @@ use super::keys::{Key, key};
 use super::line::ScreenLine;
 use crate::output::{Colours, TerminalStyle};
 
-/// Default size if the terminal does not report a size [columns, rows].
+/// Terminal size [columns, rows] if the terminal does not report it.
 const USUAL: (u16, u16) = (80, 24);
 
-/// True while the terminal is in raw mode. Code that ends the process reads this flag to restore the terminal.
+/// True while the terminal is in raw mode and must be restored before the process ends.
 static HELD: AtomicBool = AtomicBool::new(false);
 
 pub fn is_there() -> bool {
@@ -48,7 +48,7 @@ impl RawTerminal {
         (usize::from(columns), usize::from(rows))
     }
 
-    /// Draws all lines in one write. Nothing is written if the screen has not changed.
+    /// Draws all lines in one write, or nothing if the screen has not changed.
     pub fn show(&mut self, lines: &[ScreenLine], size: (usize, usize)) -> io::Result<()> {
         let mut drawing = Vec::new();
         queue!(drawing, BeginSynchronizedUpdate)?;
@@ -75,8 +75,7 @@ impl RawTerminal {
         Ok(())
     }
 
-    /// Waits for the next key, at most for `timeout`.
-    /// Returns `None` if no key was pressed during this time, or if another event arrived, for example a change of the window size.
+    /// Waits for a key; `None` after `timeout`, or if another event arrives, such as a change of the window size.
     pub fn key(&self, timeout: Duration) -> io::Result<Option<Key>> {
         if !event::poll(timeout)? {
             return Ok(None);
@@ -87,10 +86,7 @@ impl RawTerminal {
         })
     }
 
-    /// Restores the terminal and suspends the process. When the process continues, the terminal is switched to raw mode again.
-    ///
-    /// # Errors
-    /// Fails if the process cannot be suspended, or in the same cases as [`enter`](Self::enter).
+    /// Restores the terminal, suspends the process, and switches to raw mode again when the process continues.
     pub fn suspend(&mut self) -> io::Result<()> {
         restore();
         #[cfg(unix)]
@@ -112,10 +108,10 @@ fn enter_raw_mode() -> io::Result<()> {
     execute!(stdout(), EnterAlternateScreen, Hide)
 }
 
-/// Restores the terminal if it is in raw mode. Code that ends the process without unwinding must call this function.
+/// Restores the terminal if it is in raw mode. Must be called before the process ends without unwinding.
 pub fn restore() {
     if HELD.swap(false, Ordering::Relaxed) {
-        // Restoring fails only if the terminal was closed, so the error is ignored.
+        // Restoring fails only for a closed terminal, so the error is ignored.
         let _ = execute!(stdout(), Show, LeaveAlternateScreen);
         let _ = terminal::disable_raw_mode();
     }

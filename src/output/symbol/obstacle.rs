@@ -12,11 +12,11 @@ use crate::output::hatching::hatch_along;
 use crate::output::plane::View;
 
 const OUTLINE: f64 = 1.5;
-/// Diameter of the largest disc without hatching [pixels].
+/// Largest diameter of a disc that is drawn without hatching [pixels].
 const SMALL: f64 = 20.0;
 /// Number of segments of a circle, or of the part of a large circle near the plot.
 const SEGMENTS: u32 = 96;
-/// Largest distance between obstacle and bodies for which the picture is enlarged to show the obstacle, as a fraction of the picture size.
+/// Largest distance of an obstacle from the bodies at which the picture shows it, as a fraction of the picture size.
 const NEAR: f64 = 0.2;
 
 impl PlacedSymbol {
@@ -31,7 +31,7 @@ impl PlacedSymbol {
             let (start, middle) = (outline[0], outline[outline.len() / 2]);
             let width = hypot(middle.0 - start.0, middle.1 - start.1);
             for run in curve::pieces(outline, plot) {
-                // A disc of a few pixels has no hatching, because the strokes would leave the disc.
+                // A disc of a few pixels has no hatching, whose strokes would leave the disc.
                 if width > SMALL {
                     hatch_along(canvas, &run, plot);
                 }
@@ -40,7 +40,7 @@ impl PlacedSymbol {
         }
     }
 
-    /// Polyline along the part of the boundary of an obstacle that `window` can show. The ground is on the side `(y, -x)` of a tangent `(x, y)`.
+    /// Polyline along the boundary of an obstacle in `window`. For a tangent `(x, y)`, the ground is on the side `(y, -x)`.
     pub(in crate::output) fn outline(
         &self,
         place: impl Fn(Point) -> Point,
@@ -67,8 +67,7 @@ impl PlacedSymbol {
         (0..=SEGMENTS).map(point).collect()
     }
 
-    /// Points of an obstacle that a picture shows in addition to the bodies in the box `bodies`.
-    /// A disc is shown as a whole unless it is larger than the box. Of a larger disc or a wall, the point nearest to the bodies is shown if it is near.
+    /// Points of an obstacle that a picture shows besides the bodies in the box `bodies`: a small disc, or the nearest point if it is near.
     pub(in crate::output) fn shown_points(&self, bodies: &View) -> Vec<Point> {
         let [(left, right), (low, high)] = bodies.ends();
         let size = (right - left).max(high - low);

@@ -1,4 +1,4 @@
-//! Grid of coloured characters, and its conversion to lines of text.
+//! Grid of coloured characters, converted to lines of text.
 
 use super::{Colours, TerminalStyle};
 use crate::output::width::columns_of;
@@ -11,13 +11,10 @@ pub enum TerminalColour {
     Series(usize),
 }
 
-/// Colours of series that are readable on dark and light terminals: cyan, yellow, magenta, green, blue, red.
 const HUES: [u8; 6] = [36, 33, 35, 32, 34, 31];
 
-/// Placeholder after a character that is two columns wide.
 const WIDE_PLACEHOLDER: char = '\0';
 
-/// Characters in lines and columns. Characters outside the grid are ignored.
 #[derive(Clone, Debug)]
 pub struct CharacterGrid {
     style: TerminalStyle,
@@ -38,14 +35,13 @@ impl CharacterGrid {
         }
     }
 
-    /// Writes a text to the right, starting at the given position. The text is converted to the character set of the style.
     pub fn write(&mut self, column: usize, row: usize, text: &str, ink: TerminalColour) {
         let mut column = column;
         for letter in self.style.glyphs.typeset(text).chars() {
             match columns_of(letter) {
-                // A cell contains one character, so combining accents are omitted.
+                // Combining accents are omitted, because a cell contains one character.
                 0 => continue,
-                // A wide character is written only if both of its columns are free.
+                // A wide character is written only if both of its columns are inside the grid.
                 wide if column + wide > self.style.width => return,
                 wide => {
                     self.put(column, row, letter, ink);

@@ -1,5 +1,4 @@
-//! Raster of dots for curves in a terminal. Each character has two by four dots.
-//! The dots are approximately square, because characters are about twice as high as wide.
+//! Raster of dots for curves in a terminal, two by four in each character, which makes them about square.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;
@@ -9,7 +8,6 @@ use crate::output::curve::pieces;
 pub const ACROSS: usize = 2;
 pub const DOWN: usize = 4;
 
-/// Bit of each dot in the code of its Braille character, for both columns from top to bottom.
 const BITS: [[u8; DOWN]; ACROSS] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,14 +28,13 @@ impl Dots {
         Self { columns, rows, cells: vec![(0, TerminalColour::Plain); columns * rows] }
     }
 
-    /// Coordinates of the last dot of the raster. The first dot has the coordinates zero.
+    /// Coordinates of the last dot of the raster, counted from zero.
     pub fn last(&self) -> Point {
         let last = |dots: usize| dots.saturating_sub(1) as f64;
         (last(ACROSS * self.columns), last(DOWN * self.rows))
     }
 
-    /// Draws a curve through points. Coordinates are in dots, starting at the upper left dot. Points that are not finite leave a gap.
-    /// Parts of the curve outside the raster are not drawn.
+    /// Draws a curve through points [dots], with coordinates from the upper left. Points that are not finite leave a gap.
     pub fn curve(
         &mut self,
         points: impl IntoIterator<Item = Point>,
@@ -79,7 +76,7 @@ impl Dots {
     }
 }
 
-/// Dots on the straight line between two dots, without the first dot (Bresenham 1965).
+/// Dots on the straight line between two dots, without the first (J. E. Bresenham, 1965).
 fn line_dots(from: (i64, i64), to: (i64, i64)) -> impl Iterator<Item = (i64, i64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs());

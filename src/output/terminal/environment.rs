@@ -2,22 +2,20 @@
 
 use super::{Colours, Glyphs, TerminalStyle};
 
-/// Default size of a terminal that does not report its size.
+/// Terminal size [columns, lines] if the terminal does not report it.
 const USUAL: (usize, usize) = (80, 24);
 
 const WIDTHS: (usize, usize) = (20, 240);
 const HEIGHTS: (usize, usize) = (8, 60);
 
-/// Number of lines that remain free below a picture, so that picture and prompt are visible together.
 const FREE_LINES: usize = 3;
 
 impl TerminalStyle {
-    /// Style of the terminal described by environment variables. `variable` returns the value of an environment variable.
+    /// Style of a terminal from its environment variables, whose values `variable` returns.
     ///
     /// Colours are not used if `NO_COLOR` is set and not empty, or if `TERM` is `dumb` or not set.
-    /// Braille characters are used for UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font lacks these characters).
-    /// The character set is given by `LC_ALL`, otherwise by `LC_CTYPE`, otherwise by `LANG`. The size is that of `COLUMNS` and `LINES`, or 80 by 24.
-    /// The height of a picture is a few lines smaller than the height of the terminal.
+    /// Braille characters are used for UTF-8, unless `TERM` is `dumb` or `linux` (the console, whose font lacks them).
+    /// The character set is given by `LC_ALL`, otherwise `LC_CTYPE`, otherwise `LANG`; the size by `COLUMNS` and `LINES`.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Self {
         let given = |name: &str| variable(name).filter(|value| !value.is_empty());
         let terminal = given("TERM").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Heat maps as text. Each cell of the table starts with a block character. Larger numbers have darker characters.
+//! Heat maps as text. Each cell starts with a block character, which is darker for larger numbers.
 
 use super::character_grid::{CharacterGrid, TerminalColour};
 use super::{Glyphs, TerminalStyle};
@@ -9,7 +9,7 @@ const BETWEEN: usize = 2;
 const BLOCK: usize = 3;
 
 impl HeatMap {
-    /// Text of the heat map for a terminal. Lines are not wider than `style` allows. The height is not limited.
+    /// Text of the heat map for a terminal, at most as wide as `style` allows. The height is not limited.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let glyphs = style.glyphs;
         let cells: Vec<Vec<(char, TerminalColour, String)>> = self

@@ -1,4 +1,4 @@
-//! Configurations as text. Both axes have the same scale. Beams are lines; point masses, sliders and supports are characters.
+//! Configurations as text: beams as lines; point masses, sliders and supports as characters.
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};
@@ -33,11 +33,10 @@ impl PictureMark {
     }
 }
 
-/// Largest size of a drawing that counts as zero: as a fraction of the coordinates, and as an absolute length.
+/// Largest size of a drawing that counts as zero: as a fraction of the coordinates, and as a length.
 const ROUNDING: (f64, f64) = (1e-10, 1e-290);
-/// Smallest size of a picture with a frame, in columns and lines.
+/// Size of the smallest picture with a frame [columns, lines].
 const LEAST: (usize, usize) = (12, 5);
-/// Number of empty dots between the drawing and its frame.
 const MARGIN: f64 = 2.0;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,13 +86,12 @@ impl ConfigurationPicture {
         self
     }
 
-    /// Sets limits of the axes that must be visible. Both axes have the same scale.
+    /// Sets limits of the axes. Because both axes have the same scale, one of them may show more.
     pub fn limits(mut self, limits: AxisLimits) -> Self {
         self.limits = limits;
         self
     }
 
-    /// Text of the picture for a terminal. The text is at most as wide and as high as `style` allows. A flat drawing has fewer lines.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let has_frame = style.width >= LEAST.0 && style.height >= LEAST.1;
         let border = usize::from(has_frame);
@@ -204,7 +202,6 @@ impl ConfigurationPicture {
         self.write_into(sheet, style, last_row, &edges, &self.signs(style));
     }
 
-    /// Writes two texts into a line of the frame. The right text is omitted if the left text would be cut to less than half of the line.
     fn write_into(
         &self,
         sheet: &mut CharacterGrid,

@@ -6,7 +6,7 @@ use crate::output::width::cut;
 /// Character set of pictures in a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Glyphs {
-    /// Braille characters with eight dots, characters for lines, and typographic minus signs, for terminals with UTF-8.
+    /// Braille characters with eight dots, line-drawing characters, and typographic minus signs, for terminals with UTF-8.
     Braille,
     /// ASCII characters only.
     Ascii,
@@ -21,7 +21,7 @@ pub enum Colours {
     Ansi,
 }
 
-/// Style of a picture in a terminal. No line is wider than `width`, and there are at most `height` lines.
+/// Style of a picture in a terminal: characters, colours and largest size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TerminalStyle {
     /// Character set of the picture.
@@ -35,7 +35,7 @@ pub struct TerminalStyle {
 }
 
 impl TerminalStyle {
-    /// Style with another size, in characters and lines.
+    /// Style with another size [characters, lines].
     #[must_use]
     pub fn sized(self, width: usize, height: usize) -> Self {
         Self { width, height, ..self }
@@ -50,7 +50,7 @@ impl Glyphs {
         }
     }
 
-    /// Converts a text to one line of the allowed characters. For example, in ASCII `10⁻¹²` becomes `1e-12`.
+    /// Converts a text to one line in the character set. For example, in ASCII `10⁻¹²` becomes `1e-12`.
     pub fn typeset(self, text: &str) -> String {
         let line = printable_line(text);
         match self {

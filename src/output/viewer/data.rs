@@ -3,11 +3,11 @@
 use crate::output::canvas::Point;
 use crate::output::symbol::{PlacedSymbol, Symbol};
 
-/// Linear combination of the points of a frame, for example of control points.
+/// Linear combination of points of a frame, for example of control points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
     pub first: usize,
-    /// Weights of consecutive points, starting with the point `first`.
+    /// Weights of consecutive points, beginning with the point `first`.
     pub weights: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ pub struct BeamShape {
     pub line: Vec<PointCombination>,
     /// Knots or nodes of the beam, as indices in `line`.
     pub marks: Vec<usize>,
-    /// Positions of field values, as increasing indices in `line`.
+    /// Indices in `line` of the positions of field values, in increasing order.
     pub stations: Vec<usize>,
 }
 
@@ -41,10 +41,10 @@ pub struct BodyShape {
     pub name: String,
     pub centre: PointCombination,
     pub points: Vec<(String, PointCombination)>,
-    /// Outline of the body. It is closed if it ends at its start, otherwise it is a line. Empty for a body without points.
+    /// Outline of the body, closed if it ends at its start, otherwise a line; empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if it has one. The field `outline` is then the line from the centre to a point of the body.
-    /// The two coordinates of a corner are along the line `outline` and to its left, in units of its length. The last corner repeats the first.
+    /// Corners of the polygon of the body, if it has one, relative to the line `outline` from the centre to a point of the body.
+    /// The coordinates of a corner are along the line and to its left, in units of its length. The last corner repeats the first.
     pub corners: Vec<(f64, f64)>,
 }
 
@@ -55,7 +55,7 @@ pub struct SymbolMark {
     pub at: PointCombination,
     /// Direction of the symbol [rad].
     pub angle: f64,
-    /// Time at which the symbol disappears, because a slider leaves its beam or a joint is released; `None` if it remains.
+    /// Time at which the symbol disappears by a release, or because a slider leaves its beam; `None` if it remains.
     pub until: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ pub struct SpringShape {
     pub symbol: Symbol,
     pub name: String,
     pub anchors: Vec<SpringEnd>,
-    /// Time of the release of the spring, damper or tendon; `None` if it is not released.
+    /// Time at which the spring, damper or tendon is released; `None` if it is not released.
     pub until: Option<f64>,
 }
 
@@ -94,8 +94,7 @@ pub struct ColourField {
     pub name: String,
     /// Unit or dimension of the field; empty for a pure number.
     pub unit: String,
-    /// Values in each frame, at the stations of the first beam, then of the next beam, and so on.
-    /// Positions with values that are not finite are not coloured.
+    /// Values in each frame at the stations of all beams, one beam after the other. Values that are not finite have no colour.
     pub values: Vec<Vec<f64>>,
 }
 
@@ -111,7 +110,7 @@ pub struct TimeCurve {
 pub struct ViewerData {
     pub label: String,
     pub times: Vec<f64>,
-    /// Points of all bodies in each frame. Their order is the same in all frames.
+    /// Points of all bodies in each frame, in the same order in all frames.
     pub points: Vec<Vec<Point>>,
     pub beams: Vec<BeamShape>,
     pub particles: Vec<ParticleShape>,

@@ -1,4 +1,4 @@
-//! HTML page of the viewer: a template with style, scripts and the motions as data.
+//! HTML page of the viewer: a template with style, scripts, and motions as data.
 
 use serde_json::{Value, json};
 
@@ -28,14 +28,14 @@ const PROGRAMS: [&str; 9] = [
     include_str!("page/controls.js"),
 ];
 
-/// Number of rounding intervals between the smallest and the largest value of a field. A screen shows fewer different shades.
+/// Number of rounding steps between the smallest and largest value of a field, more than the shades that a screen distinguishes.
 const SHADES: u16 = 255;
-/// Number of values to which a load component between -1 and 1 is rounded. The number is odd, so that zero is one of the values.
+/// Number of values to which a load component between -1 and 1 is rounded; odd, so that zero is one of them.
 const LOAD_STEPS: u16 = 4095;
-/// Number of steps between 0 and 1 for rounding of weights. The rounding error is far below the resolution of the points.
+/// Number of rounding steps of weights between 0 and 1, whose error is far below the resolution of the points.
 const WEIGHT_PARTS: f64 = 1e7;
 
-/// HTML page with one motion or several motions side by side.
+/// HTML page with one motion, or several motions side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Viewer {
     /// Title of the page.
@@ -58,7 +58,7 @@ impl Viewer {
             })
             .collect();
         let data = json!({ "title": self.title, "hues": hues, "films": motions });
-        // Within a script element, only the character `<` could end the data.
+        // Only the character `<` could end the script element that contains the data.
         let data = data.to_string().replace('<', "\\u003c");
         let title = escaped(&self.title);
         Ok(filled(

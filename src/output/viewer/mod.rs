@@ -1,7 +1,6 @@
 //! Viewer for motions in a browser: a single HTML file that needs no network access.
 //!
-//! Bodies are stored as their control points or nodes, with 16 bits for each coordinate. The browser computes the curves from these points.
-//! The curves are exact at every drawn point, and need less space than polylines.
+//! Bodies are stored as control points or nodes, from which the browser computes the exact curves. This needs less space than polylines.
 
 mod data;
 mod document;

@@ -1,4 +1,4 @@
-//! Packing of time series as short texts: numbers are rounded to steps, replaced by differences, compressed by DEFLATE, and encoded in base64.
+//! Packing of time series as text: numbers are rounded, replaced by differences, compressed by DEFLATE, and encoded in base64.
 
 use std::io::Write;
 
@@ -9,16 +9,15 @@ use serde_json::{Value, json};
 use crate::output::OutputError;
 use crate::output::base64::base64;
 
-/// Code for values that are not finite. Codes of finite values are smaller.
+/// Code of values that are not finite, larger than the codes of finite values.
 const MISSING: u16 = u16::MAX;
-/// Largest number of rounding steps. The rounding error is at most half a step.
 pub const FINEST: u16 = MISSING - 1;
 
 /// Rounding of numbers to steps: `number = origin + step · code`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantisation {
     pub origin: f64,
-    /// Rounding step: difference between the numbers of consecutive codes. Zero if all numbers are equal.
+    /// Difference between the numbers of consecutive codes; zero if all numbers are equal.
     pub step: f64,
 }
 
@@ -30,7 +29,7 @@ impl Quantisation {
                 (a.min(number), b.max(number))
             });
         match least <= greatest {
-            // The numbers are halved first, so that the difference of any two numbers is finite.
+            // Halved numbers are subtracted, because the difference of two large numbers may be infinite.
             true => Self {
                 origin: least,
                 step: (greatest / 2.0 - least / 2.0) / f64::from(steps) * 2.0,
@@ -50,7 +49,7 @@ impl Quantisation {
     }
 }
 
-/// Packs `numbers` time series of `frames` values each, in the format that the page reads. The arguments of `value` are the series and the frame.
+/// Packs `numbers` time series of `frames` values each for the page. The arguments of `value` are the series and the frame.
 ///
 /// # Errors
 /// Fails if the compression fails, which would be an internal error.
@@ -62,7 +61,7 @@ pub fn pack(
     let codes: Vec<Vec<u16>> = (0..numbers)
         .map(|number| (0..frames).map(|frame| scale.code(value(number, frame))).collect())
         .collect();
-    // Second differences are smaller for smooth motions, first differences for other motions. The shorter result is used.
+    // Second differences are smaller for smooth motions, and first differences for others. The order with the shorter result is used.
     let cost = |order: u32| -> u64 {
         let all = codes.iter().flat_map(|series| differences(series, order));
         all.map(|difference| u64::from(u16::BITS - difference.leading_zeros())).sum()
@@ -85,7 +84,6 @@ pub fn pack(
     }))
 }
 
-/// First or second differences modulo 2¹⁶ in zigzag encoding, which makes small negative numbers small.
 fn differences(codes: &[u16], order: u32) -> impl Iterator<Item = u16> + '_ {
     let (mut last, mut last_change) = (0u16, 0u16);
     codes.iter().map(move |&code| {

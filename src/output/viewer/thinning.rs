@@ -1,9 +1,8 @@
-//! Selection of the rows of a long history for a chart. Extreme values are kept.
+//! Selection of the rows of a long history that a chart shows.
 
 const MOST_ROWS: usize = 3000;
 
-/// Indices of the rows that are kept, always including the last row.
-/// Many rows are divided into pieces. Of each piece, the first row and the rows with the extreme values of every column are kept.
+/// Indices of the rows that are kept: of many rows, those with the extreme values of every column in each piece of the history.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -82,7 +82,6 @@ fn command_page(command: &Command) -> HelpPage {
     page
 }
 
-/// Lists the commands, and how to get further help. The list is short, so that it fits on the screen.
 fn commands(shell: &mut Shell) -> CommandOutcome {
     let mut page = HelpPage::default();
     page.heading("Commands of the prompt");

@@ -129,7 +129,7 @@ pub fn error_estimate(shell: &mut Shell, operand: &str) -> CommandOutcome {
 
 pub fn view(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let file = if operand.is_empty() { "view.html" } else { operand.trim_matches('"') };
-    // Quotes and backslashes would end the string literal in the generated script. They are removed, because file names do not need them.
+    // Quotes and backslashes are removed from the file name, because they would end the string literal in the generated script.
     let name: String = file.chars().filter(|letter| !matches!(letter, '"' | '\\')).collect();
     let outcome = shell.call_latest(&format!("write_viewer(\"{name}\")"));
     if outcome == CommandOutcome::Success {

@@ -1,4 +1,4 @@
-//! Commands of the prompt: a table, and their implementations. Scripts are evaluated by the shell, not here.
+//! Commands of the prompt.
 
 mod help;
 mod inspection;

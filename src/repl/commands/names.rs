@@ -13,7 +13,7 @@ use crate::script::presentation::present::present;
 
 const DIGITS: usize = 6;
 
-/// Help for a name of the session, as a text and a help page. The text may contain source code and is shown without changes.
+/// Help for a name of the session. The text may contain source code and is shown without changes.
 pub struct NameInfo {
     pub shown: Option<String>,
     pub page: HelpPage,
@@ -63,8 +63,6 @@ fn text_of(shell: &Shell, name: &str) -> Option<String> {
     Some(lines.collect::<Vec<_>>().join("\n"))
 }
 
-/// Help topic for a name. For a member of a variable, the topic contains the type of the variable, as in `Beam.length`.
-/// For an imported function, the topic is the full name of the function.
 pub fn in_language(shell: &Shell, name: &str) -> String {
     let surroundings = shell.surroundings();
     if let Some((owner, member)) = name.rsplit_once('.')
@@ -130,7 +128,6 @@ fn extent(value: &Dynamic) -> String {
     }
 }
 
-/// Value of a property of a variable. Reading the property has no side effects.
 fn member(shell: &mut Shell, path: &str) -> Option<NameInfo> {
     let (first, _) = path.split_once('.')?;
     if !shell.session().variables().contains(first) || path.contains(['(', '[', '/', ':']) {

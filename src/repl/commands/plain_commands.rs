@@ -1,9 +1,9 @@
-//! Words for help and for leaving the session that are accepted without the colon of a command.
+//! Words for help and for quitting that are accepted without the colon of a command.
 
 use super::{Command, HELP, QUIT};
 
-/// Command and operand of an input without a colon, such as `quit`, `exit()`, `help`, `help sine` or `sim?`; `None` for other inputs.
-/// Inputs that are variable names are not commands. The callback `is_variable` returns true for such names.
+/// Command and operand of an input without a colon, such as `quit`, `exit()`, `help sine` or `sim?`; `None` for other inputs.
+/// A word is not a command if a variable has this name, for which `is_variable` returns true.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();

@@ -106,7 +106,7 @@ fn column_summaries(history: &History, columns: &[String]) -> Result<String, Scr
     Ok(columns.iter().map(line).collect::<Result<Vec<_>, _>>()?.join("\n"))
 }
 
-/// Interprets a part of the operand of `:plot`: as column names if each word can be a column, otherwise as an expression.
+/// Interprets a part of the operand of `:plot` as column names if each word can be a column, otherwise as an expression.
 fn read(shell: &Shell, part: &str) -> PlotPart {
     let words: Vec<String> =
         part.split_whitespace().map(|word| word.trim_matches('"').to_owned()).collect();
@@ -115,7 +115,7 @@ fn read(shell: &Shell, part: &str) -> PlotPart {
         shell.session().variables().contains(name)
             || shell.session().catalog().constants().any(|constant| constant == name.as_str())
     };
-    // Without a simulation, only the standard columns of every history are known.
+    // Without a simulation, only the standard columns of all histories are known.
     let is_column = |name: &String| match &latest {
         Some(latest) => name == "drift" || latest.simulation().history().dimension(name).is_some(),
         None => History::COLUMNS.iter().any(|column| column.name == name) && !is_known(name),
@@ -185,7 +185,6 @@ fn plot_curves(shell: &mut Shell, found: Vec<PlotPart>, options: Option<Map>) ->
     CommandOutcome::Success
 }
 
-/// Charts of curves, one for each dimension. The dimension of expressions is unknown, so they are drawn in the chart of the first column.
 fn charts(
     shell: &Shell,
     options: &Map,
@@ -220,14 +219,13 @@ fn columns(shell: &mut Shell, names: &[String]) -> PlotData {
     Ok((curves, None))
 }
 
-/// Evaluates an expression at the present time. If the value is a single point of a curve, the expression is also evaluated at all earlier states.
 fn expression(shell: &mut Shell, text: &str) -> PlotData {
     let subject = match subject(shell, text) {
         Ok(subject) => subject,
         Err(refusal) => return Err(shell.report_error(&refusal)),
     };
     let before = shell.session().simulation_positions();
-    // The expression is evaluated on a copy of the simulation, so that it cannot change the simulation by mistake.
+    // The expression is evaluated on a copy of the simulation, because it might change the simulation.
     let present = subject.as_ref().map(Revisit::at_present).transpose();
     let present = present.map_err(|error| shell.report_native_error(error))?;
     let place = present.as_ref().map(Revisit::place);

@@ -15,7 +15,7 @@ pub fn save(shell: &mut Shell, operand: &str) -> CommandOutcome {
         return shell.report_error(&message.with_hint("write :save FILE.rhai"));
     }
     let path = Path::new(operand);
-    // A file is not overwritten if another program wrote it, or if it was edited after this program wrote it.
+    // A file of another program, or a file edited after this program wrote it, is not overwritten.
     if !shell.may_write(path) {
         let message = format!("'{operand}' exists and was not written by this session");
         return shell.report_error(&Diagnostic::general(message).with_hint("choose another name"));

@@ -4,7 +4,6 @@ use crate::repl::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::messages::numbers::format_number;
 
-/// Upper limit for numbers of steps. Every integer below this limit has an exact floating-point representation.
 const MOST_STEPS: f64 = 9e15;
 
 pub fn step(shell: &mut Shell, operand: &str) -> CommandOutcome {

@@ -1,4 +1,4 @@
-//! Table of the commands, for the dispatch of inputs, help and completion.
+//! Table of the commands, used to execute, explain and complete them.
 
 use super::{help, inspection, plotting, session, stepping, timing};
 use crate::repl::editor::surroundings::CommandOperand;
@@ -14,7 +14,6 @@ pub struct Command {
     pub placeholder: &'static str,
     pub summary: &'static str,
     pub doc: &'static str,
-    /// Function that executes the command. Its argument is the text after the command name.
     pub body: fn(&mut Shell, &str) -> CommandOutcome,
 }
 
@@ -176,10 +175,7 @@ impl Command {
     }
 }
 
-/// Finds the command with this name or unambiguous beginning of a name. The name includes the colon.
-///
-/// # Errors
-/// Fails if no command or several commands have a name with this beginning.
+/// Finds a command by its name with the colon, or by an unambiguous beginning of this name.
 pub fn find(name: &str) -> Result<&'static Command, Diagnostic> {
     if let Some(exact) = COMMANDS.iter().find(|command| command.name == name) {
         return Ok(exact);

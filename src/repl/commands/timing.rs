@@ -1,4 +1,4 @@
-//! Command `:time`, which measures the duration of the first evaluation and of repeated evaluations of an input.
+//! Command `:time`, which measures the first and further evaluations of an input.
 
 use std::time::Duration;
 
@@ -19,7 +19,7 @@ pub fn time(shell: &mut Shell, operand: &str) -> CommandOutcome {
     let begun = clock.now();
     let outcome = shell.submit(operand);
     let took = clock.now().saturating_sub(begun);
-    // A simulation that the timed input created must not become the last used simulation if no variable refers to it.
+    // A simulation created by the timed input must not become the last used simulation if no variable contains it.
     if let Some(earlier) = earlier.filter(|_| !shell.has_latest_simulation()) {
         shell.session().context().set_latest_simulation(earlier);
     }
@@ -71,7 +71,7 @@ fn repeat(shell: &mut Shell, operand: &str, first: Duration) -> CommandOutcome {
     }
 }
 
-/// Text with the measured run times. The first run is reported separately, because it includes one-time work such as loading.
+/// Text with the measured run times. The first run is separate, because it includes work that is done only once.
 fn report(first: &str, figures: &Figures) -> String {
     let [least, median, low, high] =
         [figures.least, figures.median, figures.quartiles.0, figures.quartiles.1].map(in_words);

@@ -1,4 +1,4 @@
-//! Completion candidates, and their comparison with the typed text.
+//! Completion candidates, compared with the typed text.
 
 use crate::script::bindings::built_in::{BuiltIn, FunctionForm, NameSuffix};
 use crate::script::bindings::parameter::Parameter;
@@ -16,8 +16,7 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate for a function, displayed with its arguments in parentheses such as `(from, to)`. Accepting it inserts the opening parenthesis.
-    /// For a function without arguments, both parentheses are inserted.
+    /// Candidate for a function, displayed with its arguments, such as `(from, to)`, that inserts the opening parenthesis.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {
@@ -27,7 +26,7 @@ impl Candidate {
         }
     }
 
-    /// Candidate for a function or property of the language. `before_dot` is the number of parameters before the dot of a method call.
+    /// Candidate for a function or property of the language. Its first `before_dot` parameters are before the dot of a method call.
     pub fn row(row: &'static FunctionBinding, before_dot: usize) -> Self {
         match row.form {
             CallSyntax::Property(_) | CallSyntax::Operator => Self::word(row.name, row.summary),
@@ -72,7 +71,7 @@ fn arguments(parameters: &[Parameter]) -> String {
     format!("({})", parameters.iter().map(written).collect::<Vec<_>>().join(", "))
 }
 
-/// Name of a parameter in a signature. The names of optional parameters are in brackets.
+/// Name of a parameter in a signature, in brackets if the parameter is optional.
 pub fn written(parameter: &Parameter) -> String {
     match parameter.is_required() {
         true => parameter.name.to_owned(),
@@ -81,7 +80,7 @@ pub fn written(parameter: &Parameter) -> String {
 }
 
 /// Candidates that begin with `typed`, sorted and without duplicates.
-/// If no candidate begins with `typed`, candidates that contain its letters in the same order, in upper or lower case, are returned.
+/// If no candidate begins with `typed`, the candidates that contain its letters in the same order, in either case, are returned.
 pub fn fitting(typed: &str, candidates: impl IntoIterator<Item = Candidate>) -> Vec<Candidate> {
     let mut all: Vec<Candidate> = candidates.into_iter().collect();
     all.sort_by_key(|candidate| (candidate.name().to_lowercase(), candidate.clone()));

@@ -5,7 +5,7 @@ use super::completion::complete;
 use super::paths::{FileFilter, complete_path};
 use super::surroundings::{CommandOperand, CommandWord, CompletionContext};
 
-/// Completion candidates for `text`, a command or a help request. The number is the index of the first byte that a candidate replaces.
+/// Completion candidates for a command or a help request, and the index of the first byte that a candidate replaces.
 pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize, Vec<Candidate>) {
     let begin = text.len() - text.trim_start().len();
     let command = &text[begin..];
@@ -37,7 +37,7 @@ pub fn complete_command(text: &str, surroundings: &CompletionContext) -> (usize,
             let columns = fitting(&operand[last..], columns);
             let (offset, found) = complete(operand, operand.len(), surroundings);
             match columns.is_empty() {
-                // Only columns and variables are suggested as curves, because a list of all functions would be too long.
+                // Only columns and variables are suggested as curves, because the functions would be too many.
                 false => {
                     let variables = surroundings.variables.iter();
                     let variables = variables.map(|known| Candidate::word(&known.name, ""));

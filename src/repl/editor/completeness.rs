@@ -5,18 +5,17 @@ use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 /// Completeness of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Completeness {
-    /// The input can be evaluated, or evaluating it reports an error.
+    /// The input can be evaluated, or has an error that further lines cannot correct.
     Complete,
-    /// The input is incomplete. The variant contains the indentation level of the next line.
+    /// The input is incomplete. The number is the indentation level of the next line.
     Open(usize),
 }
 
 use Completeness::{Complete, Open};
 
-/// Number of empty lines at the end of an input after which the input counts as complete.
 const EMPTY_LINES: usize = 2;
 
-/// Determines whether `text` typed at a prompt is complete. Commands, and inputs that end with two empty lines, are always complete.
+/// Completeness of a text at a prompt. Commands, and inputs that end with two empty lines, are always complete.
 pub fn completeness(text: &str) -> Completeness {
     let tail = &text[text.trim_end().len()..];
     let is_forced = tail.matches('\n').count() >= EMPTY_LINES;
@@ -31,10 +30,9 @@ pub fn is_command(text: &str) -> bool {
     text.trim_start().starts_with([':', '?'])
 }
 
-/// Determines whether `text` from a file or a pipe is complete. Empty lines have no effect.
+/// Completeness of a text from a file or a pipe, in which empty lines have no effect.
 ///
-/// A wrong closing bracket or an unclosed string literal cannot be corrected by further lines.
-/// An input that cannot be corrected counts as complete, so that its error is reported.
+/// A text that further lines cannot correct, such as one with a wrong closing bracket, counts as complete, so that its error is reported.
 pub fn completeness_of_script(text: &str) -> Completeness {
     let tokens = scan(text);
     // A doc comment is incomplete, because a function must follow it.
@@ -52,17 +50,17 @@ pub fn completeness_of_script(text: &str) -> Completeness {
     reader.conclude()
 }
 
-/// Operators that need an operand on their right, so that an input that ends with one is incomplete.
+/// Operators that make an input incomplete at its end, because an operand must follow.
 const GO_ON: &[&str] = &[
     "+", "-", "*", "/", "%", "**", "^", "=", "+=", "-=", "*=", "/=", "%=", "**=", "^=", "&=", "|=",
     "<<=", ">>=", "==", "!=", "<", ">", "<=", ">=", "&&", "||", "&", "|", "<<", ">>", "??", "!",
     ",", ".", "?.", "..", "..=", ":", "::", "=>",
 ];
 
-/// Keywords that must be followed by something other than a block.
+/// Keywords that something other than a block must follow.
 const INTRODUCE: &[&str] = &["let", "const", "in", "import", "as", "private", "export"];
 
-/// Keywords that must be followed by a block, possibly after a condition.
+/// Keywords that a block must follow, possibly after a condition.
 const HEADS: &[&str] =
     &["fn", "if", "else", "while", "until", "for", "loop", "switch", "do", "try", "catch"];
 
@@ -88,9 +86,9 @@ struct InputReader<'t> {
     level: BracketLevel<'t>,
     line: usize,
     is_incomplete: bool,
-    /// True if the last token ends a value. A bar after a value is an operator.
+    /// True if the last token ends a value. A bar after a value is an operator, not the start of a closure.
     is_value: bool,
-    /// True within a string literal or comment, where no indentation must be added.
+    /// True within a string literal or comment, which must not be indented.
     is_literal: bool,
 }
 
@@ -188,7 +186,7 @@ impl<'t> InputReader<'t> {
             || self.level.is_between_bars
             || self.level.keyword.is_some();
         if self.level.bracket.is_none() {
-            // After `fn f()` or `try { }`, the next line is not indented. After an incomplete expression, it is indented.
+            // The next line is indented after an incomplete expression, but not after `fn f()` or `try { }`.
             return if waits { Open(usize::from(self.is_incomplete)) } else { Complete };
         }
         // All brackets opened on one line together indent the next line by one level.

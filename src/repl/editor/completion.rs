@@ -14,7 +14,7 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords::KEYWORDS;
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Candidates for the word at `position` in `line`, and the index of the first byte of this word.
+/// Completion candidates for the word at `position` in `line`, and the index of the first byte of this word.
 pub fn complete(
     line: &str,
     position: usize,
@@ -25,7 +25,7 @@ pub fn complete(
         true => complete_command(&line[..position], surroundings),
         false => complete_language(line, position, surroundings),
     };
-    // If the text after the cursor already is the end of a candidate, this end is not inserted again.
+    // If the text after the cursor is already the end of a candidate, this end is not inserted again.
     for candidate in &mut candidates {
         for mark in ["(", "\"", "\"]", "::", ": "] {
             if after.starts_with(mark.trim_end()) && candidate.replacement.ends_with(mark) {
@@ -81,7 +81,7 @@ fn complete_language(
     (start, fitting(typed, candidates))
 }
 
-/// Blanks of one indentation level. The TAB key inserts them at the start of a continuation line.
+/// Blanks that the TAB key inserts at the start of a continuation line.
 pub const INDENTATION: &str = "    ";
 
 fn is_indentation(input: &Input) -> bool {

@@ -1,24 +1,24 @@
-//! Search for the definition of a name in the text of a script, which may be incomplete.
+//! Search for definitions of a name in the text of a script, which may be incomplete.
 
 use std::ops::Range;
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, scan};
 
-/// Place where a name is defined. Ranges are bytes of the text.
+/// Place where a name is defined [bytes of the text].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Definition<'t> {
-    /// The definitions are in the same text. Functions of one name may have several definitions.
+    /// Definitions in the same text; functions of one name may have several.
     Here(Vec<Range<usize>>),
-    /// The definition is in an imported file. Without a name, it is the file itself.
+    /// Definition in an imported file, or the file itself if no name is given.
     Imported {
         /// Path in the import.
         path: &'t str,
-        /// Name within the file.
+        /// Name in the imported file.
         name: Option<&'t str>,
     },
 }
 
-/// Definition of the name, or of the path of an import, at byte `offset`.
+/// Definition of the name, or file of the import, at byte `offset`.
 pub fn definition(text: &str, offset: usize) -> Option<Definition<'_>> {
     let code = TokenizedText::of(text);
     let is_here = |token: &Token| (token.start..=token.end).contains(&offset);
@@ -49,15 +49,13 @@ pub fn definition(text: &str, offset: usize) -> Option<Definition<'_>> {
     }
 }
 
-/// Definitions of a name that other scripts can use: functions, and variables outside functions and blocks.
+/// Definitions of a name that other scripts can use: a function, or a variable outside functions and blocks.
 pub fn exported(text: &str, name: &str) -> Vec<Range<usize>> {
     TokenizedText::of(text).exported(name)
 }
 
-/// Largest number of parameters of a function. It limits the run time for texts with errors.
 const MOST_PARAMETERS: usize = 100;
 
-/// Largest number of tokens between the word `fn` and the parameters, as in `fn number.twice()`.
 const LONGEST_NAME: usize = 3;
 
 struct TokenizedText<'t> {
@@ -65,7 +63,6 @@ struct TokenizedText<'t> {
     tokens: Vec<Token>,
 }
 
-/// Names that are visible up to the end of a bracket or closure.
 #[derive(Default)]
 struct Scope {
     is_closure: bool,
@@ -74,7 +71,6 @@ struct Scope {
     declared: Vec<usize>,
     /// Token index of the name in a declaration whose value is not complete.
     pending: Option<usize>,
-    /// Token indices of the names that are visible in the next block: parameters, loop variables, and variables of `catch`.
     next_block: Vec<usize>,
     next_is_function: bool,
 }

@@ -1,4 +1,4 @@
-//! Search for the parameters that a call expects at the cursor.
+//! Parameters that a call expects at the cursor.
 
 use super::input::{CalleeName, Input, OpenBracket};
 use super::surroundings::CompletionContext;
@@ -35,7 +35,7 @@ impl<'a, 't> Expected<'a, 't> {
         self.levels.len().checked_sub(1).map_or_else(Vec::new, |depth| self.at(depth))
     }
 
-    /// Keys of an option map if its bracket is the innermost bracket at the cursor; otherwise empty.
+    /// Keys of an option map if its bracket is the innermost open bracket at the cursor, otherwise none.
     pub fn keys(&self) -> Vec<&'static Parameter> {
         match self.levels.len().checked_sub(2) {
             Some(outer) if self.levels[outer + 1].bracket == Bracket::Map => keys(&self.at(outer)),
@@ -43,8 +43,7 @@ impl<'a, 't> Expected<'a, 't> {
         }
     }
 
-    /// Option keys of a library function with their descriptions.
-    /// No keys are returned if the innermost bracket at the cursor is not the option map of a library function.
+    /// Option keys of a library function, with their descriptions; none unless the cursor is in the option map of such a function.
     pub fn library_keys(&self) -> &'a [(String, String)] {
         let [.., call, map] = self.levels.as_slice() else { return &[] };
         if map.bracket != Bracket::Map || call.bracket != Bracket::Round {
@@ -59,7 +58,7 @@ impl<'a, 't> Expected<'a, 't> {
         of.map(|function| function.keys.as_slice()).unwrap_or_default()
     }
 
-    /// Innermost call whose arguments contain the cursor. Arrays, maps and parentheses around the cursor are skipped.
+    /// Innermost call with the cursor among its arguments. Arrays, maps and parentheses around the cursor are skipped.
     pub fn call(&self) -> Option<(OpenBracket<'t>, CalleeName<'t>)> {
         let transparent = |level: &&OpenBracket| {
             matches!(level.bracket, Bracket::Round | Bracket::Square | Bracket::Map)

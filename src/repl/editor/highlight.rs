@@ -7,7 +7,7 @@ use crate::script::presentation::highlight::{self, HighlightStyle, UNMATCHED, dr
 
 const COMMAND: HighlightStyle = HighlightStyle("1");
 
-/// Names of a session with their colours. The object is created once per prompt.
+/// Names of a session with their colours, collected once per prompt.
 pub struct SessionNames {
     language: highlight::Vocabulary,
     context: CompletionContext,

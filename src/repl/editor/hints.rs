@@ -35,8 +35,7 @@ impl Hint {
     }
 }
 
-/// Hint for the cursor at `position`. There is a hint only if the cursor is at the end of `line`.
-/// The hint is the rest of the only matching name, the signature of the call around the cursor, or the keys of the options of this call.
+/// Hint after the cursor, if it is at the end of `line`: the rest of the only matching name, or the signature or option keys of a call.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;

@@ -1,8 +1,7 @@
-//! Tokens of an input before the cursor, and the open brackets of the input.
+//! Tokens of an input before the cursor, and its open brackets.
 
 use crate::script::source::scanner::{Bracket, Token, TokenKind, pair, scan};
 
-/// Largest number of open brackets in the search. Brackets farther outside have no influence on the completion at the cursor.
 const MOST_LEVELS: usize = 64;
 
 pub struct Input<'t> {
@@ -10,9 +9,7 @@ pub struct Input<'t> {
     pub tokens: Vec<Token>,
     /// Token that ends at the cursor. It may be white space or a comment.
     pub last: Option<Token>,
-    /// Index of the matching bracket for each token that is a bracket.
     partners: Vec<Option<usize>>,
-    /// Token indices of the brackets that are open at the cursor. The innermost bracket is last.
     open: Vec<usize>,
 }
 
@@ -58,7 +55,7 @@ impl<'t> Input<'t> {
         matches!(self.written(index), "." | "?.")
     }
 
-    /// Name that is being typed at the cursor, and its start [bytes]. The name is empty if the cursor is not at a name.
+    /// Start [bytes] and text of the name before the cursor; empty if there is none.
     pub fn name(&self) -> (usize, &'t str) {
         match self.last {
             Some(token) if token.kind == TokenKind::Word => (token.start, token.of(self.text)),
@@ -70,7 +67,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets that are open at the cursor, from the outside to the inside. Of many brackets, only the innermost are returned.
+    /// Brackets that are open at the cursor, from the outside to the inside; of many brackets, only the innermost.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()
@@ -101,7 +98,7 @@ impl<'t> Input<'t> {
         level
     }
 
-    /// Function whose arguments begin at the bracket token `opener`; `None` if the bracket does not belong to a call.
+    /// Function with its argument list at the bracket token `opener`; `None` if the bracket does not belong to a call.
     pub fn callee(&self, opener: usize) -> Option<CalleeName<'t>> {
         let at = opener.checked_sub(1)?;
         let is_call = self.kind(opener) == Some(TokenKind::Open(Bracket::Round))

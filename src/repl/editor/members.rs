@@ -7,8 +7,8 @@ use crate::script::bindings::returns::ValueKind;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::source::scanner::is_name;
 
-/// Members of a value as completion candidates, for a map in a variable also the keys of the map.
-/// For a value of unknown type, matching members of all types are returned, provided that part of a name has been typed.
+/// Completion candidates for the members of a value, and for the keys of a map in a variable.
+/// For a value of unknown type, members of all types are returned that match the typed part of a name.
 pub fn members(
     of: Option<ValueKind>,
     variable: Option<&Variable>,

@@ -1,6 +1,4 @@
-//! Editing of inputs: detection of complete inputs, completion, hints and colours.
-//!
-//! The modules of the editor have no side effects. They use the tokens of [`scanner`](crate::script::source::scanner).
+//! Editing of inputs, without side effects: detection of complete inputs, completion, hints and colours.
 
 pub(crate) mod candidates;
 mod commands;

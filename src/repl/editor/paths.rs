@@ -13,7 +13,7 @@ pub enum FileFilter {
     Modules,
 }
 
-/// Files and folders in `folder` that match `typed`, and the start of the last path component in `typed`.
+/// Files and folders in `folder` that match `typed`, and the start of the last path component in `typed` [bytes].
 /// Hidden files match only if the last component of `typed` starts with a dot.
 pub fn complete_path(typed: &str, folder: &Path, files: FileFilter) -> (usize, Vec<Candidate>) {
     let start = typed.rfind('/').map_or(0, |slash| slash + 1);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::script::bindings::catalog::Catalog;
 
-/// Names of a session for completion and hints, collected before each prompt. The values of variables are not stored.
+/// Names of a session for completion and hints, without the values of variables.
 #[derive(Clone)]
 pub struct CompletionContext {
     /// Catalog of the names of the language.
@@ -19,14 +19,13 @@ pub struct CompletionContext {
     pub commands: Vec<CommandWord>,
     /// History columns of the last simulation.
     pub columns: Vec<String>,
-    /// Base folder for relative file names.
+    /// Folder to which file names are relative.
     pub folder: PathBuf,
 }
 
 /// Variable of the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Name of the variable.
     pub name: String,
     /// Type name in the language, such as `simulation`, `number` or `map`.
     pub of: String,
@@ -37,7 +36,6 @@ pub struct Variable {
 /// Script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScriptFunction {
-    /// Name of the function.
     pub name: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
@@ -72,19 +70,19 @@ pub struct CommandWord {
 pub enum CommandOperand {
     /// No operand.
     Nothing,
-    /// Name of the language.
+    /// Name of the language, for example a function.
     Name,
     /// File name.
     File,
-    /// An expression of the language.
+    /// Expression of the language.
     Expression,
     /// Columns of the history, or expressions that define curves.
     Curves,
-    /// Number.
+    /// A number.
     Number,
     /// One of the given words, such as `on` and `off`.
     OneOf(&'static [&'static str]),
-    /// Expression or map of options. The map is completed like the next argument of the given unfinished call.
+    /// Expression or map of options, which is completed like the next argument of the given unfinished call.
     OptionsOf(&'static str),
 }
 

@@ -7,10 +7,9 @@ use crate::script::bindings::table::CallSyntax;
 use crate::script::source::keywords;
 use crate::script::source::scanner::{Bracket, TokenKind};
 
-/// Largest number of members and calls in a chain such as `a.b().c[0].d`.
+/// Largest number of members and calls in a chain such as `a.b().c[0].d` whose type is derived.
 const LONGEST_CHAIN: usize = 32;
 
-/// Largest nesting depth of parentheses and declarations that is examined.
 const DEEPEST: usize = 16;
 
 #[derive(Clone, Copy)]
@@ -138,7 +137,7 @@ impl<'t> Types<'_, 't> {
     }
 
     /// Type of the value in the last statement `let name = value;` before the token `at`.
-    /// The outer option is `None` if the name is not declared, the inner option if the type of its value is unknown.
+    /// The outer option is `None` if `name` is not declared, and the inner option if the type of its value is unknown.
     fn declared(&self, name: &str, at: usize, depth: usize) -> Option<Option<ValueKind>> {
         let input = self.input;
         let is_declared = |place: &usize| {

@@ -1,13 +1,13 @@
-//! Evaluation of an expression whose changes of variables are undone, once or repeatedly.
+//! Evaluation of an expression, once or repeatedly, whose changes of variables are undone.
 
 use rhai::{AST, Dynamic};
 
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
 
-/// Callbacks of a repeated evaluation. Each evaluation starts from the same variables.
+/// Callbacks of a repeated evaluation.
 pub trait Rounds {
-    /// Prepares the next evaluation. Returns `false` if the input must not be evaluated again.
+    /// Prepares the next evaluation. Returns false if the expression must not be evaluated again.
     fn begin(&mut self) -> bool;
     /// Receives the value of a completed evaluation.
     fn end(&mut self, value: Dynamic);
@@ -40,7 +40,7 @@ impl Session {
         }
     }
 
-    /// Evaluates an expression repeatedly. The text is parsed only once, and variables are restored before each evaluation.
+    /// Evaluates an expression repeatedly. It is parsed once, and variables are restored before each evaluation.
     ///
     /// # Errors
     /// Returns the reply to the first failed evaluation.

@@ -1,4 +1,4 @@
-//! Implementation of the helper traits of rustyline: completion, hints and highlighting.
+//! Completion, hints and highlighting for the library rustyline.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -16,7 +16,6 @@ use crate::repl::editor::completion::complete;
 use crate::repl::editor::highlight::{SessionNames, highlight};
 use crate::repl::editor::hints::{self, Hint};
 
-/// Largest number of candidates that are listed with summaries, one candidate per line.
 const SHORT_LIST: usize = 12;
 
 pub struct Assistant {
@@ -25,7 +24,7 @@ pub struct Assistant {
     prompt_width: usize,
     colours: Colours,
     from_history: HistoryHinter,
-    /// True while the completed line is drawn for the last time, without hints.
+    /// True while the completed line is drawn for the last time, which is done without hints.
     is_final: Cell<bool>,
 }
 
@@ -123,13 +122,13 @@ impl Hinter for Assistant {
         let known = hints::hint(line, position, self.vocabulary.surroundings());
         let hint = known.and_then(|hint| self.fit(line, hint));
         let remembered = || self.from_history.hint(line, position, context).map(remembered);
-        // Without colours, a hint that can be inserted could not be distinguished from typed text.
+        // Hints that can be inserted are not shown without colours, because they would look like typed text.
         hint.or_else(remembered)
             .filter(|hint| self.colours == Colours::Ansi || hint.insertable.is_none())
     }
 }
 
-/// Hint with the rest of a history entry. Only its first line is shown, so that the height of the input does not change.
+/// Hint with the first line of the rest of a history entry; one line only, so that the height of the input does not change.
 fn remembered(rest: String) -> Hint {
     let shown = match rest.split_once('\n') {
         Some((first, _)) => format!("{first} …"),

@@ -1,9 +1,9 @@
-//! File in which the history of inputs is stored.
+//! File with the history of inputs.
 
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Environment variable that contains the name of the history file. If its value is empty, no history is stored.
+/// Environment variable with the name of the history file. If it is empty, no history is stored.
 pub const VARIABLE: &str = "WITHY_HISTORY";
 
 pub const MOST_ENTRIES: usize = 5000;
@@ -11,8 +11,7 @@ pub const MOST_ENTRIES: usize = 5000;
 /// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// Path of the history file; `None` if `setting`, the value of the environment variable, is empty.
-/// Without the environment variable, the history file is in the user's state folder.
+/// Path of the history file, by default in the user's state folder; `None` if the environment variable, `setting`, is empty.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

@@ -80,8 +80,8 @@ fn is_indentation(line: &str, at: usize) -> bool {
 
 /// Returns true if an arrow key selects an entry of the history that begins with the text before the cursor.
 ///
-/// Without text before the cursor, or in an input of several lines, the arrow key has its usual function.
-/// If the line is a history entry with the cursor at its end, the arrow key selects the next entry, whatever its text.
+/// The arrow key has its usual function if there is no text before the cursor, or if the input has several lines.
+/// If the line is an unchanged history entry, the arrow key selects the next entry, whatever its text.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -1,4 +1,4 @@
-//! Line editor of the prompt: rustyline with additional keys, helpers and a history.
+//! Line editor of the prompt, based on the library rustyline.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -55,9 +55,7 @@ impl EditorOptions {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EditorInput {
     Line(String),
-    /// Ctrl-C: the input is discarded.
     Interrupted,
-    /// Ctrl-D on an empty line, or the end of piped input.
     End,
 }
 
@@ -127,7 +125,7 @@ impl Editor {
 
     fn recall(&mut self) {
         let Some(file) = self.history.clone().filter(|file| file.exists()) else { return };
-        // Other files than regular files are refused, because reading from a pipe or a device would block the session.
+        // Only a regular file is accepted, because reading from a pipe or a device would block the session.
         if !file.is_file() {
             let error = ReadlineError::from(io::Error::other("it is not a regular file"));
             return self.disable_history("read", &file, &error);
@@ -142,7 +140,7 @@ impl Editor {
         }
     }
 
-    /// Adds an entry to the history and writes it to the file immediately, so that nothing is lost if the session is killed.
+    /// Adds an entry to the history and at once to its file, so that nothing is lost if the session is killed.
     fn add_to_history(&mut self, line: &str) {
         if !history::should_store(line) || !self.lines.add_history_entry(line).unwrap_or(false) {
             return;

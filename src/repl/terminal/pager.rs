@@ -14,8 +14,8 @@ pub struct TerminalPager {
 }
 
 impl TerminalPager {
-    /// Creates a pager with the program in the environment variable `PAGER`, or the built-in pager if this variable is not set.
-    /// Returns `None` if `PAGER` is `cat` or empty, or if the terminal cannot move its cursor.
+    /// Creates a pager with the program in the environment variable `PAGER`, or the built-in pager if `PAGER` is not set.
+    /// The pager is `None` if `PAGER` is `cat` or empty, or if the terminal cannot move its cursor.
     pub fn of_environment(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let program = variable("PAGER");
         let is_unwanted = program.as_deref().is_some_and(|name| matches!(name.trim(), "" | "cat"));
@@ -35,7 +35,7 @@ impl Pager for TerminalPager {
     }
 
     fn show(&mut self, text: &str, was_interrupted: &dyn Fn() -> bool) -> PagerOutcome {
-        // Keys typed during the evaluation belong to the next prompt. A pager would read them, so the text is then printed without pages.
+        // With waiting keys, the text is printed without pages: the keys belong to the next prompt, and a pager would read them.
         if !self.is_long(text) || keyboard::has_pending_keys() {
             return PagerOutcome::NotPaged;
         }
@@ -50,7 +50,7 @@ impl Pager for TerminalPager {
         };
         let walked =
             pages::show_pages(text, self.size.1, &mut keys, was_interrupted, &mut stdout());
-        // An error of the pager means that the terminal has been closed. The next prompt reports this error.
+        // An error of the pager means that the terminal has been closed, which the next prompt reports.
         walked.unwrap_or(PagerOutcome::Shown)
     }
 }

@@ -1,13 +1,11 @@
 //! Type-ahead: keys typed during an evaluation are kept for the next prompt.
 //!
-//! A terminal in line mode would process keys such as Ctrl-D or Ctrl-R between two prompts, instead of keeping them.
-//! The terminal is therefore in raw input mode during the whole session, in which Ctrl-C and Ctrl-Z keep their meaning.
+//! The terminal is in raw input mode during a session, because in line mode it would process keys such as Ctrl-D or Ctrl-R itself.
 
-/// Guard that keeps the terminal in raw input mode. Dropping the guard restores the original mode.
+/// Guard of the raw input mode. Dropping the guard restores the original mode of the terminal.
 pub struct TypedAhead(());
 
 impl TypedAhead {
-    /// Switches the terminal to raw input mode. After a failure, the terminal is unchanged.
     pub fn set_mode() -> Self {
         terminal::set_raw_mode();
         Self(())
@@ -18,7 +16,7 @@ impl TypedAhead {
     }
 }
 
-/// Guard for the time in which another program uses the terminal. Dropping the guard sets the raw input mode again.
+/// Guard while another program uses the terminal. Dropping the guard sets the raw input mode again.
 pub struct TerminalLease(bool);
 
 impl Drop for TerminalLease {
@@ -35,7 +33,7 @@ impl Drop for TypedAhead {
     }
 }
 
-/// Restores the original mode of the terminal. Code that ends the process without dropping guards must call this function.
+/// Restores the original mode of the terminal. Must be called before the process ends without dropping the guard.
 pub fn restore() {
     terminal::restore();
 }
@@ -54,7 +52,7 @@ mod terminal {
     pub fn set_raw_mode() {
         let Ok(original) = tcgetattr(stdin()) else { return };
         let mut held = original.clone();
-        // Without echo, keys that are typed ahead appear only once, at the prompt that reads them.
+        // Without echo, keys typed ahead appear only at the prompt that reads them.
         held.local_flags -= LocalFlags::ICANON | LocalFlags::IEXTEN | LocalFlags::ECHO;
         held.control_chars[SpecialCharacterIndices::VMIN as usize] = 1;
         held.control_chars[SpecialCharacterIndices::VTIME as usize] = 0;
@@ -63,11 +61,10 @@ mod terminal {
         }
     }
 
-    /// Restores the original mode of the terminal. Returns true if the mode had been changed.
     pub fn restore() -> bool {
         let original = AS_IT_WAS.lock().unwrap_or_else(PoisonError::into_inner).take();
         if let Some(original) = &original {
-            // Restoring fails only if the terminal has been closed, so the error is ignored.
+            // Restoring fails only for a closed terminal, so the error is ignored.
             let _ = tcsetattr(stdin(), SetArg::TCSANOW, original);
         }
         original.is_some()
@@ -76,7 +73,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! Systems other than Unix: keys are events, so that no key is lost between prompts.
+    //! On systems other than Unix, keys are events that are not lost between prompts, so that the mode is not changed.
 
     pub fn set_raw_mode() {}
 

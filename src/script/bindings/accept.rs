@@ -12,9 +12,9 @@ use crate::script::messages::nouns::type_word;
 use crate::script::messages::numbers::{as_integer, as_number, describe};
 use crate::system::refusal_of_name;
 
-/// Converts `value` to the form that native functions read: numbers become `f64`, points [`Vec2`], and option maps [`Options`].
+/// Converts a value to the form that native functions read: numbers become `f64`, points [`Vec2`], and option maps [`Options`].
 ///
-/// The argument `owner` is the function or option map that messages name.
+/// `owner` is the function or option map that error messages name.
 pub fn accept(
     engine: &Engine,
     owner: &str,
@@ -41,8 +41,8 @@ pub fn accept_described(
         .map_err(|refused| refusal(engine, owner, name, kind, wanted, &refused))
 }
 
-/// Result of a conversion. The outer `Err` is an error that is reported unchanged.
-/// The inner `Err` contains the unconverted value, for which the general error message is created.
+/// Result of a conversion. An outer `Err` is reported unchanged.
+/// An inner `Err` is the value of a wrong type, for which the general error message is created.
 type Conversion = Result<Result<Dynamic, Dynamic>, ScriptError>;
 
 fn convert(engine: &Engine, owner: &str, kind: &Kind, value: Dynamic) -> Conversion {
@@ -155,7 +155,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Sets the position of an error to the argument `number`, unless the error already has the position of a key.
+/// Sets the position of an error to the argument `number`, unless the error already refers to a key.
 pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

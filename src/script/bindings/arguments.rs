@@ -1,4 +1,4 @@
-//! Typed access by name to checked values: arguments of a call, or keys of an option map.
+//! Typed access by name to the checked arguments of a call or keys of an option map.
 
 use rhai::{Array, Dynamic, FnPtr, INT, ImmutableString};
 
@@ -50,7 +50,7 @@ impl Arguments {
         self.find(name)?.as_int().map_err(|held| wrong_type_read(name, held))
     }
 
-    /// Value of the argument as a count. The parameter must exclude negative numbers.
+    /// Value of the argument as a count. The type of the parameter must exclude negative numbers.
     pub fn count(&self, name: &str) -> Result<usize, ScriptError> {
         usize::try_from(self.integer(name)?).map_err(|_| wrong_type_read(name, "a negative number"))
     }
@@ -62,7 +62,7 @@ impl Arguments {
     /// Value of the argument as a text; `None` if the argument is omitted.
     ///
     /// # Errors
-    /// Fails if the argument is not a text. The type of the parameter should exclude other values.
+    /// Fails if the argument is not a text, which the type of the parameter should exclude.
     pub fn optional_text(&self, name: &str) -> Result<Option<String>, ScriptError> {
         self.has(name).then(|| self.text(name).map(String::from)).transpose()
     }

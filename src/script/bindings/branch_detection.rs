@@ -1,5 +1,4 @@
-//! Detection of script functions that branch on parameters.
-//! A branch on a parameter makes a function jump at a position that depends on the parameter. Derivatives are then wrong.
+//! Detection of script functions that branch on parameters of a scene, so that they jump and their derivatives are wrong.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 
@@ -10,8 +9,7 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns about a function that branches on an expression that contains its argument and a variable that depends on a parameter.
-/// Each position of a branch is reported once.
+/// Warns once about each branch of a function on an expression with its argument and a variable that depends on a parameter.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

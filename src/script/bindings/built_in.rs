@@ -1,4 +1,4 @@
-//! Functions of Rhai that belong to the language. They are documented like bindings, but registered by the engine.
+//! Functions of Rhai that belong to the language, with their documentation.
 
 use super::returns::Returns;
 
@@ -9,7 +9,7 @@ pub struct BuiltInTable {
 }
 
 pub struct BuiltIn {
-    /// Notations of the function: `array.push(value)`, `parse_int(text, [radix])`, `text.len`. All have the same name.
+    /// Notations of the function, all with the same name: `array.push(value)`, `parse_int(text, [radix])`, `text.len`.
     pub forms: &'static [&'static str],
     pub returns: Returns,
     pub summary: &'static str,

@@ -1,4 +1,4 @@
-//! Native call in progress: named arguments, receiver, context, and calls of script functions.
+//! Native call in progress, with its arguments and the state of the run.
 
 use std::ops::Deref;
 
@@ -45,7 +45,7 @@ impl<'c, 'r> Call<'c, 'r> {
         Self { row, context, native, receiver, arguments }
     }
 
-    /// State shared by all calls of a run: output folder, mode, checks, progress.
+    /// State shared by all calls of a run, such as the output folder and the checks.
     pub fn context(&self) -> &'c Context {
         self.context
     }
@@ -75,7 +75,7 @@ impl<'c, 'r> Call<'c, 'r> {
         Ok(())
     }
 
-    /// Script line of the call, counted from 1. For a call by the standard library, it is the script line that called the library.
+    /// Script line of the call, counted from 1; for a call by the standard library, the line that called the library.
     pub fn line(&self) -> usize {
         let entered = Sources::of(self.native.engine())
             .entered_at(self.native.global_runtime_state().source());
@@ -107,7 +107,7 @@ impl<'c, 'r> Call<'c, 'r> {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and this number of parameters. Captured variables count as parameters, but their values are missing.
+    /// Script function with this name and number of parameters, including captured variables, whose values are missing.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());
@@ -119,7 +119,7 @@ impl<'c, 'r> Call<'c, 'r> {
         self.native.engine()
     }
 
-    /// Rejects a script function with a wrong number of arguments. `shape` shows the required form.
+    /// Rejects a script function with a wrong number of arguments. `shape` shows the required form in the message.
     pub fn expect_arguments(
         &self,
         function: &FnPtr,
@@ -139,17 +139,17 @@ impl<'c, 'r> Call<'c, 'r> {
         }
     }
 
-    /// Stores a script function for later calls. `role` names it in messages.
+    /// Stores a script function for later calls. `role` names the function in messages.
     pub fn store(&self, function: FnPtr, role: &str) -> StoredFunction {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Returns an error if the run was interrupted. Long native loops must call this function once per step.
+    /// Returns an error if the run was interrupted. Long native loops must call this function regularly.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }
 
-    /// Converts `value` for a parameter of a script function. `wanted` contains the type and the description of allowed values.
+    /// Converts `value` to the type of a parameter of a script function. `wanted` is the type and its description.
     pub fn accept(
         &self,
         owner: &str,
@@ -201,7 +201,7 @@ fn definition_of(native: &NativeCallContext, function: &FnPtr) -> Option<Shared<
     libraries.iter().find_map(defined)
 }
 
-/// Script function with this name and this number of parameters; captured variables count as parameters. `None` allows any number.
+/// Script function with this name and number of parameters, including captured variables. `None` allows any number.
 pub(super) fn defined(
     native: &NativeCallContext,
     name: &str,
@@ -222,13 +222,13 @@ fn body_of(native: &NativeCallContext, function: &FnPtr) -> AST {
     body_named(native, function.fn_name(), parameters)
 }
 
-/// Syntax tree that contains only the script function with this name and number of parameters; empty if there is no such function.
+/// Syntax tree that contains only the function with this name and number of parameters; empty if there is none.
 pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usize) -> AST {
     let libraries = &native.global_runtime_state().lib;
     let has = |library: &&Shared<Module>| library.get_script_fn(name, parameters).is_some();
     let library = libraries.iter().find(has).map(|found| AST::new_from_module(found.clone()));
     let mut body = library.unwrap_or_default();
-    // Cloning a syntax tree with a filter keeps all functions. Therefore all other functions are removed here.
+    // The other functions are removed, because cloning a syntax tree with a filter keeps all functions.
     body.retain_functions(|_, _, own, count| own == name && count == parameters);
     body
 }
@@ -243,5 +243,4 @@ pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     }
 }
 
-/// Rhai function that captures variables.
 const CAPTURE: &str = "curry";

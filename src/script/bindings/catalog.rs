@@ -1,4 +1,4 @@
-//! Catalog of the script language: all binding tables. Messages, help and completion search names in them.
+//! Catalog of the script language, in which messages, help and completion search names.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;
@@ -36,7 +36,7 @@ impl Catalog {
         self.tables().flat_map(|table| table.rows)
     }
 
-    /// Bindings with this name. Several types may have methods of the same name.
+    /// Bindings with this name, which methods of several types may have.
     pub fn named<'a>(
         &self,
         name: &'a str,

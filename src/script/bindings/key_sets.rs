@@ -1,15 +1,14 @@
-//! Option maps with alternative sets of keys. Exactly one of the sets must be given.
-//! For example, a section is given by stiffness and inertia, or by a material and a shape.
+//! Option maps with alternative sets of keys, such as a section by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Alternative sets of keys of an option map. Each set has a value of type `T`, which identifies the set that was given.
+/// Alternative sets of keys of an option map, each with a value of type `T` that identifies it.
 pub struct KeySets<T: 'static> {
     pub description: &'static str,
     pub always_allowed: &'static [&'static str],
-    /// Sets of keys. If several sets have the same number of given keys, the first set applies.
+    /// Sets of keys. Among sets with equally many given keys, the first is preferred.
     pub sets: &'static [KeySet<T>],
 }
 
@@ -23,7 +22,7 @@ pub struct KeySet<T> {
 }
 
 impl<T: Copy> KeySets<T> {
-    /// Returns the value of type `T` of the key set that `options` selects.
+    /// Returns the value of the only key set that `options` gives.
     ///
     /// # Errors
     /// Fails if a key of the set is missing, or a key of another set is given.
@@ -44,8 +43,6 @@ impl<T: Copy> KeySets<T> {
         }
     }
 
-    /// Returns the key set that is selected by the text value of one of its keys.
-    /// If no key has such a text, returns the first key set with the largest number of given keys.
     fn meant(&self, options: &Options) -> Option<&'static KeySet<T>> {
         let is_chosen = |set: &&KeySet<T>| {
             let chosen = set.chosen_by.map(|(key, text)| (options.text(key), text));

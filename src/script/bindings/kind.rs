@@ -30,21 +30,21 @@ pub trait Scripted: Clone + 'static {
         None
     }
 
-    /// Set of the parameters on which the value or its scene depends; `None` if there is no dependence.
+    /// Parameters on which the value or its scene depends; `None` if there are none.
     fn parameter_set(&self) -> Option<Rc<ParameterSet>> {
         None
     }
 
-    /// Reason why the value is in use; `None` if it is not in use. A value is in use during a native call that runs a script function.
+    /// Reason why the value must not be used, because a native call that uses it is running a script function; `None` if it may be used.
     fn is_busy(&self) -> Option<String> {
         None
     }
 }
 
-/// Summary of a script value: labels and values, which are shown as aligned lines.
+/// Labels and values that summarise a script value.
 pub type Details = Vec<(String, String)>;
 
-/// Descriptor of a [`Scripted`] type, for use in binding tables.
+/// Descriptor of a [`Scripted`] type for binding tables.
 #[derive(Clone, Copy)]
 pub struct Type {
     name: &'static str,
@@ -102,7 +102,7 @@ impl Type {
         (self.details)(value)
     }
 
-    /// Function that returns the reason why a value of this type is in use; `None` if it is not in use.
+    /// Function that returns the reason why a value of this type must not be used; `None` if it may be used.
     pub fn busy(&self) -> fn(&Dynamic) -> Option<String> {
         self.busy
     }
@@ -134,7 +134,7 @@ pub enum Kind {
     Integer(NumberRange),
     /// Text.
     Text,
-    /// Text that is a name. Tables can show the name, and users can type it.
+    /// Text that is a name, which can be shown in tables and typed by users.
     Name,
     /// One of the given texts.
     Choice(&'static [&'static str]),

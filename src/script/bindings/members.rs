@@ -1,5 +1,4 @@
-//! Methods and properties of values that depend on parameters.
-//! The methods and properties are evaluated once for each variant of the parameters.
+//! Methods and properties of values that depend on parameters, evaluated once for each variant of the parameters.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Declaration and call of bindings: binding tables, types and parameters, and native calls with checked arguments.
+//! Binding tables, types and parameters, and native calls with checked arguments.
 
 pub(crate) mod accept;
 pub(crate) mod arguments;

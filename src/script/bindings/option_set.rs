@@ -1,4 +1,4 @@
-//! Typed option maps. One declaration defines the keys with types, units and defaults, and the fields for the values.
+//! Typed option maps: one declaration defines the keys and the fields for their values.
 
 use rhai::{Array, Dynamic, FnPtr};
 
@@ -55,7 +55,7 @@ macro_rules! held_as_they_are {
 
 held_as_they_are!(FnPtr, Array, Vec<f64>, Method);
 
-/// Declares a struct whose fields are the keys of an option map, in the form `field: Type = parameter`. The parameter contains the help text.
+/// Declares a struct whose fields `field: Type = parameter` are the keys of an option map.
 ///
 /// The constant `KEYS` contains the keys in the order of the fields. The function `of` reads the struct from checked options.
 macro_rules! option_set {
@@ -94,7 +94,7 @@ macro_rules! option_set {
 
 pub(in crate::script) use option_set;
 
-/// Combines two sets of keys into a set of `N` keys.
+/// Combines two sets of keys; `N` is the number of all keys.
 pub const fn both<const N: usize>(
     first: &'static [Parameter],
     second: &'static [Parameter],

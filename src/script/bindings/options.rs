@@ -1,4 +1,4 @@
-//! Option maps: maps with known keys. Each key has a type, unit, default and range. A misspelt key is an error.
+//! Option maps with known keys, whose values are checked. A misspelt key is an error.
 
 use std::ops::Deref;
 
@@ -29,7 +29,7 @@ impl Options {
         Self { arguments: Arguments::new(keys, Vec::new()) }
     }
 
-    /// Checks `map` against `keys`. `owner` is the function or option map that messages name.
+    /// Checks `map` against `keys`. `owner` is the function or option map that error messages name.
     pub fn read(
         engine: &Engine,
         owner: &str,
@@ -116,7 +116,7 @@ fn list(keys: &[Parameter]) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Sets the position of an error to that of the key, unless the error already has the position of a key in a nested map.
+/// Sets the position of an error to that of the key, unless the error already refers to a key of a nested map.
 fn at_key(error: ScriptError, key: &str) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

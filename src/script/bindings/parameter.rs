@@ -1,4 +1,4 @@
-//! Parameters of bindings and keys of option maps: name, type, unit, range, default and description.
+//! Parameters of bindings and keys of option maps.
 
 use rhai::Dynamic;
 
@@ -26,7 +26,7 @@ pub struct Parameter {
 pub enum Presence {
     /// The parameter is required.
     Required,
-    /// The parameter is optional and has no default. The native function must handle an omitted value.
+    /// The parameter is optional without a default. The native function must handle an omitted value.
     Optional,
     /// The parameter is optional and has a number as its default.
     Number(f64),

@@ -1,4 +1,4 @@
-//! Registration of bindings in the engine. Every call passes through `perform`, which counts, converts and checks the arguments.
+//! Registration of bindings in the engine. `perform` checks the arguments of every call.
 
 use std::any::TypeId;
 
@@ -71,8 +71,7 @@ pub(super) fn with_receiver(of: Type, count: usize) -> Vec<TypeId> {
     std::iter::once(of.id()).chain(std::iter::repeat_n(TypeId::of::<Dynamic>(), count)).collect()
 }
 
-/// Exact argument types of a function with only number parameters.
-/// With exact argument types, a function takes precedence over a function of Rhai with the same name.
+/// Exact argument types of a function of numbers, by which it takes precedence over a function of Rhai with the same name.
 fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     let numeric = |parameter: &Parameter| matches!(parameter.kind, Kind::Number(_) | Kind::Numeric);
     match parameters.iter().all(numeric) {
@@ -81,7 +80,6 @@ fn numbers_only(parameters: &[Parameter]) -> Vec<Vec<TypeId>> {
     }
 }
 
-/// All combinations of exact operand types of an operator, except combinations of built-in types, which the engine handles.
 fn operand_types(operands: &[Parameter]) -> Vec<Vec<TypeId>> {
     let built_in = [
         TypeId::of::<f64>(),
@@ -118,7 +116,6 @@ fn exact_types(kind: &Kind) -> Vec<TypeId> {
     }
 }
 
-/// Binding with the data that a call of its function needs. A property with a setter is registered as two functions.
 #[derive(Clone)]
 pub(super) struct RegisteredFunction {
     row: &'static FunctionBinding,
@@ -226,7 +223,6 @@ pub const CONTROLLER_HINT: &str = "a load is a function of time; for a load that
     variable that is set between steps: let u = 0.0; scene.force(station, [1, 0], |t| u); then \
     u = … before each sim.step()";
 
-/// Rejects values that are in use by the native call that runs this script function. The check includes elements of arrays.
 fn refuse_busy(
     row: &FunctionBinding,
     context: &Context,

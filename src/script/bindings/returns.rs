@@ -102,9 +102,7 @@ pub struct Returns {
     pub kind: ValueKind,
     /// Dimension, such as `force`; `-` for a dimensionless number; empty for a type without dimension.
     unit: &'static str,
-    /// Description that replaces the description of the type; may be empty.
     description: &'static str,
-    /// Text after the description, which begins with a blank or comma.
     remark: &'static str,
 }
 
@@ -149,7 +147,7 @@ impl Returns {
         self
     }
 
-    /// Adds text after type and dimension. The text must begin with a blank or comma.
+    /// Adds text after type and dimension, which must begin with a blank or comma.
     pub const fn with_remark(mut self, note: &'static str) -> Self {
         self.remark = note;
         self
@@ -160,7 +158,7 @@ impl Returns {
     }
 }
 
-/// Description, for example `a vector [force]` or `a number, whole if x is`. It is empty if nothing is returned.
+/// Description, for example `a vector [force]` or `a number, whole if x is`; empty if nothing is returned.
 impl fmt::Display for Returns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.is_nothing(), self.description) {

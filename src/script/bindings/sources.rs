@@ -1,5 +1,5 @@
 //! Source files of script functions, and script lines that call the library.
-//! The engine does not know the file when native code calls closures of modules. The engine provides the lines of calls only in errors.
+//! They are recorded, because the engine does not know the file of a closure, and reports lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -12,12 +12,11 @@ use super::input_calls::{names_in_functions, names_in_statements};
 use crate::script::messages::stop::Stop;
 use crate::script::source::syntax::TokenReader;
 
-/// Prefix of the names of library modules. Files in the folder of a script never have names with this prefix.
+/// Prefix of the names of library modules, which files in the folder of a script never have.
 pub const FOLDER: &str = "std/";
 
-/// Source files of all script functions and closures compiled by an engine, and the script line that called the standard library.
-///
-/// The sources are stored in the engine as the default tag of calls.
+/// Source files of all compiled script functions and closures, and the script line that called the library.
+/// The engine holds the sources as the default tag of calls.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -67,7 +66,7 @@ impl Sources {
         self.reader.begin();
     }
 
-    /// Calls `work`, during which parsing cannot be stopped. The function `work` must parse only texts that have been parsed before.
+    /// Calls `work`, in which parsing cannot be stopped. `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
@@ -112,7 +111,7 @@ impl Sources {
         self.inputs.borrow().in_imports.contains(name)
     }
 
-    /// File that contains the function `name`; `None` for a native function. If several files contain it, `claimed` is preferred.
+    /// File that contains the function `name`, of several files preferably `claimed`; `None` for a native function.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {
@@ -126,7 +125,6 @@ impl Sources {
     }
 
     /// Marks a call into the library from a line of the file `caller`, until the guard is dropped.
-    /// If library functions call each other, the line of the outermost call is kept.
     pub fn enter_library(&self, caller: Option<&str>, line: Option<usize>) -> LibraryCallGuard {
         let before = self.line.get();
         if !is_library(caller) {

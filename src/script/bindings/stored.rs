@@ -6,9 +6,7 @@ use crate::script::messages::error::BUG;
 use crate::script::messages::numbers::{as_number, describe};
 use crate::script::state::context::Context;
 
-/// Script function with its environment: the functions, imports and constants of its file.
-///
-/// A function pointer of Rhai 1.27 contains only a name and captured values.
+/// Script function with the functions, imports and constants of its file, which a function pointer of Rhai 1.27 does not contain.
 /// The reference to the engine is weak, because the engine indirectly owns this function through the scenes of the script.
 pub struct StoredFunction {
     function: FnPtr,
@@ -28,7 +26,7 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls the function. The call depth and error position are those of the running native call.
+    /// Calls the function with the call depth and error position of the running native call.
     ///
     /// # Errors
     /// Fails if the script fails, or if the run was stopped.
@@ -53,7 +51,7 @@ impl StoredFunction {
         called
     }
 
-    /// Calls the function with a number. The result must be a number.
+    /// Calls the function with a number, and expects a number as its result.
     ///
     /// # Errors
     /// Fails if the function fails or returns a value of another type.

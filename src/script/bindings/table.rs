@@ -1,8 +1,7 @@
-//! Table that declares a domain of the language. It contains one binding for each name that scripts can use.
+//! Binding tables, each of which declares a domain of the language.
 //!
-//! Registration, argument checks, messages with suggestions, help, definition files and the reference are derived from the bindings of the tables.
-//! To add a domain, write `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages).
-//! A new table must also be added to the list in the module `packages`.
+//! Checks, messages, help, definition files and the reference are derived from the tables.
+//! A new domain needs a `pub const TABLE: BindingTable` in a new file of [`packages`](crate::script::packages), listed there.
 
 use rhai::Dynamic;
 
@@ -13,7 +12,7 @@ use super::parameter_variants::NonsmoothCheck;
 use super::returns::Returns;
 use crate::script::messages::error::ScriptError;
 
-/// Native function of a binding. Its arguments are counted, converted and range-checked before the call.
+/// Native function of a binding. Its arguments have been counted, converted and range-checked.
 pub type NativeFunction = fn(&mut Call<'_, '_>) -> Result<Dynamic, ScriptError>;
 
 /// Table of all types, constants and functions of a domain.
@@ -32,7 +31,7 @@ pub struct BindingTable {
     pub rows: &'static [FunctionBinding],
 }
 
-/// Numeric constant. It is visible everywhere in scripts, also inside functions.
+/// Numeric constant, visible everywhere in scripts, also inside functions.
 pub struct Constant {
     /// Name in scripts.
     pub name: &'static str,

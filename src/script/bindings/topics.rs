@@ -1,4 +1,4 @@
-//! Help topics on the language itself. Each topic has a runnable example.
+//! Help topics on the language itself, each with a runnable example.
 
 pub struct Topic {
     pub name: &'static str,

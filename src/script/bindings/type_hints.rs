@@ -5,7 +5,7 @@ use rhai::{Array, Dynamic, FnPtr, Map};
 use super::kind::{Kind, NumberRange};
 use crate::script::messages::numbers::{as_number, format_number};
 
-/// Hint for a `value` of a wrong type for a parameter of type `kind`; `None` for an unknown mistake. `given` is the type name of the value.
+/// Hint for a value of the type `given` in place of the type `kind`; `None` if the mistake is not known.
 pub fn hint(kind: &Kind, value: &Dynamic, given: &str) -> Option<String> {
     match kind {
         Kind::Number(_) if is_infinite_or_nan(value) => {

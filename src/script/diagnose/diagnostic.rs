@@ -64,7 +64,7 @@ pub enum Callee {
     Closure,
     /// Imported file.
     File(String),
-    /// The frame is not a call: it shows the line of the standard library at which the error occurred.
+    /// Not a call, but the line of the standard library at which the error occurred.
     Library,
 }
 

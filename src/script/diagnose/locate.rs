@@ -1,4 +1,4 @@
-//! Computation of underlined locations from positions reported by the engine.
+//! Underlined locations computed from positions reported by the engine.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub fn text_before(program: &Program, position: Position) -> &str {
     &program.text[..end]
 }
 
-/// Location of the end of `text`, which is a prefix of the script. Used for errors about missing tokens.
+/// Location of the end of `text`, which is a prefix of the script, for errors about missing tokens.
 pub fn end_of(program: &Program, text: &str) -> Location {
     let text = text.trim_end();
     let line = text.lines().count().max(1);
@@ -32,7 +32,7 @@ pub fn end_of(program: &Program, text: &str) -> Location {
     location(program, line, column, 1)
 }
 
-/// Location of the part of a call to which an error refers. If this part is not found, the location of the function name is returned.
+/// Location of the part of a call to which an error refers; if it is not found, of the function name.
 pub fn part_of_call(
     program: &Program,
     catalog: &Catalog,
@@ -92,7 +92,7 @@ fn argument_of(
     let called = word_at(program, position)?;
     let is_function =
         catalog.named(called.text()).any(|row| matches!(row.form, CallSyntax::Function));
-    // In `a.norm()`, the first argument of the function is `a`, which stands before the dot.
+    // In `a.norm()`, the first argument of the function, `a`, is before the dot.
     let number = if dotted && is_function { number.checked_sub(1)? } else { number };
     argument(program, call, number)
 }
@@ -116,8 +116,7 @@ fn argument(program: &Program, call: &[Lexeme], number: usize) -> Option<Locatio
     None
 }
 
-/// Location of an argument from `start` to the separator at `end`, without trailing blanks.
-/// If the argument has several lines, the location of its first token is returned.
+/// Location of an argument from `start` to the separator at `end`, without trailing blanks, or of its first token if it has several lines.
 fn span(program: &Program, start: Position, end: Position) -> Option<Location> {
     let (line, column) = (start.line()?, start.position()?);
     if end.line()? != line {

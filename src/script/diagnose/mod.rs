@@ -1,5 +1,4 @@
 //! Error messages for users: message, location, hint, and call trace.
-//! Errors of the solver are described in the solver, and receive hints in `messages`.
 
 mod calls;
 mod diagnostic;

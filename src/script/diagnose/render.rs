@@ -17,7 +17,7 @@ impl Diagnostic {
         self.render_within(colours, usize::MAX)
     }
 
-    /// Text of the error with the hint wrapped at `width` columns. Without wrapping, a terminal would break the hint within words.
+    /// Text of the error with the hint wrapped at `width` columns, because a terminal would break it within words.
     pub fn render_within(&self, colours: Colours, width: usize) -> String {
         let drawing = match self.blame {
             Blame::User => Drawing::error(),
@@ -44,12 +44,12 @@ impl Diagnostic {
         };
         match term::emit_to_write_style(&mut buffer, &Config::default(), &file, &drawing) {
             Ok(()) => format!("{}\n", String::from_utf8_lossy(buffer.as_slice()).trim_end()),
-            // A location outside the text is an internal error, but the message must still be shown.
+            // A location outside the text is an internal error, but the message is still shown.
             Err(_) => format!("error: {}\n", printable(&self.message)),
         }
     }
 
-    /// Hint and call trace, one text each. The hint is wrapped at `width` columns.
+    /// Hint, wrapped at `width` columns, and call trace, one text each.
     pub fn notes(&self, width: usize) -> Vec<String> {
         let room = width.saturating_sub(BESIDE_HINT).max(NARROWEST);
         let hint = self.hint.iter().map(|hint| {
@@ -61,11 +61,11 @@ impl Diagnostic {
     }
 }
 
-/// Largest length of a displayed source line [characters]. In a longer line, the location is described instead of drawn.
+/// Largest length of a source line that is shown [characters]. The location in a longer line is described in words.
 const LONGEST_DRAWN: usize = 1000;
 const LONGEST_EXCERPT: usize = 60;
 
-/// Number of columns before the hint, which is the length of `  = help: `.
+/// Width of `  = help: ` before the hint [columns].
 const BESIDE_HINT: usize = 10;
 
 const NARROWEST: usize = 30;
@@ -139,7 +139,6 @@ impl Location {
         format!("at {}:{}:{}, in a long line: {there} …", self.program.name, self.line, self.column)
     }
 
-    /// Byte range of the location in another text with the same number of characters as the script.
     fn bytes_in(&self, text: &str) -> Range<usize> {
         let bytes = self.bytes();
         let characters = |end: usize| self.program.text[..end].chars().count();

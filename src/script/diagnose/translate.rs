@@ -44,7 +44,7 @@ struct Unwrapped<'e> {
 
 type Diagnosis = (String, Option<String>);
 
-/// Returns true if the run was stopped from outside, not by a limit. The error may be nested in calls.
+/// Returns true if the run was stopped from outside, not by a limit.
 pub fn is_interrupt(error: &EvalAltResult) -> bool {
     match error.unwrap_inner() {
         EvalAltResult::ErrorTerminated(stop, _) => {
@@ -308,7 +308,7 @@ fn word_of(program: &Program, at: Position) -> String {
     locate::word_at(program, at).map(|place| place.text().to_owned()).unwrap_or_default()
 }
 
-/// Message for statements such as `import numpy`, which Rhai treats as a variable.
+/// Message for statements such as `import numpy`, in which Rhai regards the name as a variable.
 fn not_imported(name: &str) -> Diagnosis {
     let hint = match foreign_names::find(name) {
         Some(found) => found.cure.to_owned(),

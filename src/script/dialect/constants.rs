@@ -7,9 +7,7 @@ use rhai::{Dynamic, Engine};
 use super::sizes;
 use crate::script::bindings::catalog::Catalog;
 
-/// Makes the constants of `catalog` visible in scripts.
-///
-/// The constants are provided by a variable resolver, because closures capture only variables and would not see constants of a module.
+/// Makes constants visible by a variable resolver, because closures would not see the constants of a module.
 #[expect(deprecated, reason = "so marked as it may change; the version of Rhai is fixed")]
 pub fn install(engine: &mut Engine, catalog: &Catalog) {
     let all = catalog.tables().flat_map(|table| table.constants);

@@ -1,4 +1,4 @@
-//! Operators on numbers and vectors that depend on parameters of a scene. They are evaluated in each variant.
+//! Operators on numbers and vectors that depend on parameters of a scene, evaluated in each variant.
 
 use std::any::TypeId;
 use std::rc::Rc;

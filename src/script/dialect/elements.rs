@@ -1,6 +1,5 @@
-//! Methods of arrays and maps that call a function.
-//! Unlike in Rhai, a test function that does not return a boolean causes an error instead of counting as false.
-//! Unlike in Rhai, `for_each` passes the element instead of the index to its function.
+//! Methods of arrays and maps that call a function for each element.
+//! Unlike in Rhai, a test function must return a boolean, and `for_each` passes the element instead of the index.
 
 use std::any::TypeId;
 use std::cell::Cell;
@@ -10,7 +9,6 @@ use rhai::{Array, Dynamic, Engine, EvalAltResult, FnPtr, INT, Map, NativeCallCon
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::messages::numbers::describe;
 
-/// Registers the methods of arrays and maps that call a function for each element. Their names are those of Rhai.
 pub fn install(engine: &mut Engine) {
     install_searches(engine);
     install_sieves(engine);
@@ -78,7 +76,6 @@ fn search(engine: &mut Engine, name: &str, give: fn(&Array, Option<usize>) -> Dy
     }
 }
 
-/// Function that splits an array or map into the elements that pass a test and the other elements.
 type Partition = fn(&NativeCallContext, &[&mut Dynamic]) -> EngineResult<(Dynamic, Dynamic)>;
 
 fn install_sieves(engine: &mut Engine) {
@@ -166,7 +163,6 @@ fn function_of(values: &[&mut Dynamic]) -> EngineResult<FnPtr> {
 enum CallbackArguments {
     Element,
     ElementAndIndex,
-    /// A function without parameters reads the element from `this`.
     ElementAsThis,
 }
 
@@ -181,7 +177,6 @@ impl<'a> ElementCallback<'a> {
         Self { native, function, given: Cell::new(None) }
     }
 
-    /// Calls the script function for an element. The first call determines the number of arguments of the function.
     fn call_function(&self, index: usize, element: &mut Dynamic) -> EngineResult<Dynamic> {
         if let Some(given) = self.given.get() {
             return self.call(given, index, element);

@@ -1,8 +1,5 @@
-//! Packages of Rhai that belong to the language, and functions of Rhai that are rejected.
-//!
-//! The language does not contain byte arrays, bit fields, reflection, tags, `take` and the JSON parser of Rhai.
-//! The language does not contain `sleep` either, because it cannot be interrupted.
-//! Functions that users may expect, and that Rhai lacks or defines in a surprising way, cause an error with a suggestion.
+//! Packages of Rhai that belong to the language, and functions that are rejected with a suggestion.
+//! The language lacks byte arrays, bit fields, reflection, tags, the JSON parser and `take` of Rhai, and the uninterruptible `sleep`.
 
 use std::any::TypeId;
 
@@ -20,8 +17,7 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Fixed seed of the hashes in Rhai. The names of closures (`anon$…`), which scripts can print, contain such hashes.
-/// Without a fixed seed, the names of closures would differ from process to process.
+/// Fixed seed of the hashes in Rhai. They are part of the names of closures (`anon$…`), which scripts can print.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 
@@ -38,7 +34,7 @@ pub const REFUSED: &[Refused] = &[
     Refused {
         name: "exit",
         counts: &[0, 1],
-        // With `exit` of Rhai, a script would end successfully without its remaining checks.
+        // Scripts must not call `exit` of Rhai, because they would end successfully without their remaining checks.
         reason: "a script cannot leave with exit()",
         instead: "throw \"reason\" ends it with an error; check(…) determines the exit code",
     },
@@ -92,14 +88,13 @@ pub const REFUSED: &[Refused] = &[
     },
 ];
 
-/// Creates an engine with the selected packages of Rhai and nothing else.
 pub fn engine() -> Engine {
-    // The seed of the hashes can be set only once per process. For later engines, it is already set.
+    // The seed of the hashes can be set once per process, so an error for later engines is ignored.
     let _ = rhai::config::hashing::set_hashing_seed(Some(SEED));
     let mut engine = Engine::new_raw();
     engine.set_max_strings_interned(TEXTS_SHARED);
     engine.register_global_module(FromRhai::new().as_shared_module());
-    // The function `eval` is disabled, because code in strings has no line numbers, and no script needs it.
+    // The function `eval` is disabled, because code in strings has no line numbers.
     engine.disable_symbol("eval");
     for refused in REFUSED {
         for count in refused.counts {
@@ -110,7 +105,7 @@ pub fn engine() -> Engine {
 }
 
 fn refuse(engine: &mut Engine, refused: &'static Refused, count: usize) {
-    // Functions of Rhai for exact types take precedence over functions for any type, so a rejection is registered for these types too.
+    // A rejection is also registered for exact types, because functions of Rhai for exact types take precedence.
     let mut types =
         vec![TypeId::of::<Dynamic>(), TypeId::of::<f64>(), TypeId::of::<ImmutableString>()];
     if count == 0 {

@@ -1,6 +1,5 @@
-//! The method `map.to_json()`.
-//! Unlike with the method of Rhai, vectors become arrays, and values that depend on parameters become plain values.
-//! A value without a JSON form is an error.
+//! The method `map.to_json()`. A value without a JSON form is an error.
+//! Unlike in Rhai, vectors become arrays, and values that depend on parameters become plain values.
 
 use rhai::{
     Array, Dynamic, Engine, EvalAltResult, FnPtr, Map, NativeCallContext, Position,
@@ -12,7 +11,6 @@ use crate::script::bindings::parameter_variants::{VariantValue, present_variant}
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::describe;
 
-/// Registers the method `to_json` of maps, which replaces the method of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn(
         "to_json",

@@ -1,4 +1,4 @@
-//! Adaptation of Rhai to the language of withy: parsing, operators, arrays, constants, and unavailable functions.
+//! Adaptation of Rhai to the language of withy.
 
 pub mod constants;
 pub mod derivatives;

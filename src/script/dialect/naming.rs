@@ -1,6 +1,5 @@
-//! Check for misleading names before a script runs.
-//! If a script function had the name of a function of the language, every call of this name would use the script function.
-//! If a file has a variable with the name of a constant of the language, functions in the file see the constant instead of the variable.
+//! Check for misleading names before a script runs: functions named like functions of the language,
+//! and constants of the language in functions of a file that has a variable of the same name.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 
@@ -11,8 +10,8 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, moved_down, name_of};
 
-/// Checks the names of the functions in `source`, and the variables used by them. `source` starts after `lines_before` lines of a file.
-/// The callback `variables` returns the top-level variables of the file with the lines of their declarations.
+/// Checks the names of functions in `source`, and the constants used in them. `lines_before` lines of the file precede `source`.
+/// `variables` returns the top-level variables of the file with the lines of their declarations.
 ///
 /// # Errors
 /// Fails at the position of the first misleading name.
@@ -84,7 +83,6 @@ impl NamedFunction<'_> {
     }
 
     /// Rejects a constant of the language in a function if the file has a variable with the same name.
-    /// A reader of the script would expect the variable, but functions cannot see variables outside them.
     fn refuse_hidden(&self, name: &str, line: usize) -> Result<(), Box<EvalAltResult>> {
         let used = self.names().find(|(used, _)| *used == name);
         let Some((_, at)) = used.filter(|_| !self.declares(name)) else { return Ok(()) };

@@ -1,11 +1,11 @@
-//! Arithmetic and comparison of numbers as in scientific languages: implementation of the operators of [`syntax`](crate::script::source::syntax).
+//! Arithmetic and comparison of numbers as in scientific languages, for the operators of [`syntax`](crate::script::source::syntax).
 //!
-//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates.
-//! A power of integers with a non-negative exponent is an integer, and integer overflow is an error.
-//! Other types keep the operators of the engine, with one exception: an order comparison of values of different types is an error instead of `false`.
+//! Comparisons follow IEEE 754, also between integers and floats. Division never truncates, and integer overflow is an error.
+//! A power of integers with a non-negative exponent is an integer.
+//! Order comparisons of values of different types are errors; otherwise, other types keep the operators of the engine.
 //!
-//! Two restrictions of the engine remain. `switch` also compares the number type, so `3.0` does not match `case 3`.
-//! A minus sign has precedence over a power, so `-x^2` is an error.
+//! A remaining restriction of the engine is that `switch` distinguishes number types, so that `3.0` does not match `case 3`.
+//! Another restriction is the precedence of a minus sign over a power, because of which `-x^2` is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -16,7 +16,6 @@ use crate::elementary::power;
 use crate::script::messages::error::{EngineResult, ScriptError};
 use crate::script::source::syntax::{DivisionOperand, LONGEST_CHAIN, OWN, REPLACED, power_name};
 
-/// Registers the operators on numbers under the names of the language and, if possible, under the names of the engine.
 pub fn install(engine: &mut Engine) {
     use Ordering::{Equal, Greater, Less};
     register_comparison(engine, "<", |order| order == Some(Less));
@@ -48,7 +47,7 @@ pub fn install(engine: &mut Engine) {
     register_assignment(engine, ">>=", format!("{OWN}>>"));
 }
 
-/// Operator in the notation of scripts. For example, `num<` is `<`, and `num^3` is `^`.
+/// Operator as written in scripts. For example, `num<` is `<`, and `num^3` is `^`.
 pub fn written(operator: &str) -> &str {
     match operator.strip_prefix(OWN) {
         Some(power) if power.starts_with('^') => "^",
@@ -62,9 +61,9 @@ pub fn written(operator: &str) -> &str {
     }
 }
 
-/// Registers a comparison of numbers. The argument of `holds` is `None` if a number is NaN, which has no order.
+/// Registers a comparison of numbers. `holds` receives `None` for a comparison with NaN.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // The comparison is also registered under its name in the engine, because arrays use this name to compare and search elements.
+    // Arrays compare and search elements by the engine's name of the comparison, so it is registered too.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));
@@ -74,7 +73,7 @@ fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Order
 }
 
 fn order(whole: INT, x: f64) -> Option<Ordering> {
-    /// Smallest float above all integers: 2^63.
+    /// Smallest float that is larger than all integers: 2^63.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;
     if x >= BEYOND {
         return Some(Ordering::Less);
@@ -146,8 +145,8 @@ fn shift(places: INT) -> EngineResult<INT> {
     }
 }
 
-/// Registers the operator `name` for operands of any types. The registered function calls the operator `symbol` of the engine.
-/// Implementations for two numbers take precedence. An order comparison of values of different types is an error.
+/// Registers the operator `name` for operands of any types by calling the operator `symbol` of the engine.
+/// An order comparison of values of different types is an error.
 fn forward_to_engine(engine: &mut Engine, name: String, symbol: &'static str) {
     let any_two = [TypeId::of::<Dynamic>(); 2];
     engine.register_raw_fn(

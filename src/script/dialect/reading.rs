@@ -1,6 +1,5 @@
-//! Parsing of scripts. This module parses all script texts.
-//!
-//! Rhai stores lines and columns in 16 bits. Powers, loops and errors are identified by their position, so larger texts are rejected.
+//! Parsing of all script texts.
+//! Rhai stores lines and columns in 16 bits, and loops and errors are identified by their position, so larger texts are rejected.
 
 use rhai::{AST, Engine, EvalAltResult, Position, Scope};
 
@@ -9,13 +8,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::syntax::mark;
 use crate::script::source::text::Source;
 
-/// Maximum number of lines of a source, and maximum number of characters in a line. It is slightly below the limit of Rhai.
+/// Maximum number of lines of a source, and of characters in a line, slightly below the limit of Rhai.
 pub const MOST: usize = 65_000;
 
-/// Parses `source` as the text after the first `lines_before` lines of a program. The text may use the constants of `scope`.
-///
-/// # Errors
-/// Fails if the text is too large or has a syntax error, or if the run was stopped.
+/// Parses `source` as the text after the first `lines_before` lines of a program. It may use the constants of `scope`.
 pub fn read(
     engine: &Engine,
     scope: &Scope,

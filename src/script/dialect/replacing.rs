@@ -20,7 +20,6 @@ impl TextPiece for ImmutableString {
     }
 }
 
-/// Registers `text.replace(found, other)` for strings and characters, in place of the functions of Rhai.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("replace", replace::<ImmutableString, ImmutableString>);
     engine.register_fn("replace", replace::<ImmutableString, char>);

@@ -1,8 +1,6 @@
 //! Limits on the size of texts, arrays and maps of a script.
-//!
-//! Rhai counts all nested elements in every method call to apply its limits, so that appending elements would take quadratic time.
-//! This module checks the length of a variable when the variable is used. Functions that create large values check the size first.
-//! The memory limit bounds the growth of nested values.
+//! The limits of Rhai are not used, because it counts all nested elements in every method call, in quadratic time.
+//! The length of a text, array or map is checked when a variable with it is used, and by functions that create large values.
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, INT, ImmutableString, Map, Position};
 
@@ -17,7 +15,6 @@ const TEXT: &str = "Length of string";
 const ARRAY: &str = "Size of array/BLOB";
 const MAP: &str = "Size of object map";
 
-/// Replaces the Rhai functions that can lengthen a text or an array arbitrarily in one call.
 pub fn install(engine: &mut Engine) {
     engine.register_fn("pad", pad_array);
     engine.register_fn("pad", pad_text::<char>);
@@ -36,7 +33,7 @@ pub fn check(value: &Dynamic) -> EngineResult<()> {
     }
 }
 
-/// Checks the length of a text. `None` stands for a length beyond the range of integers.
+/// Checks the length of a text; `None` is a length beyond the range of integers.
 pub fn expect_text(bytes: Option<usize>) -> EngineResult<()> {
     expect(bytes.is_some_and(|bytes| bytes <= LONGEST_TEXT), TEXT)
 }

@@ -1,6 +1,5 @@
-//! Sorting, either by a script function or in natural order.
-//! The method `sort` of Rhai ignores errors of the function, and results that are not integers.
-//! The method of Rhai also rejects arrays with both integers and floats.
+//! Sorting by a script function or in natural order.
+//! The method of Rhai ignores errors and wrong results of the function, and rejects arrays with both integers and floats.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -67,7 +66,7 @@ fn sorted_naturally(
         let hint = "give the order: sort(|a, b| a.x - b.x)";
         return Err(ScriptError::new(message).hint(hint).into_engine(native.call_position()));
     }
-    // As floats, different integers above 2^53 can be equal. Therefore an array of integers is compared as integers, other arrays as floats.
+    // Integers above 2^53 are compared as integers, because as floats different integers could be equal.
     let order: fn(&Dynamic, &Dynamic) -> Ordering = match array.iter().all(Dynamic::is_int) {
         true => |x, y| x.as_int().ok().cmp(&y.as_int().ok()),
         false => |x, y| natural_order(x, y).unwrap_or(Ordering::Equal),
@@ -82,7 +81,7 @@ fn sorted_naturally(
     })
 }
 
-/// Natural order of two numbers, strings, characters or booleans. NaN comes last. `None` for other values.
+/// Natural order of two numbers, strings, characters or booleans, with NaN last; `None` for other values.
 fn natural_order(x: &Dynamic, y: &Dynamic) -> Option<Ordering> {
     if let (Some(x), Some(y)) = (VariantValue::number(x), VariantValue::number(y)) {
         return Some(x.partial_cmp(&y).unwrap_or_else(|| x.is_nan().cmp(&y.is_nan())));
@@ -104,7 +103,6 @@ fn sorted(native: &NativeCallContext, values: &[&mut Dynamic]) -> EngineResult<A
     })
 }
 
-/// Returns true if the result of the comparison function puts the first element after the second element.
 fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     if let Ok(is_before) = order.as_bool() {
         return Ok(!is_before);
@@ -123,7 +121,6 @@ fn is_after(native: &NativeCallContext, order: &Dynamic) -> EngineResult<bool> {
     )
 }
 
-/// Merge sort. It is stable, and works even if the comparison function is inconsistent.
 fn merged(
     mut left: Array,
     is_after: &mut impl FnMut(&Dynamic, &Dynamic) -> Result<bool, Box<EvalAltResult>>,

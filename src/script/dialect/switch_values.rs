@@ -1,5 +1,5 @@
-//! Check of the values of `switch`. Numbers, texts, booleans, and arrays and maps of these are allowed.
-//! For values of other types, such as functions, Rhai would silently execute the default case of `switch`.
+//! Check of the values of `switch`: numbers, texts, booleans, and arrays and maps of these.
+//! For values of other types, such as functions, Rhai would silently execute the default case.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 

@@ -1,4 +1,4 @@
-//! Construction of the script engine: limits, type names, syntax, bindings, printing, and interruption.
+//! Construction of the script engine.
 
 use std::ops::{Range, RangeInclusive};
 
@@ -22,12 +22,12 @@ const EXPRESSION_DEPTH: usize = 256;
 const EXPRESSION_DEPTH_IN_FUNCTION: usize = 64;
 const PULSE: u64 = 256;
 
-/// Creates an engine for the language of `catalog`. The engine reports to `context`.
+/// Creates an engine for the language of `catalog` that reports to `context`.
 ///
 /// Fails if a token hook of Rhai does not work as required.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
-    // The optimiser of Rhai would replace shadowed names by constants, and drop statements with side effects.
+    // The optimiser of Rhai is off, because it would replace shadowed names by constants and drop statements with side effects.
     engine.set_optimization_level(OptimizationLevel::None);
     limit(&mut engine, context);
     name_types(&mut engine);

@@ -1,5 +1,4 @@
-//! Imports of modules of the standard library, named `std/…`, and of files in the folder of the script. An unchanged file is read only once.
-//! Circular imports are an error.
+//! Imports of library modules, named `std/…`, and of files in the folder of the script.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -19,7 +18,7 @@ use crate::script::state::files::{InputFolder, InputFolders};
 
 const LONGEST_CHAIN: usize = 50;
 
-/// Module resolver for the library and a folder. It caches modules and detects circular imports.
+/// Module resolver for the library and a folder, with a cache and detection of circular imports.
 pub struct FolderResolver {
     folder: PathBuf,
     context: Context,
@@ -28,9 +27,8 @@ pub struct FolderResolver {
     read: RefCell<HashMap<PathBuf, ReadModule>>,
 }
 
-/// Module with the content of its file at the time of reading. Files may change during a session.
+/// Module with the content of its file when it was read, because files may change during a session.
 struct ReadModule {
-    /// Content of the file; empty for modules of the library.
     content: Vec<u8>,
     module: Shared<Module>,
 }
@@ -79,7 +77,7 @@ impl FolderResolver {
         Ok(module)
     }
 
-    /// Returns true if the variables of imported files may differ between the runs of a study, because they depend on inputs.
+    /// Returns true if the variables of imported files depend on inputs, and may therefore differ between runs of a study.
     fn varies(&self, engine: &Engine) -> bool {
         self.context.has_parameters() && Sources::of(engine).imports_have_inputs()
     }

@@ -17,13 +17,12 @@ use crate::script::state::files::{InputFolder, InputFolders};
 #[derive(Default)]
 struct FoundInputs {
     names: Vec<String>,
-    /// True if the script may have further inputs, because the name of an input or the path of an import is computed.
+    /// True if the script may have further inputs, because a name of an input or a path of an import is computed.
     are_incomplete: bool,
     imported: HashSet<PathBuf>,
 }
 
-/// Declares the inputs of a script and of the files that it imports, as far as they are known before it runs.
-/// Returns the names of all inputs found.
+/// Declares the inputs of a script and of its imported files that are known before it runs, and returns their names.
 ///
 /// # Errors
 /// Fails if a value is given that is not allowed, or that belongs to no input.
@@ -44,7 +43,7 @@ pub fn declare_inputs(
     Ok(found.names)
 }
 
-/// Checks that all inputs that are set belong to the script. `also` contains names whose declarations are not known yet.
+/// Checks that all inputs that are set belong to the script. `also` contains further names that count as inputs.
 ///
 /// # Errors
 /// Fails if an input is set that the script does not have.

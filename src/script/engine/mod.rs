@@ -1,5 +1,4 @@
 //! Engine of a run: construction, parsing, execution, imports, and worker threads.
-//! The functions that scripts can call are in `packages` and `library`.
 
 mod build;
 mod imports;

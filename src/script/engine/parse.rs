@@ -35,7 +35,7 @@ pub fn parse(engine: &Engine, program: &Program) -> EngineResult<AST> {
 }
 
 /// Parses and checks a piece of a program. Positions refer to the whole program.
-/// The callback `variables` returns the top-level variables of the whole program with the lines of their declarations.
+/// `variables` returns the top-level variables of the whole program with the lines of their declarations.
 ///
 /// # Errors
 /// Fails if the text has a syntax error, or an error that the checks of scripts find.

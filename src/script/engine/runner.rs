@@ -1,4 +1,4 @@
-//! Execution of a script on a stack that is large enough for the limits of the script.
+//! Execution of a script on a large stack.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -27,7 +27,7 @@ pub enum Ending {
     Finished,
     /// The script has an error.
     Failed(Diagnostic),
-    /// A dry run reached a loop that waits for the result of a simulation. No error occurred before.
+    /// A dry run reached a loop that waits for the result of a simulation, without an error before it.
     Undecided,
     /// Interrupted from outside.
     Interrupted,
@@ -55,7 +55,7 @@ pub struct RunOutcome {
     pub checks: Checks,
     /// Report entries of the simulations.
     pub simulations: Vec<serde_json::Value>,
-    /// Estimated errors of the simulations, one line each, or a remark if errors are not estimated.
+    /// Estimated errors of the simulations, one line each, or a remark that errors are not estimated.
     pub errors: Vec<String>,
     /// Files written.
     pub files: Vec<PathBuf>,
@@ -66,7 +66,7 @@ pub struct RunOutcome {
 }
 
 impl RunOutcome {
-    /// Summary of the run, one line each: written files, estimated errors, and counts of the checks.
+    /// Summary of the run, line by line: written files, estimated errors, and counts of the checks.
     pub fn summary(&self) -> Vec<String> {
         let files = self.files.iter().map(|file| format!("wrote {}", file.display()));
         files.chain(self.errors.iter().cloned()).chain(self.checks.summary()).collect()
@@ -95,7 +95,6 @@ pub fn run(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunOu
 /// Default memory for the snapshots of a simulation [bytes], for scripts that may rewind.
 pub const SNAPSHOTS: usize = 256_000_000;
 
-/// Returns true if a script may rewind a simulation, which requires snapshots. The library never rewinds; other imported files may.
 fn may_go_back(program: &Program) -> bool {
     let is_library = |path: Option<&str>| path.is_some_and(|path| path.starts_with(FOLDER));
     let source = &program.text;
@@ -144,7 +143,7 @@ fn run_here(program: &Program, catalog: &Catalog, settings: RunSettings) -> RunO
     }
 }
 
-/// Largest run time for which errors are estimated although the user has not requested an estimate.
+/// Largest run time after which errors are estimated although the user has not requested it.
 const BRIEF: Duration = Duration::from_secs(1);
 
 const MOST_ESTIMATES: usize = 5;

@@ -1,4 +1,4 @@
-//! Environment for the execution of scripts: catalog, engine and shared state. Each run, prompt or graded exercise has a separate environment.
+//! Environment for the execution of scripts: catalog, engine and shared state.
 
 use std::rc::Rc;
 
@@ -23,7 +23,6 @@ const DRY_RUN_NOTE: &str =
 pub struct ScriptEngine {
     catalog: Catalog,
     context: Context,
-    /// Engine, shared with the functions that are stored in scenes and simulations.
     engine: Rc<Engine>,
 }
 
@@ -32,7 +31,7 @@ pub struct ScriptEngine {
 pub enum Halt {
     /// Error in the script, exceeded limit, or internal error.
     Failed(Diagnostic),
-    /// A dry run reached a point at which the script waits for the result of a simulation. The diagnostic describes this point.
+    /// A dry run reached the point, described by the diagnostic, at which the script waits for the result of a simulation.
     Undecided(Diagnostic),
     /// Interrupted from outside.
     Interrupted,
@@ -41,8 +40,7 @@ pub enum Halt {
 }
 
 impl ScriptEngine {
-    /// Creates the environment for the language of `catalog`, within the limits of the settings.
-    /// Imported files are searched for in the folder `settings.folder`.
+    /// Creates the environment for the language of `catalog`, with the limits of `settings`.
     ///
     /// # Errors
     /// Fails only because of internal errors.
@@ -58,7 +56,7 @@ impl ScriptEngine {
         Ok(Self { catalog, context, engine })
     }
 
-    /// Resets the counters, and enforces the limits until the guard is dropped.
+    /// Resets the counters of steps and output, and enforces the limits until the guard is dropped.
     ///
     /// # Errors
     /// Fails if no thread can be started.
@@ -69,10 +67,10 @@ impl ScriptEngine {
         })
     }
 
-    /// Calls `work` with the engine, then ends the progress display and flushes the output. `program` returns the source text for error messages.
+    /// Calls `work` with the engine, ends the progress display and flushes the output. `program` returns the source text for messages.
     ///
     /// # Errors
-    /// Fails if `work` does not complete. A panic in native code is reported as an internal error. Earlier results remain valid.
+    /// Fails if `work` does not complete. A panic in native code is reported as an internal error.
     pub fn run<T>(
         &self,
         _limits_kept: &Watchdog,

@@ -1,4 +1,4 @@
-//! Stack sizes of threads for scripts and workers. They are sufficient for the limits of the script, but smaller if the address space is limited.
+//! Stack sizes of the threads of scripts and workers, computed from the limits of the script and the address space.
 
 use std::io::ErrorKind;
 use std::sync::Mutex;
@@ -9,8 +9,8 @@ use crate::script::diagnose::Diagnostic;
 use crate::script::state::limits::Limits;
 use crate::simulation::HAS_THREADS;
 
-/// Calls `work` on a thread whose stack is large enough for the limits of the script.
-/// If the address space of the process is limited, the stack is smaller. On a system without threads, `work` runs on this thread.
+/// Calls `work` on a thread with a stack for the limits of the script, or on this thread if the system has no threads.
+/// The stack is smaller if the address space of the process is limited.
 ///
 /// # Errors
 /// Fails if no thread can be started, or if `work` panics.
@@ -21,7 +21,7 @@ pub fn on_large_stack<T: Send>(
     on_stack(script_stack(limits, room()), limits, work)
 }
 
-/// Calls `work` on a thread with a stack of `bytes`. If this fails, smaller stacks are tried, down to the minimum for nested calls.
+/// Calls `work` on a thread with a stack of `bytes`, or of less if this fails, down to the minimum for nested calls.
 /// On a system without threads, `work` runs on this thread.
 ///
 /// # Errors
@@ -55,8 +55,7 @@ pub fn on_stack<T: Send>(
     })
 }
 
-/// Number of workers, at most `most`, and stack size of each worker [bytes]; `None` if the address space is too small for one worker.
-/// On a system without threads, the result is also `None`.
+/// Number of workers, at most `most`, and stack size of each [bytes]; `None` without threads or with too little address space.
 pub fn workers(limits: &Limits, most: usize) -> Option<(usize, usize)> {
     if HAS_THREADS { worker_stacks(limits, most, room()) } else { None }
 }
@@ -75,7 +74,7 @@ fn room() -> Option<usize> {
     None
 }
 
-/// Stack size of a script [bytes]. It is at most a quarter of a limited address space, unless the allowed call depth requires more.
+/// Stack size of a script [bytes], at most a quarter of a limited address space unless the call depth requires more.
 fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     let whole = limits.stack();
     match room.filter(|room| *room < whole.saturating_add(limits.address_space())) {
@@ -84,7 +83,7 @@ fn script_stack(limits: &Limits, room: Option<usize>) -> usize {
     }
 }
 
-/// Number of workers, and stack size of each worker [bytes]. All stacks together use at most half of a limited address space.
+/// Number of workers and stack size of each worker [bytes], together at most half of a limited address space.
 fn worker_stacks(limits: &Limits, most: usize, room: Option<usize>) -> Option<(usize, usize)> {
     let (whole, least) = (limits.stack(), limits.least_stack());
     let needed = whole.saturating_mul(most).saturating_add(limits.address_space());

@@ -1,4 +1,4 @@
-//! Worker threads. Each worker has a separate engine that has compiled the script of the run and calls its functions.
+//! Worker threads that call functions of the script, each with a separate engine.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
@@ -25,7 +25,6 @@ use crate::simulation::cores;
 
 const PULSE: Duration = Duration::from_millis(50);
 
-/// Time to wait before a batch of results is collected.
 const REST: Duration = Duration::from_millis(1);
 
 #[derive(Clone)]
@@ -42,12 +41,11 @@ pub struct EngineConfig {
 }
 
 impl EngineConfig {
-    /// Collects the data for worker engines.
-    /// Returns `None` if there is no complete script, as at the prompt, or if the address space is too small for one worker.
-    /// The argument `refusal` is the error message of functions that write files.
+    /// Collects the data for worker engines; `None` without a complete script, as at the prompt, or with too little address space.
+    /// `refusal` is the error message of functions that write files.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
-        // Workers have no limits of time and memory, because the run supervises the whole process.
+        // Workers have no limits of time and memory, which the run enforces for the whole process.
         let limits = Limits { time: None, memory: None, ..*context.meter().limits() };
         let program = context.program()?.clone();
         let snapshots = context.snapshots();
@@ -58,7 +56,7 @@ impl EngineConfig {
     }
 }
 
-/// Engine on another thread, with the functions and imports of the script. The worker does not execute the statements of the script.
+/// Engine on another thread, with the functions and imports of the script, but without execution of its statements.
 pub struct Worker {
     host: ScriptEngine,
     script: AST,
@@ -145,7 +143,7 @@ pub struct WorkerPool<'c, J, R> {
 
 pub enum WorkerEvent<R> {
     Done(usize, R),
-    /// No result has arrived within the waiting time. The caller can check for interruption.
+    /// No result has arrived within the waiting time, after which the caller can check for interruption.
     Timeout,
     NoWorkers,
 }
@@ -157,12 +155,11 @@ impl<J, R> WorkerPool<'_, J, R> {
 
     /// Queues a job. The number of the job is returned with its result.
     pub fn submit(&self, number: usize, job: J) {
-        // A failure to queue the job is ignored, because missing workers are detected when results are received.
+        // The error is ignored, because missing workers are detected when results are received.
         let _ = self.jobs.send((number, job));
     }
 
-    /// Waits for the next result like [`receive`](Self::receive). This method is faster if many jobs are queued.
-    /// Results are collected in batches, because each wake-up of the thread takes time.
+    /// Waits for the next result, and collects waiting results in batches, because each wake-up of the thread takes time.
     pub fn receive_batch(&self) -> WorkerEvent<R> {
         match self.results.try_recv() {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -173,7 +170,7 @@ impl<J, R> WorkerPool<'_, J, R> {
         }
     }
 
-    /// Waits for the next result. Results arrive in any order. A job that takes too long is stopped.
+    /// Waits for the next result, in any order. A job that takes too long is stopped.
     pub fn receive(&self) -> WorkerEvent<R> {
         match self.results.recv_timeout(PULSE) {
             Ok((number, result)) => WorkerEvent::Done(number, result),
@@ -186,8 +183,8 @@ impl<J, R> WorkerPool<'_, J, R> {
     }
 }
 
-/// Calls `drive` with a pool of worker threads with separate engines. A job that takes longer than `wall` is stopped.
-/// The callback `panicked` converts the message of a panic to a result. When `drive` returns, jobs that have not ended are stopped.
+/// Calls `drive` with a pool of worker threads, and then stops unfinished jobs. A job that takes longer than `wall` is stopped.
+/// `panicked` converts the message of a panic to a result.
 pub fn with_worker_pool<J: Send, R: Send, T>(
     config: &EngineConfig,
     wall: Duration,

@@ -11,7 +11,6 @@ use crate::script::bindings::kind::{Details, Scripted};
 use crate::script::messages::error::ScriptError;
 use crate::statics::Equilibrium;
 
-/// Handle of an equilibrium. Clones refer to the same equilibrium.
 #[derive(Clone)]
 pub struct EquilibriumHandle(Rc<EquilibriumData>);
 

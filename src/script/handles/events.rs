@@ -1,6 +1,5 @@
-//! Script functions scheduled for times of a simulation.
+//! Script functions that are called at given times of a simulation.
 
-/// Scheduled functions with their times, and the number of functions already called.
 #[derive(Clone)]
 pub struct Events<F> {
     functions: Vec<(f64, F)>,
@@ -14,7 +13,6 @@ impl<F> Default for Events<F> {
 }
 
 impl<F: Clone> Events<F> {
-    /// Schedules a function. Functions for the same time are called in the order of insertion.
     pub fn insert(&mut self, time: f64, function: F) {
         let place = self.functions.partition_point(|(other, _)| *other <= time);
         self.functions.insert(place.max(self.called), (time, function));
@@ -30,12 +28,11 @@ impl<F: Clone> Events<F> {
         Some(due.clone())
     }
 
-    /// All functions with their times, including functions already called.
     pub fn all(&self) -> &[(f64, F)] {
         &self.functions
     }
 
-    /// Marks the functions with times after `now` as not yet called, because the simulation was rewound to `now`.
+    /// Marks the functions with times after `now` as not yet called, after the simulation was rewound to `now`.
     pub fn reschedule_after(&mut self, now: f64) {
         let passed = self.functions.partition_point(|(time, _)| *time <= now);
         self.called = self.called.min(passed);

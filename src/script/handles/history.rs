@@ -11,7 +11,6 @@ use crate::script::presentation::details;
 use crate::script::presentation::plots::{column_hint, column_names};
 use crate::simulation::{History, Sample};
 
-/// Handle of a time interval of a history. The history grows with the simulation.
 #[derive(Clone)]
 pub struct HistoryHandle {
     pub of: SimulationHandle,

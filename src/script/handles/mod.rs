@@ -1,5 +1,4 @@
 //! Handles of scenes, beams, stations, simulations and histories for scripts. Clones of a handle refer to the same object.
-//! The calls on handles are declared in `packages`.
 
 pub mod beam;
 pub mod equilibrium;

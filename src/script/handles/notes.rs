@@ -1,4 +1,4 @@
-//! Record of the reported warnings of a simulation.
+//! Record of the warnings of a simulation that have been reported.
 
 use std::cell::RefCell;
 
@@ -23,7 +23,6 @@ impl Notes {
         Self { printing, reported: RefCell::default() }
     }
 
-    /// Reports the new warnings of a simulation. A warning is reported again only if it has become more severe.
     pub fn report_warnings(&self, name: &str, simulation: &Simulation, context: &Context) {
         if self.printing == Printing::Never || context.is_stopped() {
             return;

@@ -25,23 +25,19 @@ const SHAPED: &str = "numbers of sections, loads, springs, masses and velocities
 pub struct SceneHandle {
     variants: Rc<Variants>,
     functions: Rc<RefCell<Vec<Rc<StoredFunction>>>>,
-    /// Controllers of loads and drives, which are called at the start of every step.
     controllers: Rc<RefCell<Vec<Rc<Controller>>>>,
     conditions: Rc<RefCell<Vec<Condition>>>,
-    /// True if a note about modes has been printed: modes do not include the effects of controllers and spins.
     has_modes_note: Rc<Cell<bool>>,
 }
 
 struct Variants {
     scene: Rc<RefCell<Scene>>,
     declared: RefCell<Option<Rc<ParameterSet>>>,
-    /// Perturbed variants of the scene. They are created by the first call with an argument that depends on a parameter.
+    /// Perturbed variants of the scene, created by the first call with an argument that depends on a parameter.
     beside: OnceCell<PerturbedBuilds>,
-    /// True if the scene has been changed since the last start of a simulation.
     is_changed: Cell<bool>,
 }
 
-/// Perturbed variants of a scene. In each variant, one parameter is increased or decreased by a perturbation.
 struct PerturbedBuilds {
     family: Rc<ParameterSet>,
     scenes: Vec<Rc<RefCell<Scene>>>,
@@ -53,11 +49,10 @@ pub struct Condition {
     pub release: usize,
 }
 
-/// Script function of time and simulation. Its value is constant during a step or a sampling interval.
 pub struct Controller {
     pub function: StoredFunction,
     pub value: Rc<Cell<f64>>,
-    /// Sampling clock of the controller; `None` if the function is called at every step.
+    /// Sampling interval of the controller; `None` if the function is called at every step.
     pub beat: Option<SampleClock>,
 }
 
@@ -79,7 +74,7 @@ impl SceneHandle {
         }
     }
 
-    /// Returns true at the first call, so that the note on modes is printed once per scene.
+    /// Returns true at the first call only, so that the note on modes is printed once per scene.
     pub fn take_modes_note(&self) -> bool {
         !self.has_modes_note.replace(true)
     }
@@ -118,10 +113,7 @@ impl SceneHandle {
         self.variants.beside.get().map(|beside| Rc::clone(&beside.family))
     }
 
-    /// Declares a parameter, and returns its value with the perturbed values.
-    ///
-    /// # Errors
-    /// Fails if the name is already used, or if variants of parameters have been used.
+    /// Declares a parameter, and returns its value with all perturbed values.
     pub fn declare(
         &self,
         name: &str,
@@ -137,9 +129,6 @@ impl SceneHandle {
     }
 
     /// Scenes at the perturbed parameter values.
-    ///
-    /// # Errors
-    /// Fails if the scene has script functions, which cannot be evaluated in variants.
     pub fn variations(&self) -> Result<Vec<Variation>, ScriptError> {
         let Some(PerturbedBuilds { family, scenes }) = self.variants.beside.get() else {
             return Ok(Vec::new());
@@ -188,7 +177,7 @@ impl SceneHandle {
         Ok(())
     }
 
-    /// Returns true in the unperturbed variant. Functions are stored only in the unperturbed variant, so that each function is stored once.
+    /// Returns true in the unperturbed variant, the only one in which functions are stored.
     fn keeps(&self) -> bool {
         present().is_none_or(|present| present.variant == 0)
     }
@@ -235,10 +224,7 @@ impl SceneHandle {
         self.conditions.borrow().clone()
     }
 
-    /// Rejects a scene with functions that are called between steps. A study cannot call them, because it runs the scene without its script.
-    ///
-    /// # Errors
-    /// Fails if a load or drive has a controller, or if a release has a condition.
+    /// Rejects a scene with functions that are called between steps, because a study runs the scene without its script.
     pub fn expect_no_callbacks(&self) -> Result<(), ScriptError> {
         if self.controllers.borrow().is_empty() && self.conditions.borrow().is_empty() {
             return Ok(());

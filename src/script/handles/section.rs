@@ -10,7 +10,6 @@ const DIGITS: usize = 7;
 #[derive(Clone)]
 pub struct SectionHandle {
     pub variation: SectionVariation,
-    /// Material and shape from which the section was computed, for use in tapers.
     pub solid: Option<Solid>,
     /// Relaxation times of the material; `None` for an elastic material.
     pub relaxation: Option<Relaxation>,

@@ -33,7 +33,6 @@ pub use companions::{Companion, RunStart};
 pub use revisit::Revisit;
 pub use visit::Visited;
 
-/// Handle of a simulation. Clones refer to the same simulation.
 #[derive(Clone)]
 pub struct SimulationHandle(Rc<Live>);
 
@@ -42,9 +41,7 @@ struct Live {
     scene: SceneHandle,
     simulation: RefCell<Simulation>,
     events: RefCell<Events<Rc<StoredFunction>>>,
-    /// True while a scheduled function runs. During this time, no other function may be scheduled for the same simulation time.
     is_firing: Cell<bool>,
-    /// True if an early end of the run has already been reported.
     is_ending_told: Cell<bool>,
     was_stopped: Cell<bool>,
     notes: Notes,
@@ -57,12 +54,11 @@ pub enum RunTarget {
     Time(f64),
 }
 
-/// Observer of steps. It updates the progress display, counts steps, and stops the run after an interrupt or at a limit.
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// End of the run [time]. At this time, the limit of steps cannot stop the run, because no further step is needed.
+    /// End of the run [time], at which the limit of steps cannot stop the run, because no further step is needed.
     end: f64,
-    /// True if script functions must be called after every step.
+    /// True if the run must stop after every step to call script functions.
     pauses: bool,
     /// True if the run was stopped only to call script functions.
     is_paused: bool,
@@ -85,7 +81,7 @@ impl Monitor for ProgressMonitor<'_> {
     }
 }
 
-/// Observer of a simulation in a dry run. It stops for the same reasons as in a real run, but does not count steps.
+/// Observer of a simulation in a dry run, which stops as in a real run but does not count steps.
 struct DryRunObserver<'a>(&'a Context);
 
 impl Monitor for DryRunObserver<'_> {
@@ -95,7 +91,6 @@ impl Monitor for DryRunObserver<'_> {
 }
 
 impl SimulationHandle {
-    /// Creates the handle of a new simulation, and adds the simulation to the report of the run.
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,
@@ -211,7 +206,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Returns the simulation to an earlier state. In a dry run, the result is approximate.
+    /// Rewinds the simulation to an earlier state; only approximately in a dry run.
     pub fn rewind_to(&self, call: &Call, goal: &RunTarget) -> Result<(), ScriptError> {
         self.0.sensing.expect_idle()?;
         let mut simulation = self.0.simulation.borrow_mut();
@@ -280,7 +275,7 @@ impl SimulationHandle {
         Ok(())
     }
 
-    /// Returns true if the last advance failed or was interrupted, so that its goal was not reached.
+    /// Returns true if the last advance did not reach its goal, because of an error or an interrupt.
     pub fn was_stopped(&self) -> bool {
         self.0.was_stopped.get()
     }
@@ -335,7 +330,7 @@ impl SimulationHandle {
         loop {
             let due = self.0.events.borrow_mut().take_due(self.time() + slack);
             let Some(function) = due else { return Ok(()) };
-            // The value that a scheduled function returns is ignored.
+            // The return value of a scheduled function is ignored.
             self.0.is_firing.set(true);
             let called = function.call([Dynamic::from(self.clone())]);
             self.0.is_firing.set(false);

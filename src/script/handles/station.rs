@@ -28,7 +28,6 @@ impl StationHandle {
         self.within(handle.scene(), simulation.scene(), simulation.model().meshes())
     }
 
-    /// Point on the meshes of `built`, the scene that was built from the handle `of`. Fails if the station belongs to another scene.
     pub fn within(
         &self,
         of: &SceneHandle,
@@ -71,7 +70,6 @@ impl Scripted for StationHandle {
     }
 }
 
-/// Scene before the dot of a call, and the station of this scene that the argument `name` contains.
 pub fn here(call: &Call, name: &str) -> Result<(Station, Rc<RefCell<Scene>>), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let station = scene.own_station(&call.get::<StationHandle>(name)?)?;

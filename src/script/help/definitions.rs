@@ -1,7 +1,7 @@
-//! Definition files (`.d.rhai`) for the Rhai language server in editors. They are generated from the bindings.
+//! Definition files (`.d.rhai`) for the Rhai language server in editors, generated from the bindings.
 //!
-//! The format of definition files has no optional arguments, so a function has one declaration for each number of arguments.
-//! Allowed values, units, options and examples are in the comment above the declaration, which editors show.
+//! A function with optional arguments has one declaration for each number of arguments, because the format has no such arguments.
+//! Units, allowed values, options and examples are in the comment above a declaration, which editors show.
 
 mod types;
 
@@ -22,7 +22,7 @@ pub struct DefinitionFile {
     pub text: String,
 }
 
-/// Definition files of the script language: one file for all types, and one file for each table of bindings or of functions of Rhai.
+/// Definition files of the language: one for all types, and one for each table of bindings or of functions of Rhai.
 pub fn definitions(catalog: &Catalog) -> Vec<DefinitionFile> {
     let mut files =
         vec![DefinitionFile { name: "types.d.rhai".into(), text: types::file(catalog) }];

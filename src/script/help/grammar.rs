@@ -1,7 +1,7 @@
 //! TextMate grammar for syntax highlighting in editors, generated from the keywords and bindings.
 //!
-//! The rules of the grammar correspond to the scanner ([`scan`](crate::script::source::scanner::scan)). They are regular expressions of Oniguruma.
-//! Editors do not know types, so every name called after a dot is treated as a member.
+//! The rules are regular expressions of Oniguruma that correspond to the scanner ([`scan`](crate::script::source::scanner::scan)).
+//! Editors do not know types, so every name called after a dot is shown as a member.
 
 use std::collections::BTreeSet;
 

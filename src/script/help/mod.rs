@@ -1,4 +1,4 @@
-//! Documentation generated from the catalog: help, reference, definition files, and editor grammar. The texts are part of the bindings in `packages`.
+//! Help, reference, definition files and editor grammar, generated from the catalog.
 
 pub mod definitions;
 pub mod grammar;

@@ -1,5 +1,4 @@
-//! Native functions that wrap the functions of the library and store the calling line.
-//! The calling line is used to report a failed check in the library at the user's line.
+//! Native wrappers of library functions, which store the calling line to report a failed check at the user's line.
 
 use std::any::TypeId;
 

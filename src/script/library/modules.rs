@@ -1,4 +1,4 @@
-//! List of the library modules with their texts. A module is parsed when a script imports it.
+//! List of the library modules with their texts.
 
 use crate::script::bindings::sources::FOLDER;
 use crate::script::messages::error::ScriptError;

@@ -1,5 +1,4 @@
-//! Help pages of the library.
-//! The pages consist of the comments `//!` of a file and `///` of its functions. The comments are parsed when help is requested, not at the import.
+//! Help pages of the library, from the comments `//!` and `///` of its files.
 
 use std::sync::LazyLock;
 
@@ -73,7 +72,7 @@ impl ModulePage {
         page
     }
 
-    /// Function with this name. The name may include the module.
+    /// Function with this name, with or without the module.
     pub fn named(&self, name: &str) -> Option<&ModuleFunction> {
         self.functions.iter().find(|known| known.full_name == name || known.name() == name)
     }

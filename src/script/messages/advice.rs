@@ -1,4 +1,4 @@
-//! Hints, in terms of the language, for errors of lower layers, which do not know about scripts.
+//! Hints, in terms of the language, for errors of layers that do not know about scripts.
 
 use std::error::Error;
 
@@ -9,7 +9,7 @@ use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{InTime, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
 
-/// Hint for an error. If the error has no hint, the hint of one of its causes is returned.
+/// Hint for an error or for one of its causes; `None` if there is none.
 pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
         .or_else(|| error.downcast_ref().and_then(simulation_hint))

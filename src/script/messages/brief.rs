@@ -1,7 +1,6 @@
-//! Length limit of messages. Long quoted values are shortened in the middle.
+//! Length limit of messages, which are shortened in the middle.
 
 const MOST: usize = 1600;
-/// Number of characters kept at the end of a shortened message, where messages state the allowed values.
 const END: usize = 600;
 
 pub fn brief(text: String) -> String {

@@ -7,7 +7,6 @@ use super::brief::brief;
 use super::raised::Raised;
 use super::stop::Stop;
 
-/// Marker of engine errors that are internal errors of the program.
 pub(in crate::script) const BUG: &str = "a bug in withy";
 
 /// Error of a native function of the language.
@@ -17,13 +16,13 @@ pub enum ScriptError {
     Failure(Failure),
     /// The run was interrupted or exceeded a limit. Scripts cannot catch this error.
     Stopped(Stop),
-    /// Internal error, with a request to the user to report it.
+    /// Internal error of the program, which the user is asked to report.
     Internal(String),
-    /// Error of a called script function, which is passed on unchanged.
+    /// Error of a called script function, passed on unchanged.
     Engine(Box<EvalAltResult>),
 }
 
-/// Invalid request. The message names the object and the value. The hint states the remedy.
+/// Invalid request: the message names the object and the value, and the hint states the remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// Error message.
@@ -41,7 +40,7 @@ pub enum CallPart {
     Call,
     /// Argument with this index, counted from 0. In a call with method syntax, argument 0 is before the dot.
     Argument(usize),
-    /// Argument of a method with this index, counted from 0, without the value before the dot.
+    /// Argument of a method with this index, counted from 0 after the dot.
     ArgumentOfMethod(usize),
     /// Key of an option map in the arguments.
     Key(String),
@@ -106,7 +105,7 @@ impl ScriptError {
     }
 }
 
-/// Converts errors of lower layers to failures with their message and a hint. Errors of a script function are passed on unchanged.
+/// Converts an error of a lower layer to a failure with its message and a hint, and passes errors of script functions on unchanged.
 impl<E: std::error::Error + 'static> From<E> for ScriptError {
     fn from(error: E) -> Self {
         match Raised::script_error_in(&error) {

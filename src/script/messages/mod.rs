@@ -1,5 +1,4 @@
-//! Texts and types for messages, used by all language modules: errors, numbers, nouns, suggestions, checks, and reasons for a stop.
-//! Messages on errors of scripts are composed in `diagnose`.
+//! Errors, numbers, nouns, suggestions, checks, and reasons for a stop, for messages of all language modules.
 
 pub mod advice;
 pub(crate) mod brief;

@@ -6,15 +6,14 @@ use super::nouns::with_article;
 pub(crate) use crate::output::format_number;
 use crate::output::significant;
 
-/// Largest integer up to which all integers are exact in `f64`.
 const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 
-/// Converts a script value to a number. Integers are accepted.
+/// Converts a script value to a number; `None` unless it is a number or an integer.
 pub fn as_number(value: &Dynamic) -> Option<f64> {
     value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
 }
 
-/// Converts a script value to an integer. Numbers without a fractional part are accepted.
+/// Converts a script value to an integer; `None` if it has a fractional part or another type.
 pub fn as_integer(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;
@@ -55,7 +54,6 @@ pub fn describe(engine: &Engine, value: &Dynamic) -> String {
     with_article(engine.map_type_name(value.type_name()))
 }
 
-/// Formats a number with six significant digits, or with all digits if six would make it a whole number.
 fn six_digits(x: f64) -> String {
     let rounded = significant(x, 6);
     let is_misleading = x.fract() != 0.0 && rounded.parse().is_ok_and(|y: f64| y.fract() == 0.0);

@@ -3,13 +3,13 @@
 /// Display of the progress of a simulation or study: a bar on a terminal, and nothing in a pipe.
 pub trait Progress {
     fn begin(&self, name: &str, from: f64, to: f64);
-    /// Shows the present time `t`. The method is fast enough to be called at every step.
+    /// Shows the present time `t`. Called at every step, and therefore fast.
     fn report_time(&self, t: f64);
     fn begin_cases(&self, name: &str, count: usize);
-    /// Shows the number of completed cases. The method is fast enough to be called many times per second.
+    /// Shows the number of completed cases. Called many times per second, and therefore fast.
     fn report_case(&self, done: usize);
     fn end(&self);
-    /// Calls `write`, which writes to the terminal, so that its text does not mix with the progress display.
+    /// Calls `write`, which writes to the terminal, while the progress display is hidden.
     fn without_progress_bar(&self, write: &mut dyn FnMut()) {
         write();
     }

@@ -1,4 +1,4 @@
-//! Errors of script functions called by native code. They pass through the lower layers unchanged.
+//! Errors of script functions called by native code, which pass through the lower layers unchanged.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -6,12 +6,12 @@ use std::fmt;
 
 use rhai::EvalAltResult;
 
-/// Error of a script function, wrapped for the lower layers, which use only its message.
+/// Error of a script function, wrapped for lower layers, which use only its message.
 /// On return to the script, the original error is unwrapped with its position, trace and thrown value.
 #[derive(Debug)]
 pub struct Raised {
     words: String,
-    /// Error; `None` after it has been unwrapped. The engine needs the error by value and cannot clone it.
+    /// Original error; `None` after unwrapping, because the engine needs it by value and cannot clone it.
     error: RefCell<Option<Box<EvalAltResult>>>,
 }
 
@@ -21,7 +21,7 @@ impl Raised {
         Self { words, error: RefCell::new(Some(error)) }
     }
 
-    /// Unwraps the script error in `error` or in one of its causes; `None` if there is no script error.
+    /// Unwraps the script error in `error` or in one of its causes; `None` if there is none.
     pub fn script_error_in(error: &(dyn Error + 'static)) -> Option<Box<EvalAltResult>> {
         let mut cause = Some(error);
         while let Some(error) = cause {

@@ -1,11 +1,11 @@
-//! Report entries of the simulations of a run, and rescue files with their results for a stopped run.
+//! Report entries of simulations, and rescue files with their results if a run is stopped.
 
 use std::cell::RefCell;
 use std::collections::HashSet;
 
 use rhai::Dynamic;
 
-/// Object that contributes to the report of a run, for example a simulation.
+/// Object that contributes to the report of a run, such as a simulation.
 pub trait Reporter {
     /// Entry of the object in the report. Called when the run ends, for any reason.
     fn report(&self) -> serde_json::Value;
@@ -13,16 +13,14 @@ pub trait Reporter {
     /// Script value of the object.
     fn object(&self) -> Dynamic;
 
-    /// Name and content of a rescue file with about `numbers` values, for a stopped script; `None` if there is nothing to save.
+    /// Name and content of a rescue file with about `numbers` values; `None` if there is nothing to save.
     fn remains(&self, numbers: usize) -> Option<(String, String)>;
 }
 
-/// Maximum number of rescue files, so that a script with thousands of simulations ends soon after an interrupt.
 const MOST_REMAINS: usize = 20;
 
-/// Approximate maximum number of values in all rescue files together. Writing them takes less than a second.
 const MOST_NUMBERS: usize = 1_000_000;
-/// Largest length of a number and its separator in a file [bytes].
+/// Largest length of a number and its separator in a rescue file [bytes].
 const LONGEST_NUMBER: u64 = 26;
 
 /// All objects that contribute to the report of a run.
@@ -35,8 +33,7 @@ impl Reports {
         self.0.borrow_mut().push(reporter);
     }
 
-    /// Unique names and contents of the rescue files for the first simulations of a run. Their total size is about `bytes`.
-    /// Also returns a note about simulations without a rescue file, if there are any.
+    /// Unique names and contents of the rescue files for the first simulations of a run, about `bytes` in total.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let reporters = self.0.borrow();
         let numbers = usize::try_from(bytes / LONGEST_NUMBER).unwrap_or(MOST_NUMBERS);

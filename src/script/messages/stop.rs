@@ -29,12 +29,12 @@ pub enum Stop {
     Files(u64),
     /// The output could not be written.
     OutputLost(io::ErrorKind),
-    /// The script waits for a result that only a real run computes. This occurs in dry runs.
+    /// A script in a dry run waits for a result that only a real run computes.
     Waiting,
 }
 
 impl Stop {
-    /// Reason stored in the token that terminated the engine.
+    /// Reason in the token with which the engine was terminated.
     pub fn of_token(token: &Dynamic) -> Self {
         token.read_lock::<Self>().map_or(Self::Interrupt, |stop| *stop)
     }

@@ -61,9 +61,9 @@ const ANIMATION: &[Parameter] = &[
     Y_LIMITS,
 ];
 
-/// Width of an animation of one simulation, and width of an animation of several simulations [pixels].
+/// Width of an animation of one simulation, and of several simulations [pixels].
 const WIDTHS: (f64, f64) = (640.0, 960.0);
-/// Minimum height of a plot with enough space for ticks and arrows [pixels].
+/// Minimum height of a plot [pixels], for ticks and arrows.
 const LEAST_HEIGHT: f64 = 100.0;
 
 type TimedPath = Vec<(f64, Point)>;
@@ -198,7 +198,6 @@ fn framed(reels: Vec<FrameSource>) -> Vec<FrameSource> {
     reels.into_iter().map(|reel| FrameSource { base: reel.base.limits(limits), ..reel }).collect()
 }
 
-/// Figure of the given width. The height is chosen so that the plot has its aspect ratio inside margins of fixed size.
 fn scaled(panel: &dyn Panel, width: f64) -> Result<Figure, OutputError> {
     let plot = |(width, height): (f64, f64)| {
         let Margins { left, right, top, bottom } = panel.margins(width, height);

@@ -61,11 +61,11 @@ const VALUES: Parameter = numbers("values");
 fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
     let last = (count - 1) as f64;
-    // Each value is a weighted mean of `from` and `to`, so that the last value is exactly `to`.
+    // The weighted mean of `from` and `to` makes the last value exactly `to`.
     let at = |i: usize| {
         let (before, after) = (last - i as f64, i as f64);
         let x = (from * before + to * after) / last;
-        // For numbers near the largest float, the products of ends and weights overflow, but fractions of the ends do not.
+        // Near the largest float, products of ends and weights overflow, but fractions of the ends do not.
         if x.is_finite() { x } else { from * (before / last) + to * (after / last) }
     };
     Ok((0..count).map(|i| Dynamic::from(at(i))).collect::<Array>().into())

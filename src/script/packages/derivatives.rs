@@ -85,7 +85,7 @@ const KEYS: &[Parameter] = &[number("distance").positive().doc(
 ).optional()];
 const VARIED: Type = Type::of::<VariantValue>();
 const X: Parameter = of_any_type("x");
-/// Minimum perturbation of a parameter, as a fraction of the parameter. Smaller perturbations would give derivatives with too few digits.
+/// Minimum perturbation of a parameter, as a fraction of the parameter, below which derivatives have too few digits.
 const LEAST_DISTANCE: f64 = 1e-10;
 
 fn declare(call: &mut Call) -> Result<Dynamic, ScriptError> {

@@ -1,4 +1,4 @@
-//! Supports of single components, and prescribed motions: motions of stations as functions of time, and motors.
+//! Supports of single components, prescribed motions of stations, and motors.
 
 use rhai::{Dynamic, FnPtr, ImmutableString};
 
@@ -186,7 +186,6 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, DriveKind::Move, motions, &options)
 }
 
-/// Schedule of a prescribed position. If the argument is a controller, the error hint suggests to prescribe the rate instead.
 fn place_of(
     call: &Call,
     options: &Options,

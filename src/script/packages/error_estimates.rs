@@ -202,7 +202,7 @@ fn estimate(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(estimated))
 }
 
-/// Error estimate for a picture or file of a call with the option `error`; `None` if the option is off, or if the script is only checked.
+/// Error estimate for a picture or file with the option `error`; `None` without this option or in a dry run.
 pub(super) fn wanted_estimate(
     call: &Call,
     options: &Options,

@@ -146,7 +146,7 @@ fn named(call: &Call, ending: &str) -> Result<String, ScriptError> {
 
 struct VtkFiles {
     stem: String,
-    /// Name of the collection file without extension and without its folder.
+    /// Name of the collection file without folder and extension.
     base: String,
     digits: usize,
 }

@@ -1,7 +1,7 @@
 //! Geometry: knots and basis functions, planar curves, Gauss rules.
 //!
-//! Bindings of other domains declare a curve as a parameter `object("axis", geometry::CURVE)`, and read it by `call.get::<Rc<Curve>>("axis")`.
-//! A knot vector is declared in the same way by [`KNOTS`]; its native type is `Rc<KnotVector>`. Curves and knot vectors are immutable.
+//! Other domains declare a curve parameter as `object("axis", geometry::CURVE)`, and read it by `call.get::<Rc<Curve>>("axis")`.
+//! Knot vectors are declared in the same way, by [`KNOTS`], with the native type `Rc<KnotVector>`.
 
 pub mod curves;
 pub mod knots;
@@ -27,10 +27,10 @@ const ORDER: Parameter = integer("order")
 const TIMES: Parameter =
     integer("times").non_negative().doc("number of insertions").or(Presence::Integer(1));
 
-/// Largest component of a vector that is attributed to rounding and printed as 0, as a fraction of the length of the vector.
+/// Largest component of a vector that counts as rounding error and is printed as 0, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-14;
 
-/// Derivatives of all functions of `basis`. The arguments of `call` are the parameter `xi` and the `order`.
+/// Derivatives of all functions of `basis` at the parameter `xi`, of the order `order`, both arguments of `call`.
 pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError> {
     let local = at_argument(0, basis.evaluate(call.number("xi")?))?;
     let mut row = vec![0.0; basis.functions()];

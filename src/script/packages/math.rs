@@ -298,7 +298,7 @@ fn map(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
     Ok(f(x(call)?).into())
 }
 
-/// Returns an integer if the result is within the range of integers, so that it can be used as an index.
+/// Rounded number, as an integer if it is within the range of integers, so that it can be an index.
 fn round(call: &Call, f: fn(f64) -> f64) -> Result<Dynamic, ScriptError> {
     const LIMIT: f64 = 9e18;
     let rounded = f(x(call)?);
@@ -331,6 +331,6 @@ fn quotient(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn round_to(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (x, digits) = (x(call)?, call.count("digits")?);
-    // The decimal text is parsed, so that the result is the float nearest to the printed number.
+    // The decimal text is parsed to give the float nearest to the printed number.
     Ok(format!("{x:.digits$}").parse().unwrap_or(x).into())
 }

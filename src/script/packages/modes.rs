@@ -268,7 +268,7 @@ fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
     }
 }
 
-/// Assembles a scene. The assembly is stopped if the run must end.
+/// Assembles a scene, unless the run must end.
 fn assemble(call: &Call, scene: &Scene) -> Result<System, ScriptError> {
     let assembled = System::assemble_while(scene, &mut || !call.context().is_stopped());
     call.context().proceed()?;

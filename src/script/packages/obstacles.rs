@@ -1,4 +1,4 @@
-//! Contact of a scene: walls and discs that bodies can touch, and bodies that can touch each other.
+//! Contact: walls and discs that bodies can touch, and bodies that can touch each other.
 
 use rhai::Dynamic;
 

@@ -1,4 +1,4 @@
-//! Checks of options and arguments of script functions. They correspond to the checks for functions of the language.
+//! Checks of options and arguments of script functions, as for functions of the language.
 
 use rhai::{Array, Dynamic, Map};
 
@@ -75,7 +75,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type descriptions that scripts can use. All other words are type names.
+/// Type descriptions in scripts; other words are type names.
 const KINDS: &[(&str, Kind)] = &[
     ("a value", Kind::Any),
     ("a number", Kind::Number(NumberRange::Finite)),

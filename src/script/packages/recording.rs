@@ -83,14 +83,14 @@ pub(super) fn expect_rows_between(call: &Call, of: &SimulationHandle) -> Result<
 }
 
 pub(super) struct Missing {
-    /// Description of the data that are missing because states cannot be computed again.
+    /// Name, for messages, of the data that are missing because states cannot be computed again.
     pub what: &'static str,
-    /// Suggestion of an alternative that does not need the missing data.
+    /// Suggestion, for messages, of an alternative without the missing data.
     pub instead: &'static str,
 }
 
 /// Reports that the states of a run after `time` cannot be computed again.
-/// For explicitly requested data, the report is an error, otherwise a note.
+/// The report is an error if the data were requested explicitly, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,
     of: &SimulationHandle,

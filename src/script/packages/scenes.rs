@@ -178,7 +178,7 @@ pub const BEAM: Type = Type::of::<BeamHandle>();
 pub const STATION: Type = Type::of::<StationHandle>();
 pub const JOINT: Type = Type::of::<JointHandle>();
 
-/// Largest relative difference of the lengths of a beam on its mesh and of its axis for which no warning is printed.
+/// Largest relative difference between the length of a beam axis and its length on the mesh for which no warning is printed.
 const MISSED_LENGTH: f64 = 0.01;
 
 const AT: Parameter = object("station", STATION);

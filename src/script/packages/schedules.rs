@@ -235,7 +235,6 @@ fn words(context: &Context, error: &EvalAltResult) -> String {
     Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
-/// Schedule of a load from an argument of a type in [`SCHEDULE_KINDS`]. The default is the constant 1.
 pub(super) fn schedule_of(
     call: &Call,
     arguments: &Arguments,
@@ -250,8 +249,7 @@ pub(super) fn schedule_of(
     }
 }
 
-/// Schedule of a load or drive from an argument, as for [`schedule_of`].
-/// The argument may also be a controller: a function of time and simulation that is evaluated at the start of every step or at samples.
+/// Schedule of a load or drive from an argument as for [`schedule_of`], or from a controller (a function of time and simulation).
 pub(super) fn controlled_schedule_of(
     call: &Call,
     arguments: &Arguments,

@@ -199,7 +199,7 @@ pub(super) const START: &[Parameter] = &[
         .or(Presence::Text("print")),
 ];
 
-/// Tolerance of the adaptive steps of a simulation without the option `dt`, relative to the size of the scene.
+/// Tolerance of adaptive steps if neither step size nor tolerance is given, relative to the size of the scene.
 const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 #[derive(Clone)]
@@ -342,7 +342,7 @@ fn angle(call: &mut Call) -> Result<Dynamic, ScriptError> {
     tracked_angle(call, &station, simulation.model().angle(simulation.scene(), &station.station))
 }
 
-/// Angle of the section at a station [rad]. The angle must have been tracked from the start.
+/// Angle of the section at a station [rad], which must have been tracked from the start.
 pub(super) fn tracked_angle(
     call: &Call,
     station: &StationHandle,

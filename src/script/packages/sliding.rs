@@ -393,7 +393,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SliderHandle { scene: handle, index }))
 }
 
-/// Side of a beam with the given name, at an arc length of the undeformed beam [length].
+/// Side of a beam by its name, at an arc length of the undeformed beam [length].
 fn side_of(scene: &Scene, beam: usize, arc_length: f64, word: &str) -> Result<Side, ScriptError> {
     let (above, below) = match word {
         "left" => return Ok(Side::Left),

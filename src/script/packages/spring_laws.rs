@@ -22,7 +22,7 @@ pub(super) enum Acts {
     Push,
 }
 
-/// Spring law, and configuration of zero elongation.
+/// Spring law, and configuration in which the elongation is zero.
 pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
 
 /// Reads a spring law from the options; `None` for a pure damper.
@@ -112,7 +112,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
     Ok(law)
 }
 
-/// Law from a function. The function is sampled over a range of elongations when the spring is created, and not called later.
+/// Law from a function, which is sampled over a range of elongations now and not called later.
 fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;

@@ -101,7 +101,7 @@ fn write(
     Ok(Dynamic::UNIT)
 }
 
-/// Unused file name for a picture of some rows, which must not overwrite the picture of all rows or of other rows.
+/// Unused file name for a picture of some rows, so that pictures of other rows are not overwritten.
 fn numbered(call: &Call, name: &str) -> Result<String, ScriptError> {
     let output = call.context().output();
     let written = output.written();

@@ -263,7 +263,7 @@ fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     })
 }
 
-/// Result of a dry run. The function is called for the first row, and its results are used for all rows.
+/// Result of a dry run, in which the function is called for the first row only, and all rows get its results.
 fn dry_run(call: &Call, order: SweepRequest) -> Result<FinishedSweep, ScriptError> {
     RunFunction::read(call, "run", order.function)?;
     let given = order.invoked(call, 0)?;
@@ -304,7 +304,7 @@ fn sensitivity(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let names = sweep.design.parameters.iter().map(|of| of.name.as_str());
     let Some(shares) = sweep.variance_fractions(&result) else {
-        // A dry run computes no rows, so there are no results.
+        // There are no results in a dry run, which computes no rows.
         if call.context().mode() == RunMode::DryRun {
             let none = VarianceShare { first: 0.0, total: Some(0.0) };
             return Ok(names.map(|name| of((name, none))).collect::<Array>().into());

@@ -60,7 +60,6 @@ pub(super) fn table(call: &Call) -> Result<DataTable, ScriptError> {
     Ok(DataTable { columns: columns.collect::<Result<_, ScriptError>>()? })
 }
 
-/// Values of a key in all rows, stored in the smallest suitable type. Missing keys and unit values become missing values.
 fn values(call: &Call, rows: &[Map], name: &str) -> DataValues {
     let cells: Vec<Option<&Dynamic>> =
         rows.iter().map(|row| row.get(name).filter(|cell| !cell.is_unit())).collect();

@@ -69,7 +69,7 @@ fn taper(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SectionHandle { variation, solid: None, relaxation }))
 }
 
-/// Interpolates the dimensions if all sections are solids with the same type of shape. Otherwise interpolates stiffnesses and inertias.
+/// Interpolates the dimensions of solids with the same type of shape, otherwise the stiffnesses and inertias.
 fn variation(all: &[(f64, SectionHandle)]) -> SectionVariation {
     let solids: Option<Vec<(f64, Solid)>> =
         all.iter().map(|(place, section)| Some((*place, section.solid?))).collect();

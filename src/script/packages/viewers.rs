@@ -129,9 +129,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::UNIT)
 }
 
-/// Fields for colouring beams, computed from the states of a simulation. The states are restored from snapshots or computed again.
-/// If the repeated run differs from the original, a note is printed and the result is `None`.
-/// If the fields were requested explicitly, the difference is an error.
+/// Fields for colouring beams, computed from states of a simulation that are restored from snapshots or computed again.
+/// If the repeated run differs from the original, the result is `None` after a note, or an error for explicitly requested fields.
 fn inside(
     call: &Call,
     of: &SimulationHandle,

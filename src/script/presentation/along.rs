@@ -15,7 +15,7 @@ use crate::system::{BeamPlaces, BeamSample, System, SystemError};
 const DIGITS: usize = 6;
 
 pub struct SectionForceProfile {
-    /// First part of titles. The name of the quantity is appended.
+    /// First part of titles, before the name of the quantity.
     pub title: String,
     /// Time as text; may be empty.
     pub when: String,
@@ -30,7 +30,7 @@ struct BeamProfile {
 }
 
 impl SectionForceProfile {
-    /// Results of a simulation at the present time, for the beams with the given indices, or for all beams if `beams` is empty.
+    /// Results of a simulation at the present time for the beams with the given indices; all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if the axis of a beam has a point without a tangent.
@@ -40,7 +40,7 @@ impl SectionForceProfile {
         Self::of_model(&at, simulation.model(), beams).map(|inside| Self { when, ..inside })
     }
 
-    /// Results of an equilibrium under its full load, for the beams with the given indices, or for all beams if `beams` is empty.
+    /// Results of an equilibrium under its full load for the beams with the given indices; all beams if `beams` is empty.
     ///
     /// # Errors
     /// Fails if the axis of a beam has a point without a tangent.

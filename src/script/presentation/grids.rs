@@ -1,4 +1,4 @@
-//! VTK grids of a simulation. Beams are lines through their knots and three points between consecutive knots. Point masses are dots.
+//! VTK grids of a simulation, with beams as lines through their knots and three points between them, and point masses as dots.
 
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;
@@ -8,7 +8,6 @@ use crate::system::{BeamPlaces, BeamSample, SystemError};
 
 /// Sample positions on all beams, computed once for all frames.
 pub struct Grids {
-    /// Names of the beams, followed by those of point masses and centres of rigid bodies.
     names: Vec<String>,
     beams: Vec<BeamPlaces>,
 }

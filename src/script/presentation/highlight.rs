@@ -1,4 +1,4 @@
-//! Syntax highlighting. The text is not changed, even if it is incomplete or invalid.
+//! Syntax highlighting of a text, which may be incomplete or invalid.
 
 use std::collections::{HashMap, HashSet};
 
@@ -23,14 +23,14 @@ pub const COMMENT: HighlightStyle = HighlightStyle("2");
 pub const FUNCTION: HighlightStyle = HighlightStyle("34");
 /// Constants.
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
-/// Style of members that the type of a value does not have.
+/// Style of members that a value of the type cannot have.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
 /// Style of the bracket at the cursor, and of its matching bracket.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
-/// Style of brackets and other tokens without a matching token.
+/// Style of closing brackets without a matching bracket.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
-/// Names with their colours. The object is created once and used for many texts.
+/// Names with their colours, collected once for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,
@@ -40,7 +40,7 @@ pub struct Vocabulary {
 }
 
 impl Vocabulary {
-    /// Vocabulary with the names of the language, which is sufficient for files.
+    /// Names of the language, which are sufficient for files.
     pub fn of_language(catalog: &Catalog) -> Self {
         let built_in = catalog.built_ins().filter(|known| known.is_function());
         let built_in = built_in.map(|known| known.name().to_owned());
@@ -104,7 +104,7 @@ impl Vocabulary {
 
 /// Text with colours. A bracket at the cursor and its matching bracket are emphasised.
 pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> String {
-    // An escape character in the input would interfere with the inserted colour sequences.
+    // An escape character in the input would interfere with the colour sequences.
     if text.contains('\x1b') {
         return text.to_owned();
     }
@@ -112,7 +112,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     let (partners, _) = pair(&tokens);
     let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
     let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
-    // Parameters and local variables may have the names of session variables, so their members are not checked.
+    // The members of parameters and local variables are not checked, because these may have the names of session variables.
     let has_parameters =
         tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
     let mut drawn = String::with_capacity(text.len() * 2);

@@ -7,9 +7,9 @@ use crate::joints::Partner;
 use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
-/// Magnification of deformations since the start.
+/// Magnification of the deformations since the start.
 ///
-/// Displacements of bodies that joints hold in place are magnified. Rigid motions of other bodies are not magnified.
+/// Rigid motions of bodies that joints do not hold in place are not magnified.
 pub struct Magnifier<'a> {
     simulation: &'a Simulation,
     factor: f64,
@@ -22,20 +22,20 @@ pub struct Magnifier<'a> {
 struct RigidMotion {
     from: Vec2,
     to: Vec2,
-    /// Cosine and sine of the rotation, multiplied by the ratio of the present to the initial joint distances if the body has several joints.
+    /// Rotation (cosine, sine), times the ratio of present to initial joint distances if the body has several joints.
     turn: Option<Vec2>,
-    /// Displacement that keeps the joints and sliders of the body attached to magnified bodies.
+    /// Displacement by which the body stays attached to magnified bodies at its joints and sliders.
     shift: Vec2,
 }
 
-/// Rigid motions of all bodies at a time, from which magnified positions follow.
+/// Rigid motions of all bodies at a time, used to magnify positions.
 pub struct MagnifiedBodies {
     factor: f64,
     motions: Vec<RigidMotion>,
 }
 
 impl MagnifiedBodies {
-    /// Magnified position of a point of a body, from its position at the start and its present position [length].
+    /// Magnified position of a point of a body from its position at the start and now [length].
     pub fn magnified_position(&self, body: usize, start: Vec2, now: Vec2) -> Vec2 {
         let RigidMotion { from, to, turn, shift } = self.motions[body];
         let arm = start - from;
@@ -223,7 +223,7 @@ fn mean(points: &[Vec2]) -> Vec2 {
     points.iter().sum::<Vec2>() / points.len().max(1) as f64
 }
 
-/// Displacement from the first polyline to the second, at the point of the first polyline that is nearest to `at`.
+/// Displacement between two polylines at the point of the first polyline that is nearest to `at`.
 fn displacement(at: Vec2, from: &[Vec2], to: &[Vec2]) -> Option<Vec2> {
     let part = |index: usize| {
         let along = from[index + 1] - from[index];

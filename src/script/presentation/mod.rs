@@ -1,4 +1,4 @@
-//! Presentation of values as text at the prompt, and in charts and coloured pictures. Drawing and file formats belong to `output`.
+//! Presentation of values as text at the prompt, in charts, and in coloured pictures.
 
 pub(crate) mod along;
 pub(crate) mod arrays;

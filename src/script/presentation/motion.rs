@@ -12,7 +12,6 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
-/// Largest number of spans for which knots are marked by default.
 const MOST_SPANS_WITH_DOTS: usize = 40;
 const MOST_SNAPSHOTS: f64 = 2000.0;
 const DIGITS: usize = 6;
@@ -29,7 +28,7 @@ pub struct MotionOptions {
     pub traces: Vec<(String, BodyPoint)>,
     /// Magnification of deformations since the start; `None` for no magnification.
     pub magnify: Option<f64>,
-    /// Marks at knots or nodes. If `None`, marks are drawn only for a small number of spans.
+    /// Marks at knots or nodes. If `None`, they are drawn only for few spans.
     pub dots: Option<bool>,
     pub symbols: Visibility,
     pub limits: AxisLimits,
@@ -38,7 +37,7 @@ pub struct MotionOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
-    /// All symbols, without types that are so numerous that they would hide the others.
+    /// All symbols, except types of symbols that are too numerous for the picture.
     IfFew,
     None,
 }
@@ -63,7 +62,7 @@ pub struct MotionView {
 }
 
 impl MotionView {
-    /// Collects the content from a simulation. `expect` checks each snapshot; its arguments are the requested and the recorded time.
+    /// Collects the content from a simulation. `expect` checks each snapshot by its requested and recorded time.
     ///
     /// # Errors
     /// Fails if there are no or too many snapshots in the interval, or if `expect` fails.
@@ -134,7 +133,7 @@ impl MotionView {
         self.traces.into_iter().fold(picture, |picture, (name, path)| picture.trace(name, path))
     }
 
-    /// Picture as text for a terminal: the last snapshot, and earlier snapshots as dotted lines.
+    /// Picture as text for a terminal, with the last snapshot as solid and earlier ones as dotted lines.
     pub fn text(self, title: impl Into<String>, style: &TerminalStyle) -> String {
         let mut picture = ConfigurationPicture::new(title).limits(self.limits);
         let count = self.snapshots.len();
@@ -158,7 +157,7 @@ impl MotionView {
     }
 }
 
-/// Adds symbols to a picture for a terminal. Springs and obstacles are lines; supports, joints and sliders are marks.
+/// Adds symbols to a picture for a terminal: springs and obstacles as lines; supports, joints and sliders as marks.
 pub fn marked(picture: ConfigurationPicture, symbols: &[PlacedSymbol]) -> ConfigurationPicture {
     let links = symbols.iter().filter_map(PlacedSymbol::link);
     let picture = links.fold(picture, |picture, link| picture.reference_beam(link.to_vec()));
@@ -197,8 +196,7 @@ fn times(simulation: &Simulation, times: &Times) -> Result<Vec<f64>, ScriptError
     Ok(met.chain((!is_met).then_some(last)).collect())
 }
 
-/// Recorded configuration nearest to a time.
-/// For the present time, the present configuration is returned, even if it is not recorded.
+/// Recorded configuration nearest to a time, or the present configuration for the present time, even if it is not recorded.
 fn configuration(
     simulation: &Simulation,
     time: f64,
@@ -234,7 +232,7 @@ fn magnifier(
     Ok(factor.map(|factor| Magnifier::new(simulation, factor)).transpose()?.flatten())
 }
 
-/// Symbols in the recorded configuration nearest to a time. Deformations are magnified.
+/// Symbols in the recorded configuration nearest to a time, with magnified deformations.
 ///
 /// # Errors
 /// Fails if a station lies outside its beam.

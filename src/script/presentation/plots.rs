@@ -112,8 +112,8 @@ pub fn column_summary(history: &History, column: &str) -> Result<String, ScriptE
     Ok(format!("{name}: {first} at the start, least {least}, most {most}, now {last} ({rows})"))
 }
 
-/// Picture of the present configuration, or of the recorded configuration nearest to a time, as text for a terminal.
-/// The initial configuration is dotted.
+/// Picture of the present configuration, or of the recorded one nearest to a time, as text for a terminal.
+/// The initial configuration is drawn dotted.
 ///
 /// # Errors
 /// Fails if the axis of a beam has a point without a tangent.
@@ -213,7 +213,7 @@ fn axis_label(history: &History, columns: &[String]) -> String {
     }
 }
 
-/// Common dimension of columns. It is empty if the columns are numbers without a dimension or have different dimensions.
+/// Common dimension of columns; empty if they have no dimension or different dimensions.
 fn dimension_of(history: &History, columns: &[String]) -> &'static str {
     let groups = by_dimension(columns, |name| history.dimension(name));
     let common = match groups.as_slice() {
@@ -245,7 +245,7 @@ pub fn column_hint(history: &History, name: &str) -> String {
     format!("{suggestion}columns: {}", column_names(history))
 }
 
-/// Names of columns that exist only in some scenes, and the scenes that have them.
+/// Names of history columns that exist only in some scenes, with a description of these scenes.
 const MISSING: [(&str, &str); 2] = [
     (
         "dissipated",

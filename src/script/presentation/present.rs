@@ -9,26 +9,23 @@ use crate::output::{beginning, columns, cut, padded, significant};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::bindings::kind::{Details, Type};
 
-/// Number of significant digits of displayed numbers. It is small enough to hide binary rounding errors.
 const DIGITS: usize = 10;
 const MOST_ITEMS: usize = 8;
-/// Number of displayed items at the start of a long array, in addition to its last item.
 const FIRST_ITEMS: usize = 3;
 const MOST_KEYS: usize = 12;
-/// Largest displayed nesting depth. The nesting of values may be infinite.
 const DEEPEST: usize = 4;
 const LONGEST_TEXT: usize = 40;
 /// Minimum width of the values in summaries [columns].
 const LEAST_ROOM: usize = 20;
 const MOST_LINES: usize = 200;
 
-/// Formatter of values for a given line width. Texts of several lines may be wider.
+/// Formatter of values for a line width.
 pub struct Presenter<'a> {
     catalog: &'a Catalog,
     width: usize,
 }
 
-/// Line of limited width. Values beyond its end are not formatted.
+/// Line of limited width, beyond which values are not formatted.
 struct OutputLine {
     text: String,
     room: usize,
@@ -55,13 +52,13 @@ impl OutputLine {
     }
 }
 
-/// Formats a value on lines of `width` columns. Numbers have up to ten digits. Long arrays and maps are abbreviated.
-/// Native values are followed by their summary. The unit value is shown as an empty text.
+/// Formats a value on lines of `width` columns, with up to ten digits. Long arrays and maps are abbreviated.
+/// Native values are followed by their summary. The unit value gives an empty text.
 pub fn present(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     Presenter { catalog, width: width.max(20) }.show(value)
 }
 
-/// Formats a value on one line of `width` columns. Arrays and maps are abbreviated. For other values, only the first line is used.
+/// First line of a value, of `width` columns, with abbreviated arrays and maps.
 pub fn present_in_a_line(catalog: &Catalog, value: &Dynamic, width: usize) -> String {
     let presenter = Presenter { catalog, width };
     if is_collection(value) {
@@ -268,7 +265,7 @@ fn written_key(key: &str) -> String {
 }
 
 fn plain(value: &Dynamic, longest: usize) -> String {
-    // Variables captured by closures are shared values, which must be locked for reading.
+    // Shared values, such as variables captured by closures, must be locked for reading.
     let value = value.flatten_clone();
     if let Ok(x) = value.as_float() {
         return significant(x, DIGITS);

@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 use crate::system::{Anchor, Drive, ObstacleShape, Scene, Spring, SpringKind, System, SystemError};
 
 const ARROWS: usize = 5;
-/// Distance from a station to each of the two points from which the tangent is computed, as a fraction of the beam length.
+/// Distance from a station to the points from which its tangent is computed, as a fraction of the beam length.
 const AROUND: f64 = 1e-3;
 
 pub struct StationSymbol<'a> {
@@ -23,7 +23,7 @@ pub struct StationSymbol<'a> {
 }
 
 pub enum Pointing {
-    /// Direction that is fixed in space, independent of the beam.
+    /// Direction in space, independent of the beam.
     To(Vec2),
     /// Direction relative to the beam, with components along the beam and to its left.
     WithBeam(Vec2),
@@ -40,7 +40,7 @@ impl Pointing {
         }
     }
 
-    /// Angle of the direction in space, for a beam with the angle `along` [rad].
+    /// Angle in space [rad] of the direction, for a beam with the angle `along` [rad].
     pub fn angle(&self, along: f64) -> f64 {
         match self {
             Self::To(direction) => atan2(direction.y, direction.x),
@@ -77,7 +77,7 @@ impl<'a> SceneAt<'a> {
     }
 }
 
-/// Symbols of a scene at a time. `places` returns the positions of stations. Zero loads have no symbol.
+/// Symbols of a scene at a time, except for zero loads. `places` returns the positions of stations.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,
@@ -211,13 +211,12 @@ fn of_held(scene: &Scene, at: &Station, held: Components) -> (Symbol, Pointing) 
     }
 }
 
-/// Normal direction of an inclined roller. The direction points upwards, so that the support is below the beam.
+/// Normal direction of an inclined roller, upwards, so that the support is below the beam.
 fn across(along: Vec2) -> Pointing {
     let across = perpendicular(along);
     Pointing::To(if across.y < 0.0 { -across } else { across })
 }
 
-/// Direction that points away from a support. At the end of a beam, it points backwards along the beam.
 fn away(scene: &Scene, at: &Station) -> Pointing {
     let is_end = at.beam().is_some() && at.arc_length > 0.5 * scene.length_at(at);
     Pointing::WithBeam(if is_end { -Vec2::x() } else { Vec2::x() })
@@ -291,8 +290,8 @@ fn of_loads(scene: &Scene, time: f64) -> impl Iterator<Item = StationSymbol<'_>>
     })
 }
 
-/// Value of the schedule of a load at a time. At a jump, it is the value before the jump; at time zero, the value after the jump.
-/// The value is 1 if the schedule contains a script function, because script functions are not called here.
+/// Value of the schedule of a load at a time; at a jump, the value before it, except at time zero.
+/// A schedule with a script function has the value 1, because script functions are not called here.
 fn factor(load: &Load, time: f64) -> f64 {
     if load.schedule.functions() > 0 {
         return 1.0;

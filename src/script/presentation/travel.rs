@@ -4,7 +4,7 @@ use crate::beams::Station;
 use crate::joints::{Joint, JointKind, Partner};
 use crate::system::Scene;
 
-/// Classification of the bodies of a scene: bodies that joints hold in place, and groups of joined bodies that can move without deformation.
+/// Classification of bodies: those that joints hold in place, and groups of joined bodies that can move rigidly.
 pub struct Travel {
     is_held: Vec<bool>,
     group: Vec<usize>,
@@ -12,7 +12,7 @@ pub struct Travel {
 
 impl Travel {
     /// Classifies the bodies by counting degrees of freedom and joint constraints.
-    /// Bodies count as rigid. Sliders, drives and springs are ignored.
+    /// Beams count as rigid, and sliders, drives and springs are ignored.
     pub fn of(scene: &Scene) -> Self {
         let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut travel = Self { is_held: vec![false; count], group: (0..count).collect() };
@@ -86,7 +86,7 @@ impl Travel {
     }
 }
 
-/// Stations of joints with their partners. A joint between two bodies occurs twice, once for each body.
+/// Stations of joints with their partners. A joint between two bodies occurs once for each body.
 pub fn joint_ends(scene: &Scene) -> impl Iterator<Item = (Station, Partner, &Joint)> {
     scene.joints.iter().flat_map(|joint| {
         let other = match joint.partner {

@@ -1,4 +1,4 @@
-//! Conversion of a simulation to data for the viewer: bodies, supports, obstacles, loads in each frame, and history columns.
+//! Conversion of a simulation to data for the viewer.
 
 mod fields;
 
@@ -20,7 +20,6 @@ use crate::script::messages::error::ScriptError;
 use crate::simulation::{Axes, AxisStation, Outline, Simulation};
 use crate::system;
 
-/// Largest number of stations whose paths are drawn by default. If there are more free ends and point masses, no path is drawn.
 const MOST_FREE_ENDS: usize = 8;
 const ARROWS_A_BEAM: usize = 6;
 
@@ -32,7 +31,7 @@ pub struct ViewerOptions<'a> {
     pub frames: Vec<usize>,
     /// Label of the motion.
     pub label: String,
-    /// Stations whose paths are drawn. If `None`, the free ends of beams and the point masses are selected.
+    /// Stations whose paths are drawn; if `None`, the free ends of beams and the point masses.
     pub trails: Option<&'a [Station]>,
     /// Columns of the history.
     pub columns: &'a [String],
@@ -84,7 +83,6 @@ fn plain<'a>(points: impl Iterator<Item = &'a Vec2>) -> Vec<(f64, f64)> {
 
 struct FrameSelection {
     indices: Vec<usize>,
-    /// Control points. The first index is the frame, the second the body.
     frames: Vec<Vec<Vec<Vec2>>>,
     first: Vec<usize>,
 }
@@ -220,8 +218,8 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Stations whose paths are drawn by default: point masses, and ends of beams without a support or joint. Of two joined ends, one is included.
-/// The list of stations is empty if it would be longer than `MOST_FREE_ENDS`.
+/// Stations whose paths are drawn by default: point masses, and ends of beams without support, of joined ends only one.
+/// No paths are drawn for more than `MOST_FREE_ENDS` stations.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();
     let of_beam = |beam: usize| {
@@ -283,7 +281,6 @@ fn arrows(simulation: &Simulation, shown: &FrameSelection) -> Result<Vec<Arrow>,
     Ok(arrows)
 }
 
-/// Load vector in space. For a follower load, the section is assumed to be normal to the axis of the beam.
 fn turned(force: Vec2, frame: LoadFrame, axis: Option<&AxisStation>, points: &[Vec2]) -> Vec2 {
     match (frame, axis) {
         (LoadFrame::Follower, Some(axis)) => {

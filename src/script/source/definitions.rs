@@ -1,4 +1,4 @@
-//! Function definitions in a sequence of tokens, and search for matching brackets.
+//! Function definitions in a sequence of tokens.
 
 use rhai::Token;
 
@@ -10,13 +10,12 @@ pub struct Definition<'t> {
     /// Index of the first token: `fn`, or `private` before `fn`.
     pub first: usize,
     start: usize,
-    /// Index of the bracket before the parameters. If it is missing, index of the bracket of the body.
     opening: usize,
     body: usize,
     pub end: usize,
 }
 
-/// All function definitions in the given tokens, in their order. The text may contain errors.
+/// All function definitions in the given tokens, which may contain errors.
 pub fn definitions(tokens: &[Lexeme]) -> impl DoubleEndedIterator<Item = Definition<'_>> {
     let starts = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::Fn));
     starts.map(|(start, _)| Definition::at(tokens, start))
@@ -46,7 +45,7 @@ impl<'t> Definition<'t> {
         }
     }
 
-    /// Name of the function. The name of a method includes the type, as in `number.twice`.
+    /// Name of the function; for a method with its type, as in `number.twice`.
     pub fn full_name(&self) -> String {
         let words =
             self.tokens[self.start + 1..self.opening].iter().filter_map(|(token, _)| match token {
@@ -78,7 +77,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// Index of the bracket that closes the bracket at `open`; the number of tokens if it is not closed.
+/// Index of the bracket that closes the bracket at `open`, or the number of tokens if there is none.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

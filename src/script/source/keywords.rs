@@ -1,6 +1,6 @@
 //! Keywords of the grammar. All other names of the language are in the catalog.
 
-/// Keywords of the language, in the order in which they are taught. Rhai does not provide a list.
+/// Keywords of the language, in the order in which they are taught. Rhai has no such list.
 pub const KEYWORDS: &[&str] = &[
     "let", "const", "fn", "if", "else", "switch", "while", "until", "loop", "do", "for", "in",
     "break", "continue", "return", "throw", "try", "catch", "import", "export", "as", "private",

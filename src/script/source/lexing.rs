@@ -1,4 +1,4 @@
-//! Tokenisation by the lexer of the engine. Rhai may change this interface.
+//! Tokenisation by the lexer of the engine, whose interface may change in new versions of Rhai.
 
 use rhai::{Engine, Token};
 
@@ -10,7 +10,7 @@ pub(super) struct Lexed {
     pub ends_in_comment: bool,
 }
 
-/// Tokenises `text`. Called only by [`Source`](super::text::Source), which caches the result.
+/// Tokenises `text`. Must be called only by [`Source`](super::text::Source), which caches the result.
 pub(super) fn lex(text: &str) -> Lexed {
     #[cfg(test)]
     LEXINGS.set(LEXINGS.get() + 1);
@@ -18,7 +18,7 @@ pub(super) fn lex(text: &str) -> Lexed {
     let inputs = [text];
     let (mut stream, control) = engine.lex(&inputs);
     let mut depth = 0_usize;
-    // Bracket depths of open interpolations `${ … }`. After the closing brace of an interpolation, the string literal continues.
+    // Bracket depths of open interpolations `${ … }`, after whose closing brace the string literal continues.
     let mut interpolations = Vec::new();
     let mut tokens = Vec::new();
     for (token, position) in stream.by_ref() {

@@ -1,18 +1,17 @@
 //! New loop variables in every iteration of a `for` loop, so that a closure captures the values of its iteration.
 //!
-//! In Rhai, all iterations of a loop share one variable. Closures of the first iteration would see the value of the last iteration.
-//! If a closure in the body uses the loop variable, an additional first statement declares the variable again in the scope of the iteration.
-//! The declaration is inserted into the text before parsing. It replaces blanks around the opening brace, so that columns are unchanged.
-//! If there are fewer than two blanks around the brace, the remaining line is shifted by one or two columns.
+//! In Rhai, all iterations share one variable, so that all closures would see its last value.
+//! If a closure in the body uses the loop variable, a statement that declares it again is inserted into the text.
+//! The statement replaces up to two blanks around the opening brace; with fewer blanks, the rest of the line is shifted.
 
 use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// Private-use character for the inserted statement in a loop with one variable.
+/// Private-use character that stands for the inserted statement in a loop with one variable.
 pub const ONE: char = '\u{E003}';
-/// Private-use character for the inserted statement in a loop with a counter.
+/// Private-use character that stands for the inserted statement in a loop with a counter.
 pub const TWO: char = '\u{E004}';
 
 pub const ONE_NAME: &str = "\u{E003}";
@@ -32,7 +31,6 @@ pub fn install(engine: &mut Engine) {
     }
 }
 
-/// Declares the last variables of the scope again, with their values. The loop assigns to the original variables in every iteration.
 fn declare_again(context: &mut EvalContext, variables: usize) {
     let scope = context.scope_mut();
     let names: Vec<String> =
@@ -43,7 +41,7 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Positions of the loop bodies that need a declaration statement, with the character inserted for this statement.
+/// Positions of the loop bodies in which a declaration is inserted, with the character for this declaration.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()
@@ -71,7 +69,7 @@ fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
-/// Brace that opens the body of a loop. `after` is the index of the keyword `in`. `None` if the expression after `in` contains blocks.
+/// Brace that opens the body of a loop with the keyword `in` at `after`; `None` if the expression after `in` contains blocks.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {
@@ -86,8 +84,8 @@ fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     None
 }
 
-/// Inserts a declaration statement after the brace at `column` of a line, counted from 0.
-/// The statement consists of the character `letter` and a semicolon, which replace up to two blanks around the brace.
+/// Inserts a declaration statement at the brace at `column`, counted from 0.
+/// The statement is `letter` and a semicolon, in place of up to two blanks around the brace.
 pub fn insert_scope(line: &mut Vec<char>, column: usize, letter: char) {
     const LENGTH: usize = 2;
     let is_blank = |letter: &&char| matches!(letter, ' ' | '\t');

@@ -1,4 +1,4 @@
-//! Text of a script and its tokens: source text, lexer, declarations, and extensions of the syntax of Rhai. Scripts are not executed here.
+//! Text of a script and its tokens, without execution.
 
 pub(crate) mod definitions;
 pub(crate) mod keywords;

@@ -1,4 +1,4 @@
-//! Notes on expressions that are valid, but probably do not mean what the user intends.
+//! Notes on valid expressions that probably do not mean what the user intends.
 
 use super::scanner::{Bracket, Token, TokenKind, is_name, scan};
 
@@ -29,7 +29,7 @@ pub fn pitfalls(text: &str) -> Vec<Pitfall> {
     found
 }
 
-/// Messages about [`pitfalls`] with their places. `lines_before` is the number of lines before the text.
+/// Messages about [`pitfalls`] with their positions, in a text after `lines_before` lines of a program.
 pub fn messages(text: &str, lines_before: usize) -> Vec<String> {
     let placed = |Pitfall { at, note }| {
         let before = &text[..at];
@@ -40,7 +40,7 @@ pub fn messages(text: &str, lines_before: usize) -> Vec<String> {
     pitfalls(text).into_iter().map(placed).collect()
 }
 
-/// Note on a comment that consists of a number and follows a value, as in `7 // 2`.
+/// Note on a comment that is a number and follows a value, as in `7 // 2`.
 fn note_on_comment(text: &str, comment: &Token) -> Option<Pitfall> {
     let divisor = comment.of(text).strip_prefix("//")?.trim().trim_end_matches(';').trim_end();
     divisor.parse::<f64>().ok()?;

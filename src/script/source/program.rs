@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::text::Source;
 use crate::sandbox_fs::read_file;
 
-/// Maximum size of a script or imported file [bytes]. Larger files are usually data, and parsing them would need much memory.
+/// Maximum size of a script or imported file [bytes]. Larger files are usually data, which would need much memory to parse.
 pub const LARGEST_SCRIPT: u64 = 16 << 20;
 
 /// Script: its name in messages, its text, and the folder of its imports.
@@ -76,7 +76,7 @@ impl Program {
         let name = path.display().to_string();
         let folder =
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        // A byte order mark is removed, and a line that starts with `#!` becomes a comment of the same length.
+        // A first line `#!…` becomes a comment of the same length, so that columns are unchanged.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let text = match text.strip_prefix("#!") {
             Some(rest) => match rest.strip_prefix(['/', '!']) {

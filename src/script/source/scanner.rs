@@ -1,6 +1,6 @@
 //! Tokenisation of input that may be incomplete or incorrect. Every character belongs to exactly one token.
 //!
-//! The lexer of the engine stops at the first error and drops comments and spaces. The editor must highlight the whole of an unfinished input.
+//! The editor cannot use the lexer of the engine, which stops at the first error and drops comments and spaces.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Token {
@@ -21,7 +21,7 @@ pub enum TokenKind {
     Text,
     /// String literal in quotes that is not closed on its line.
     OpenText,
-    /// String in backticks, or a piece of it before, between or after interpolations.
+    /// String in backticks, or its piece before, between or after interpolations.
     Piece,
     /// Unclosed string in backticks, or unclosed raw string.
     OpenPiece,
@@ -43,7 +43,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// Returns true if the bracket `closer` closes this bracket. `}` also closes maps.
+    /// Returns true if the bracket `closer` closes this bracket. The bracket `}` also closes maps.
     pub fn is_closed_by(self, closer: Self) -> bool {
         match self {
             Self::Map => closer == Self::Curly,
@@ -62,7 +62,6 @@ impl Token {
     }
 }
 
-/// Operators of more than one character. Longer operators come first.
 const SIGNS: &[&str] = &[
     "..=", "...", "**=", "<<=", ">>=", "::", "?.", "??", "..", "=>", "==", "!=", "<=", ">=", "&&",
     "||", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "**", "<<", ">>",
@@ -80,7 +79,7 @@ pub fn scan(text: &str) -> Vec<Token> {
     tokens
 }
 
-/// Token index of the matching bracket for each bracket token, followed by the token indices of unclosed brackets.
+/// Token index of the matching bracket for each bracket token, and the token indices of unclosed brackets.
 pub fn pair(tokens: &[Token]) -> (Vec<Option<usize>>, Vec<usize>) {
     let mut partners = vec![None; tokens.len()];
     let mut open: Vec<(usize, Bracket)> = Vec::new();
@@ -219,7 +218,6 @@ impl Scanner<'_> {
         TokenKind::OpenText
     }
 
-    /// Reads a raw string `#"…"#` with any number of `#`.
     fn marked(&mut self) -> TokenKind {
         let rest = self.rest();
         let marks = rest.len() - rest.trim_start_matches('#').len();
@@ -281,7 +279,6 @@ impl Scanner<'_> {
     }
 }
 
-/// Maximum number of `#` before a raw string, which limits the run time for a long row of `#`.
 const MOST_MARKS: usize = 16;
 
 fn begins_marked(rest: &str) -> bool {

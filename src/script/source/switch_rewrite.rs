@@ -1,22 +1,19 @@
-//! Check of the values of `switch`. For values that Rhai cannot compare, Rhai would silently execute the default case.
-//!
-//! A private-use character is inserted after the keyword `switch` before parsing.
-//! The parser treats the inserted character as a keyword of a custom syntax, which checks the value of the following expression.
-//! The inserted character replaces a blank, so that columns are unchanged. Without a blank, the rest of the line is shifted by one column.
+//! Check of the values of `switch`, because Rhai silently executes the default case for values that it cannot compare.
+//! After the keyword `switch`, a private-use character is inserted, which the parser reads as a keyword that checks the value.
 
 use rhai::{Dynamic, Engine, Position, Token};
 
 use super::text::Lexeme;
 use crate::script::messages::error::EngineResult;
 
-/// Private-use character after `switch`. The parser reads it as a keyword that checks the value of the following expression.
+/// Private-use character that is inserted after `switch` as a keyword that checks the value of the following expression.
 pub const CHOICE: char = '\u{E007}';
 
 pub const CHOICE_NAME: &str = "\u{E007}";
 
 const WORD: usize = 6;
 
-/// Registers the check. `judge` checks the value of the `switch` expression and returns the value for the comparison with the cases.
+/// Registers the keyword. `judge` checks the value of the `switch` expression, and returns the value to be compared.
 pub fn install(
     engine: &mut Engine,
     judge: impl Fn(&Engine, Dynamic, Position) -> EngineResult<Dynamic> + 'static,
@@ -39,7 +36,7 @@ pub fn words(tokens: &[Lexeme]) -> impl Iterator<Item = Position> + '_ {
     tokens.iter().filter(|(token, _)| matches!(token, Token::Switch)).map(|(_, at)| *at)
 }
 
-/// Inserts the character [`CHOICE`] after the keyword at `column` of a line, counted from 0. It replaces a blank if there is one.
+/// Inserts [`CHOICE`] after the keyword at `column` of a line, counted from 0, in place of a blank if there is one.
 pub fn insert_wrapper(line: &mut Vec<char>, column: usize) {
     let behind = column + WORD;
     match line.get_mut(behind) {

@@ -1,16 +1,14 @@
 //! Replacement of operators of Rhai before parsing, so that numbers behave as in scientific languages.
 //!
-//! Rhai's built-in comparisons and integer division ignore registered functions.
-//! The text of a script is therefore changed before parsing. The new operators are implemented in [`operators`](crate::script::dialect::operators):
-//!
+//! The text is changed, because Rhai's comparisons and integer division ignore registered functions:
 //! - The operators `/ << >> < > <= >= == !=` become `num/`, `num<`, … of the same precedence.
 //! - Along a chain of powers, `^` and `**` become `num^0`, `num^1`, … with increasing precedence.
 //!   Custom operators are left-associative, so a single power operator would evaluate `2^3^2` to 64.
 //! - The expression `-x^2` is an error, because Rhai's minus binds tighter than any operator and would give the square of `-x`.
-//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` are converted to two tokens (see [`mark`]).
-//! - The module `loop_scoping` adds a statement to loops.
+//! - The operators `/=`, `^=`, `**=`, `<<=` and `>>=` become two tokens (see [`mark`]).
+//! - Loops get an additional statement (see `loop_scoping`).
 //!
-//! Rhai declares the functions used here as subject to change. They are used only in this file and in `lexing`.
+//! Functions of Rhai that are declared as subject to change are used only here and in `lexing`.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -25,7 +23,7 @@ use crate::script::messages::stop::Stop;
 /// Prefix of the names of the operators that replace those of Rhai.
 pub const OWN: &str = "num";
 
-/// Replaced comparison, division and shift operators, with their precedences in Rhai.
+/// Comparison, division and shift operators that are replaced, with their precedences in Rhai.
 pub const REPLACED: [(&str, u8); 9] = [
     ("<<", 210),
     (">>", 210),
@@ -38,13 +36,12 @@ pub const REPLACED: [(&str, u8); 9] = [
     ("!=", 90),
 ];
 
-/// Maximum length of a chain of powers `a^b^c^…`.
+/// Maximum number of operators in a chain of powers `a^b^c^…`.
 pub const LONGEST_CHAIN: u8 = 16;
 
-/// Precedence of the power operator in Rhai. The next higher precedence of an operator in Rhai is 210.
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters for the operators in `/=`, `^=`, `<<=` and `>>=`. The last character wraps the right-hand side.
+/// Private-use characters for the operators of `/=`, `^=`, `<<=` and `>>=`, and for the second token, which wraps the operand.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';
@@ -52,7 +49,7 @@ const UP_HALF: char = '\u{E005}';
 const DOWN_HALF: char = '\u{E006}';
 const OPERAND: &str = "\u{E002}";
 
-/// Right-hand side of `x /= y`. It has a separate type, so that the built-in integer `/=` of Rhai does not apply.
+/// Operand `y` of `x /= y`, `x ^= y` and similar assignments, of a separate type, so that operators of Rhai do not apply.
 #[derive(Clone)]
 pub struct DivisionOperand(pub Dynamic);
 
@@ -69,13 +66,13 @@ pub struct TokenReader {
 }
 
 impl TokenReader {
-    /// Resets the state, because the previous text may have ended in the middle of an expression.
+    /// Resets the state, because the previous text may have ended within an expression.
     pub fn begin(&self) {
         *self.nesting.borrow_mut() = Nesting::default();
         self.stopped.set(None);
     }
 
-    /// Disables the interruption of parsing while `work` runs. The function `work` must parse only texts that have been parsed before.
+    /// Calls `work`, in which parsing cannot be stopped. `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();
@@ -89,10 +86,9 @@ impl TokenReader {
     }
 }
 
-/// Number of tokens between checks for a stop. For each token, the parser searches all known names.
 const PULSE: u32 = 64;
 
-/// Registers the tokens of this language. The returned reader must be reset before each text. `stop` returns a reason for stopping the parser.
+/// Registers the tokens of the language. `stop` returns a reason for stopping the parser. The result must be reset before each text.
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,
@@ -135,7 +131,7 @@ pub fn install(
     Ok(reader)
 }
 
-/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to an operator and a wrapper of the operand. Also marks loop bodies and `switch` expressions.
+/// Rewrites `/=`, `^=`, `**=`, `<<=` and `>>=` to two tokens, and marks loop bodies and `switch` expressions.
 /// Columns are unchanged if the inserted marks replace blanks.
 pub fn mark(source: &Source) -> Cow<'_, str> {
     let tokens = source.tokens();
@@ -163,7 +159,7 @@ pub fn mark(source: &Source) -> Cow<'_, str> {
     if marks.is_empty() {
         return Cow::Borrowed(source);
     }
-    // The marks are inserted from the end of the text backwards, because each mark may shift the text after it.
+    // Marks are inserted from the end of the text backwards, because they shift the text after them.
     marks.sort_by_key(|(at, _)| std::cmp::Reverse((at.line(), at.position())));
     let mut lines: Vec<Vec<char>> = source.split('\n').map(|line| line.chars().collect()).collect();
     for (at, mark) in marks {
@@ -189,7 +185,6 @@ enum InsertedMark<'m> {
     Choice,
 }
 
-/// Powers of an expression at one bracket depth: the number of power operators so far, and a flag for a minus sign before them.
 #[derive(Clone, Copy, Default)]
 struct Chain {
     powers: u8,
@@ -263,7 +258,7 @@ impl Nesting {
     }
 }
 
-/// Returns true for a too large integer literal, which Rhai has converted to a float.
+/// Returns true for an integer literal that is too large, so that Rhai has converted it to a float.
 fn is_too_large(literal: &str) -> bool {
     !literal.contains(['.', 'e', 'E'])
 }

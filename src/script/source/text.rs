@@ -1,6 +1,5 @@
-//! Text of a script with cached tokens, so that the text is tokenised only once.
-//!
-//! The parser of Rhai does not accept tokens. It tokenises the text again, with the replacements of [`syntax`](super::syntax).
+//! Text of a script with cached tokens.
+//! The parser of Rhai does not accept tokens, so it tokenises the text again, with the replacements of [`syntax`](super::syntax).
 
 use std::fmt;
 use std::ops::Deref;
@@ -12,7 +11,7 @@ use super::lexing::{Lexed, lex};
 
 pub type Lexeme = (Token, Position);
 
-/// Source text. Clones share the text and its tokens, which are computed at their first use.
+/// Source text. Clones share the text and its tokens.
 #[derive(Clone)]
 pub struct Source(Arc<SourceData>);
 
@@ -22,12 +21,12 @@ struct SourceData {
 }
 
 impl Source {
-    /// Tokens of the text, without comments. After a lexical error, the text is tokenised as far as possible.
+    /// Tokens of the text without comments, after a lexical error as far as possible.
     pub fn tokens(&self) -> &[Lexeme] {
         &self.lexed().tokens
     }
 
-    /// Position of an unclosed block comment. Rhai would silently ignore the rest of the script.
+    /// Position of an unclosed block comment, after which Rhai would silently ignore the rest of the script.
     pub fn open_comment(&self) -> Option<Position> {
         if !self.lexed().ends_in_comment {
             return None;
@@ -85,7 +84,7 @@ pub fn name_of(token: &Token) -> Option<&str> {
     }
 }
 
-/// Position in the form of the engine, which limits lines and columns to 65 535.
+/// Position in the form of the engine, with lines and columns up to 65 535.
 pub fn position(line: usize, column: usize) -> Position {
     let counted = |number: usize| number.try_into().unwrap_or(u16::MAX);
     Position::new(counted(line), counted(column))

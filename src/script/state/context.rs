@@ -1,4 +1,4 @@
-//! State shared by all native calls of a run: output, checks, limits, and interruption.
+//! State shared by all native calls of a run.
 
 mod written;
 
@@ -26,7 +26,7 @@ use crate::script::messages::reports::{Reporter, Reports};
 use crate::script::messages::stop::{MEGABYTE, Stop};
 use crate::script::source::program::Program;
 
-/// Function that returns the reason why a value of a native type is in use; `None` if it is not in use.
+/// Function that returns the reason why a value of a native type must not be used now; `None` if it may be used.
 pub type BusyCheck = fn(&Dynamic) -> Option<String>;
 
 /// Handle to the state of a run. Clones refer to the same state.
@@ -54,7 +54,7 @@ struct ContextData {
     study_names: RefCell<HashSet<PathBuf>>,
     snapshots: usize,
     latest_simulation: RefCell<Option<Dynamic>>,
-    /// Engine. The reference is weak, because all functions of the engine own this context.
+    /// Engine, as a weak reference, because all functions of the engine own this context.
     engine: RefCell<Weak<Engine>>,
     level: Cell<usize>,
     is_calling_back: Cell<bool>,
@@ -126,7 +126,7 @@ impl Context {
         self.0.inputs.replace(inputs);
     }
 
-    /// Calls `work`. During the call, the values of `parameters` replace the inputs with the same names.
+    /// Calls `work` while the values of `parameters` replace the inputs of the same names.
     pub fn with_parameters<T>(&self, parameters: &Map, work: impl FnOnce() -> T) -> T {
         let before = self.0.parameters.replace(parameters.clone());
         let result = work();
@@ -159,7 +159,7 @@ impl Context {
         &self.0.journals
     }
 
-    /// Reserves the name of a study. Returns false if the name is in use. Upper and lower case are not distinguished.
+    /// Reserves the name of a study. Returns false if it is in use, in either letter case.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }
@@ -169,7 +169,7 @@ impl Context {
         self.stopped_by().map_or(Ok(()), |stop| Err(ScriptError::Stopped(stop)))
     }
 
-    /// Checks in advance whether a single allocation of the given size is possible [bytes].
+    /// Checks in advance whether an allocation of the given size is possible [bytes].
     ///
     /// # Errors
     /// Fails if the allocation would exceed the memory limit.
@@ -187,7 +187,7 @@ impl Context {
         }
     }
 
-    /// Reason why a loop was stopped: a limit or an interrupt. Without such a reason, an internal error is reported for `what`.
+    /// Reason why a loop was stopped, a limit or an interrupt, or otherwise an internal error that names `what`.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,
@@ -213,7 +213,7 @@ impl Context {
     }
 
     /// Resource use and limits of the run.
-    /// Code that runs a script must first call [`watch`](Meter::watch), and keep the guard until the script has ended.
+    /// Code that runs a script must call [`watch`](Meter::watch) first, and keep the guard until the script has ended.
     pub fn meter(&self) -> &Meter {
         &self.0.meter
     }
@@ -228,12 +228,12 @@ impl Context {
         self.0.pipe_closed.get()
     }
 
-    /// Prints a line for the script. Characters that control a terminal are removed.
+    /// Prints a line for the script, without characters that control a terminal.
     pub fn print(&self, text: &str) {
         self.print_drawn(&printable(text));
     }
 
-    /// Prints a line. Colour sequences created by this program are kept.
+    /// Prints a line, and keeps colour sequences created by this program.
     pub fn print_drawn(&self, text: &str) {
         if self.0.is_silent.get() || !self.meter().allows_to_write(text.len() as u64 + 1) {
             return;
@@ -244,18 +244,18 @@ impl Context {
         });
     }
 
-    /// Prints a message to the user. The message is not output of the script.
+    /// Prints a message to the user, which is not output of the script.
     pub fn print_message(&self, text: &str) {
         self.print_styled_message(&printable(text));
     }
 
-    /// Prints a message to the user. Colour sequences created by this program are kept, other control sequences are removed.
+    /// Prints a message to the user, without control sequences other than colours.
     pub fn print_styled_message(&self, text: &str) {
         if self.0.is_silent.get() {
             return;
         }
         self.0.progress.without_progress_bar(&mut || {
-            // Errors are ignored, because the exit code still reports the result.
+            // Write errors are ignored, because the exit code still reports the result.
             let _ = writeln!(self.0.diagnostics.borrow_mut(), "{}", printable_in_colours(text));
         });
     }
@@ -268,7 +268,7 @@ impl Context {
         result
     }
 
-    /// Calls `work`, discards its printed output, and rejects the writing of files. `refusal` is the error message for attempts to write.
+    /// Calls `work` without its output. Attempts of `work` to write files fail with the message `refusal`.
     pub fn without_output_or_files<T>(&self, refusal: &'static str, work: impl FnOnce() -> T) -> T {
         let refused_before = self.0.refuses_files.replace(Some(refusal));
         let result = self.silently(work);
@@ -276,7 +276,7 @@ impl Context {
         result
     }
 
-    /// Prints a message requested by the script, for example that of a failed check. The message counts towards the output limit.
+    /// Prints a message requested by the script, such as that of a failed check, which counts towards the output limit.
     pub fn print_debug(&self, text: &str) {
         if self.meter().allows_to_write(text.len() as u64 + 1) {
             self.print_message(text);
@@ -289,7 +289,7 @@ impl Context {
         self.check_write(written);
     }
 
-    /// Handles the result of printing. A closed pipe ends the run without a message. Other failures are errors.
+    /// Ends the run without a message if the pipe is closed. Other write failures are errors.
     fn check_write(&self, written: io::Result<()>) {
         match written {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -326,7 +326,7 @@ impl Context {
         self.clear_reporters();
     }
 
-    /// Sets the engine that calls stored functions. The caller must keep the engine alive.
+    /// Sets the engine that calls stored functions, which the caller must keep alive.
     pub fn set_engine(&self, engine: &Rc<Engine>) {
         self.0.engine.replace(Rc::downgrade(engine));
     }
@@ -359,12 +359,12 @@ impl Context {
         self.0.is_calling_back.get()
     }
 
-    /// Registers a function that detects whether a value is in use.
+    /// Registers a function that detects whether a value must not be used now.
     pub fn register_busy_check(&self, busy: BusyCheck) {
         self.0.busy.borrow_mut().push(busy);
     }
 
-    /// Reason why a value is in use; `None` if it is not in use.
+    /// Reason why a value must not be used now; `None` if it may be used.
     pub fn busy(&self, value: &Dynamic) -> Option<String> {
         self.0.busy.borrow().iter().find_map(|busy| busy(value))
     }
@@ -393,13 +393,12 @@ impl Context {
     }
 
     /// Removes the objects that contribute to the report, and the reserved names of studies.
-    /// An interactive session writes no report, and its next input may use the name of the same study again.
     pub fn clear_reporters(&self) {
         self.0.study_names.borrow_mut().clear();
         self.0.reports.clear();
     }
 
-    /// Report entries of all simulations. The simulations are removed from the report.
+    /// Report entries of all simulations, which are then removed.
     pub fn report(&self) -> Vec<serde_json::Value> {
         self.0.latest_simulation.take();
         self.0.reports.take()

@@ -1,5 +1,4 @@
-//! File access of scripts. Scripts can read files in the folder of the script and in the output folder.
-//! Scripts can write files in the output folder. Each file is replaced atomically. Links are not followed, and only regular files are opened.
+//! File access of scripts: reading in the folder of the script and in the output folder, writing in the output folder only.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -15,16 +14,14 @@ use crate::script::messages::error::ScriptError;
 /// Maximum size of a file that a script reads [bytes].
 const LARGEST_INPUT: u64 = 1 << 30;
 
-/// Folder into which a script may write. It is created with the first file.
+/// Folder into which a script may write, created with the first file.
 pub struct OutputFolder {
     folder: PathBuf,
     beside: PathBuf,
     mode: RunMode,
     written: RefCell<Vec<PathBuf>>,
-    /// Record of the files written by earlier runs, which is read before the first file is written.
     record: OnceCell<RefCell<WrittenFiles>>,
     tidied: RefCell<HashSet<Option<PathBuf>>>,
-    /// Contents of files that a dry run would have written. The script may read them.
     pretended: RefCell<HashMap<PathBuf, Vec<u8>>>,
     read: FilesRead,
 }
@@ -32,8 +29,7 @@ pub struct OutputFolder {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenFile {
     pub path: PathBuf,
-    /// Path under which an older file with the same name is kept; `None` if there was no such file.
-    /// An older file is kept if it was not written by this program, or has been changed since it was written.
+    /// New path of an older file with the same name, written or changed by others; `None` if there was no such file.
     pub kept: Option<PathBuf>,
 }
 
@@ -60,7 +56,7 @@ impl OutputFolder {
         self.write_by(name, |file| file.write_all(content))
     }
 
-    /// Writes the file `name` in the output folder in pieces. `write` receives the writer. A dry run only checks the name.
+    /// Writes the file `name` in the output folder by `write`, which receives the writer. A dry run only checks the name.
     pub fn write_by(
         &self,
         name: &str,
@@ -83,7 +79,7 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// Opens the output folder and writes a file in it. The folder is opened for each file, because it may be moved during a session.
+    /// Opens the output folder, for each file again, because it may be moved during a session.
     fn open_folder(
         &self,
         name: &str,
@@ -134,8 +130,7 @@ impl OutputFolder {
         Ok(written)
     }
 
-    /// Reads the file `name` in the output folder. If it does not exist, reads it in the folder of the script.
-    /// The file may have at most `most` bytes.
+    /// Reads the file `name` of at most `most` bytes in the output folder or, if it is not there, in the folder of the script.
     ///
     /// # Errors
     /// Fails if the file does not exist, is too large, or is not a regular file.
@@ -221,10 +216,10 @@ impl InputFolders {
         Self { read, ..self }
     }
 
-    /// Content of the file `name` in the first folder that contains it. The file may have at most `most` bytes.
+    /// Content of the file `name`, of at most `most` bytes, in the first folder that contains it.
     ///
     /// # Errors
-    /// Fails if no folder contains the file, if a link or the name leads out of the folder, or if the file is too large or not regular.
+    /// Fails if no folder contains the file, if the name or a link leads out of the folder, or if the file is too large or not regular.
     pub fn read(&self, name: &str, most: u64) -> Result<Vec<u8>, ScriptError> {
         let words = self
             .folders

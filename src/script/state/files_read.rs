@@ -1,11 +1,11 @@
-//! Record of the files that a run has read, by which a later change is detected.
+//! Record of the files that a run has read, for the detection of later changes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-/// Files that a run has read or searched, with their states at that time. Clones refer to the same record, also in other threads.
+/// Files that a run has read or searched, with their states at that time. Clones, also in other threads, share the record.
 #[derive(Clone, Debug, Default)]
 pub struct FilesRead(Arc<Mutex<BTreeMap<PathBuf, FileState>>>);
 
@@ -18,7 +18,7 @@ fn state_of(path: &Path) -> FileState {
 }
 
 impl FilesRead {
-    /// Records date and length of a file before it is read. Later readings do not change the record.
+    /// Records the state of a file before its first reading.
     pub fn record(&self, path: PathBuf) {
         let state = state_of(&path);
         self.lock().entry(path).or_insert(state);
@@ -29,7 +29,7 @@ impl FilesRead {
         self.lock().retain(|path, _| !paths.contains(path));
     }
 
-    /// First file, in alphabetical order, that has changed since it was recorded.
+    /// First file, in alphabetical order, that has changed since its recording.
     pub fn changed(&self) -> Option<PathBuf> {
         let files = self.lock();
         let changed = files.iter().find(|(path, state)| state_of(path) != **state);

@@ -1,4 +1,4 @@
-//! Inputs of a script: declarations by the script, and values given from outside, such as by `--set load=250`.
+//! Inputs of a script, and their values given from outside, such as by `--set load=250`.
 
 use std::str::FromStr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -42,7 +42,7 @@ pub fn is_input_name(name: &str) -> bool {
         && name.chars().all(|letter| letter.is_alphanumeric() || letter == '_')
 }
 
-/// Value of an input. The default of an input fixes the type of its values.
+/// Value of an input, of the same type as its default.
 #[derive(Clone, Debug, PartialEq)]
 pub enum InputValue {
     /// Finite number.
@@ -127,7 +127,7 @@ impl InputValue {
         }
     }
 
-    /// Numbers that the value contains. The range of an input applies to each number.
+    /// Numbers in the value, to each of which the range of the input applies.
     pub fn numbers(&self) -> Vec<f64> {
         match self {
             Self::Number(x) => vec![*x],
@@ -240,7 +240,7 @@ impl InputDeclaration {
     }
 }
 
-/// Inputs of a run. Clones refer to the same inputs, also in other threads.
+/// Inputs of a run. Clones, also in other threads, refer to the same inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     settings: Arc<[InputSetting]>,
@@ -307,7 +307,7 @@ impl Inputs {
         self.lock().clear();
     }
 
-    /// Checks that the script declares every input that is set. `also` contains names whose declarations are not known yet.
+    /// Checks that the script declares every input that is set. `also` contains further names that count as declared.
     ///
     /// # Errors
     /// Fails if a name is set that is not declared.
@@ -330,7 +330,7 @@ impl Inputs {
         Err(ScriptError::new(format!("the script has no input '{name}'")).hint(hint))
     }
 
-    /// Values given from outside, as bytes for the fingerprint of results that depend on them; empty without such values.
+    /// Values given from outside, as bytes for fingerprints of results; empty if there are none.
     pub fn fingerprint(&self) -> Vec<u8> {
         let of = |setting: &InputSetting| format!("{}={}\n", setting.name, setting.text);
         self.settings.iter().map(of).collect::<String>().into_bytes()

@@ -1,4 +1,4 @@
-//! Journals of the studies of a run. They are kept until the script ends, so that a run after an interrupt or error can reuse completed cases.
+//! Journals of the studies of a run, kept until the script ends, so that a run after an interrupt or error can reuse completed cases.
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -15,7 +15,6 @@ use crate::script::messages::error::ScriptError;
 pub struct Journals {
     open: RefCell<Vec<(Journal, JournalLifetime)>>,
     of_rows: RefCell<Vec<PathBuf>>,
-    /// True if the run computes parts of studies. Their journals are kept.
     has_parts: Cell<bool>,
     kept: Cell<usize>,
 }
@@ -88,7 +87,7 @@ impl Journals {
     }
 
     /// Opens the journal of a sweep, if the run uses journals. `about` identifies the sweep.
-    /// If an existing journal belongs to the same sweep, `recall` receives its entries.
+    /// `recall` receives the entries of an existing journal of the same sweep.
     pub fn open_rows(
         &self,
         path: PathBuf,

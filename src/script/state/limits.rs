@@ -1,4 +1,4 @@
-//! Resource limits of a run (time, steps, memory, call depth, output), and their supervision.
+//! Resource limits of a run: time, steps, memory, call depth, output.
 
 use std::cell::Cell;
 use std::io;
@@ -17,11 +17,11 @@ pub const DEFAULT_MEGABYTES_WRITTEN: u64 = 10_000;
 pub const DEFAULT_FILES: u64 = 100_000;
 /// Default limit of the call depth.
 pub const DEFAULT_DEPTH: usize = 400;
-/// Largest allowed setting of the call depth. The stack size [`LEAST_STACK`] is sufficient for this depth.
+/// Largest allowed setting of the call depth, for which the stack size [`LEAST_STACK`] is sufficient.
 pub const DEEPEST: usize = 1000;
-/// Size of the stack for [`DEEPEST`] nested calls [bytes of address space]. Memory is used only when the stack grows.
+/// Address space of the stack for [`DEEPEST`] nested calls [bytes]. It uses memory only as it grows.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Largest memory limit up to which the stack size increases with the limit [bytes]. The stack must be large enough to drop nested values.
+/// Largest memory limit up to which the stack size increases with it [bytes], as needed to drop nested values.
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.
@@ -41,14 +41,13 @@ pub struct Limits {
     pub files: Option<u64>,
 }
 
-/// Action that ends the whole program if a limit is exceeded and the run does not react.
+/// Action that ends the whole program if a run does not react to an exceeded limit.
 pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 
 impl Limits {
     /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
-    /// Nested closures are dropped recursively.
-    /// The stack that a closure needs to be dropped is smaller than twice its memory, so twice the memory limit is sufficient.
+    /// Twice the memory limit is sufficient to drop nested closures recursively, which needs less stack than twice their memory.
     pub fn stack(&self) -> usize {
         let for_values = 2 * self.memory_or_default().min(LARGEST_FOR_VALUES);
         LEAST_STACK.saturating_add(usize::try_from(for_values).unwrap_or(usize::MAX))
@@ -92,18 +91,14 @@ pub struct Meter {
     written: Cell<u64>,
     files: Cell<u64>,
     stopped: Cell<Option<Stop>>,
-    /// Number of calls that would advance a simulation and were skipped in a dry run.
     pretended: Cell<u64>,
 }
 
-/// Largest number of skipped calls in a dry run. After more calls, the script counts as waiting for a result.
-/// Loops that only wait for a simulation time end after fewer calls.
 const MOST_DRY_ADVANCES: u64 = 100_000;
 
-/// True if a run of this process has detected an interrupt. Such a run stops soon and saves its results.
+/// True if a run of this process has detected an interrupt and will save its results.
 pub static INTERRUPT_HEARD: AtomicBool = AtomicBool::new(false);
 
-/// Value of the watchdog alarm while no limit is exceeded.
 pub(super) const NO_ALARM: u8 = 0;
 pub(super) const TOO_LATE: u8 = 1;
 pub(super) const TOO_LARGE: u8 = 2;
@@ -114,7 +109,7 @@ impl Meter {
         Self::guarded(limits, None)
     }
 
-    /// Creates the meter of a new run. The action `resort` is called if a limit is exceeded and the run does not react.
+    /// Creates the meter of a new run. `resort` is called if the run does not react to an exceeded limit.
     pub fn guarded(limits: Limits, resort: Option<HardAbort>) -> Self {
         Self {
             limits,
@@ -151,7 +146,7 @@ impl Meter {
         self.pretended.set(self.pretended.get() + 1);
     }
 
-    /// Returns true if the script depends on results that are not computed in a dry run.
+    /// Returns true if the script depends on results that a dry run does not compute.
     pub fn depends_on_dry_run(&self) -> bool {
         self.pretended.get() > 0
     }
@@ -161,7 +156,7 @@ impl Meter {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps taken by other engines.
+    /// Counts steps of other engines.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }
@@ -171,7 +166,7 @@ impl Meter {
         self.steps.get()
     }
 
-    /// Returns true if another step is allowed. Otherwise the step limit is marked as exceeded.
+    /// Returns true if another step is allowed; otherwise marks the step limit as exceeded.
     pub fn allows_a_step(&self) -> bool {
         let allowed = self.limits.steps.is_none_or(|limit| self.steps.get() < limit);
         if !allowed {
@@ -200,7 +195,7 @@ impl Meter {
         }
     }
 
-    /// Number of bytes available for rescue files: the remainder of the limit, plus a twentieth of the limit.
+    /// Size available for rescue files [bytes]: the remainder of the output limit, plus a twentieth of the limit.
     pub fn rescue_budget(&self) -> u64 {
         let left = |limit: u64| (limit + limit / 20).saturating_sub(self.written.get());
         self.limits.written.map_or(u64::MAX, left)
@@ -228,7 +223,7 @@ impl Meter {
         self.wants_too_many_steps.set(false);
         self.written.set(0);
         self.files.set(0);
-        // A loss of output is not reset, because it must remain an error.
+        // A loss of output is kept, because it must remain an error.
         self.stopped.set(self.stopped.get().filter(|stop| matches!(stop, Stop::OutputLost(_))));
         Watchdog::start(self.limits, Arc::clone(&self.alarm), self.resort.clone())
     }

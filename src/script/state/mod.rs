@@ -1,4 +1,4 @@
-//! State shared by the calls of a run: settings, limits, files, journals, and the context that contains them. Values of a script are not stored here.
+//! State shared by the calls of a run: settings, limits, files, journals, and the context that contains them.
 
 pub mod context;
 pub(crate) mod files;

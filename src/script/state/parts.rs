@@ -1,4 +1,4 @@
-//! Parts of studies for distributed computation: assignment of cases to parts, and search for the files of parts before merging.
+//! Parts of studies for distributed computation, and the search for their files before merging.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::str::FromStr;
 use crate::sandbox_fs::Folder;
 use crate::script::messages::error::ScriptError;
 
-/// Part of every study of a script. It consists of every `of`-th case.
+/// Part of every study of a script: every `of`-th case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StudyPart {
     pub of: u32,

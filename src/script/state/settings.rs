@@ -1,4 +1,4 @@
-//! Settings of a run: input, output, limits, and options of studies.
+//! Settings of a run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ pub struct RunSettings {
     pub folder: PathBuf,
     /// Default memory for the snapshots of each simulation [bytes].
     pub snapshots: usize,
-    /// Flag set from outside, for example by Ctrl-C. The run then stops as soon as possible.
+    /// Flag set from outside, for example by Ctrl-C, to stop the run.
     pub interrupt: Arc<AtomicBool>,
     /// Resource limits.
     pub limits: Limits,
@@ -49,7 +49,7 @@ pub struct RunSettings {
     pub studies: StudyPreferences,
     /// Estimation of errors at the end of the run.
     pub errors: ErrorEstimation,
-    /// Action that ends the whole program if a limit is exceeded and the run does not react.
+    /// Action that ends the whole program if the run does not react to an exceeded limit.
     pub last_resort: Option<HardAbort>,
     /// Script of the run; `None` at the prompt. The engines of other threads also compile it.
     pub program: Option<Program>,
@@ -64,9 +64,9 @@ pub struct StudyPreferences {
     pub journal: JournalPreference,
     /// Number of repetitions for the measurement of run times; `None` for the number in the script.
     pub repeats: Option<usize>,
-    /// Computed part of each study; `None` for the whole study. If a part is given, no other files are written.
+    /// Computed part of each study; `None` for the whole study. No files other than parts are written.
     pub part: Option<StudyPart>,
-    /// Folders with computed parts. If there are any, the parts are merged and nothing is computed.
+    /// Folders with parts of the studies, which are merged without computing; empty for a normal run.
     pub merge: Vec<PathBuf>,
 }
 
@@ -76,9 +76,9 @@ pub enum ErrorEstimation {
     /// Errors are not estimated.
     #[default]
     Never,
-    /// Errors are not estimated. A remark explains how to request an estimate.
+    /// Errors are not estimated, but a remark explains how to request an estimate.
     Remark,
-    /// Errors are estimated after runs of less than a second. The estimate takes about as long as the run.
+    /// Errors are estimated after runs of less than a second.
     Auto,
     /// Errors are estimated after every run.
     Always,
@@ -92,12 +92,12 @@ pub enum JournalPreference {
     None,
     /// Completed cases are kept in the output folder and reused.
     Resume,
-    /// Completed cases are kept in the output folder. Cases of earlier runs are removed first.
+    /// Completed cases are kept in the output folder, after removal of those of earlier runs.
     Restart,
 }
 
 impl RunSettings {
-    /// Settings for a run without any output, for dry runs and as a base for other settings.
+    /// Settings for a run without output, for dry runs and as a base for other settings.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

@@ -1,4 +1,4 @@
-//! Watchdog: a thread that supervises time and memory, and ends the program if the run does not react.
+//! Thread that supervises time and memory of a run, and ends the program if the run does not react.
 
 use std::io;
 use std::sync::Arc;
@@ -12,15 +12,15 @@ use crate::script::messages::stop::Stop;
 
 const INTERVAL: Duration = Duration::from_millis(10);
 
-/// Processor time that a run may use after it has exceeded a limit, as a fraction of the time limit.
-/// On a machine without other load, a run with a time limit of some seconds then ends within twice this limit.
+/// Processor time for which a run may continue after it has exceeded a limit, as a fraction of the time limit.
+/// On an idle machine, a run with a time limit of some seconds then ends within twice this limit.
 const OVERTIME: f64 = 0.7;
 const LEAST_OVERTIME: Duration = Duration::from_millis(700);
 const MOST_OVERTIME: Duration = Duration::from_secs(5);
-/// Largest wall-clock time after a limit was exceeded, as a multiple of the processor time that is allowed in this period.
+/// Ratio of the largest wall-clock time to the allowed processor time after a limit was exceeded.
 const SHARE_OF_PROCESSOR: u32 = 10;
 
-/// Guard of the thread that supervises time and memory of a run. Dropping the guard ends the thread.
+/// Guard of the thread that supervises a run. Dropping the guard ends the thread.
 pub struct Watchdog {
     leash: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
@@ -73,8 +73,7 @@ impl Clocks {
         Self { wall: Instant::now(), processor: processor_time() }
     }
 
-    /// Returns true if both the wall-clock time and the processor time since `self` exceed `time_limit`.
-    /// Also returns true if the wall-clock time exceeds [`SHARE_OF_PROCESSOR`] times `time_limit`.
+    /// Returns true if wall-clock and processor time since `self` exceed `time_limit`, or the wall-clock time greatly exceeds it.
     fn are_over(self, time_limit: Duration) -> bool {
         let wall = self.wall.elapsed();
         let had = || match (self.processor, processor_time()) {
@@ -115,7 +114,7 @@ impl Drop for Watchdog {
     fn drop(&mut self) {
         self.leash = None;
         if let Some(thread) = self.thread.take() {
-            // A panic of the watchdog is ignored.
+            // A panic of the thread is ignored.
             let _ = thread.join();
         }
     }

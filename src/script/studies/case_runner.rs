@@ -1,4 +1,4 @@
-//! Execution of study cases in parallel or one by one, with progress, limits, and an optional journal.
+//! Execution of study cases, with progress, limits, and an optional journal.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
@@ -16,7 +16,6 @@ use crate::script::state::parts::find_parts;
 use crate::script::state::settings::RunMode;
 
 pub trait CaseResult: Serialize + DeserializeOwned {
-    /// Returns true if the result may be reused from the journal. A run that exceeded its limits is repeated, because it may complete then.
     fn is_final(&self) -> bool;
 }
 
@@ -38,7 +37,6 @@ impl CaseResult for Option<Timing> {
     }
 }
 
-/// Prints the table of a study and an empty line. Does nothing in a dry run.
 pub fn print_table(context: &Context, table: &str) {
     if context.mode() == RunMode::Run {
         context.print(table);
@@ -55,19 +53,19 @@ pub struct CaseRunner<'c> {
 #[derive(Clone, Copy)]
 pub struct CaseTask<'t> {
     pub name: &'t str,
-    /// Serialised data, in addition to the cases, on which the results depend.
+    /// Serialised data on which the results depend, in addition to the cases.
     pub parts: &'t [u8],
 }
 
 impl CaseTask<'_> {
-    /// Fingerprint of a case and of this type of computation; `None` if the case cannot be serialised.
+    /// Fingerprint of a case and of the type of computation; `None` if the case cannot be serialised.
     fn fingerprint(&self, case: &Case) -> Option<u64> {
         Some(Journal::fingerprint(&[self.name.as_bytes(), self.parts, &case.to_bytes()?]))
     }
 }
 
 impl<'c> CaseRunner<'c> {
-    /// Starts a study, and opens its journal if requested. The name of the study is the name of its files.
+    /// Starts a study, and opens its journal if requested. `name` is also the name of its files.
     ///
     /// # Errors
     /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
@@ -92,12 +90,12 @@ impl<'c> CaseRunner<'c> {
         Ok(Self { context, name: name.to_owned(), journal })
     }
 
-    /// Computes all cases that are not in the journal, in parallel.
-    /// The callback `steps_of` returns the number of steps of a result, which count towards the limits of the run. A panic affects only its case.
-    /// If the run computes a part of the study, only the cases of this part are computed, and the result is `None`.
+    /// Computes all cases that are not in the journal, in parallel. A panic affects only its case.
+    /// `steps_of` returns the number of steps of a result, which count towards the limits of the run.
+    /// If the run computes a part of the study, the result is `None` after computing this part.
     ///
     /// # Errors
-    /// Fails if the run is stopped, or if a case is missing in merged parts. After a stop, finished cases are in the journal.
+    /// Fails if the run is stopped, or if a merged part lacks a case. After a stop, finished cases are in the journal.
     pub fn in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
@@ -163,11 +161,11 @@ impl<'c> CaseRunner<'c> {
         })
     }
 
-    /// Computes the cases one by one on this thread, for timing. Cases in the journal are skipped.
-    /// The callback `work` receives a function that returns false if the case must stop.
+    /// Computes the cases that are not in the journal one by one on this thread, for timing.
+    /// `work` receives a function that returns false if the case must stop.
     ///
     /// # Errors
-    /// Fails if the run is stopped. Finished cases are then in the journal.
+    /// Fails if the run is stopped; finished cases are then in the journal.
     pub fn run_sequentially<R: CaseResult>(
         &self,
         task: CaseTask,
@@ -238,7 +236,7 @@ impl<'c> CaseRunner<'c> {
         match (self.journal, task.fingerprint(case)) {
             (Some(journal), Some(fingerprint)) if result.is_final() || is_part => {
                 let bytes = self.context.journals().write(journal, fingerprint, result)?;
-                // If the limit of written bytes is exceeded, the study stops before its next case.
+                // The result is ignored: after the limit of written bytes is exceeded, the study stops before its next case.
                 self.context.meter().allows_to_write(bytes);
             }
             _ => (),

@@ -1,4 +1,4 @@
-//! Result of the function of a stability study for a cell.
+//! Result of the script function of a stability study for a cell.
 
 use rhai::{Dynamic, EvalAltResult, Map};
 
@@ -30,7 +30,7 @@ pub fn thrown(call: &Call, error: &EvalAltResult) -> Option<String> {
 }
 
 /// Creates a case from a scene, or from a map with a scene and settings.
-/// Settings that the map lacks are those of the cell, or else those in the options of the study.
+/// Missing settings are those of the cell or, if it lacks them, of the options of the study.
 pub fn case(
     call: &Call,
     options: &StabilityOptions,

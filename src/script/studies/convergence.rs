@@ -75,7 +75,7 @@ pub fn study(call: &Call, options: &ErrorOptions) -> Result<Convergence, ScriptE
     Ok(study)
 }
 
-/// Refined quantity: step or mesh. The other quantity must have a single value.
+/// Refined quantity, step or mesh. The other quantity must have a single value.
 fn refined(call: &Call, plan: &ErrorStudyPlan) -> Result<RefinedParameter, ScriptError> {
     let is_adaptive = |dt: &StepSize| matches!(dt, StepSize::Adaptive(_));
     if plan.dts.len() > 1 && plan.dts.iter().any(is_adaptive) {
@@ -170,7 +170,7 @@ pub fn expect_quantity(
 /// Errors of a quantity with an integrator; `None` in a dry run.
 ///
 /// # Errors
-/// Fails if the quantity or integrator is not in the study. The error lists the known quantities or integrators.
+/// Fails, with the known names, if the quantity or integrator is not in the study.
 pub fn find<'s>(
     call: &Call,
     study: &'s Convergence,

@@ -5,7 +5,6 @@ use crate::analysis::{Convergence, RefinedParameter, Refinement};
 use crate::elementary::{ln, power};
 use crate::output::{AxisScale, LineChart, Marker, Series, SeriesColour, Stroke};
 
-/// Largest difference of two orders that count as equal.
 const SAME_ORDER: f64 = 0.3;
 
 struct SlopeLine {
@@ -13,8 +12,6 @@ struct SlopeLine {
     ends: [(f64, f64); 2],
 }
 
-/// Chart of the errors of a quantity over the sizes, with lines of the theoretical orders.
-/// If an order is unknown, the line of the observed order is drawn.
 pub fn chart(study: &Convergence, quantity: &str) -> LineChart {
     let relative = match quantity.starts_with("position") {
         true => " / length",
@@ -76,9 +73,7 @@ fn claimed(ladder: &Refinement, order: u32, points: &[(f64, f64)]) -> Option<Slo
     })
 }
 
-/// Line whose slope is the mean of the observed orders at the finest sizes.
-/// The mean includes only consecutive orders that are nearly equal.
-/// Returns `None` if fewer than two orders are nearly equal.
+/// Line whose slope is the mean of the nearly equal orders at the finest sizes; `None` if there are fewer than two.
 fn observed_order_line(ladder: &Refinement) -> Option<SlopeLine> {
     let last = usable_rungs(ladder).next_back()?;
     let mut orders = vec![ladder.order(last)?];

@@ -5,14 +5,13 @@ use super::labels;
 use crate::analysis::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 use crate::output::{Cell, TextTable, significant};
 
-/// Tables of all quantities: errors and orders of all integrators side by side, with the fitted order below.
 pub fn table(study: &Convergence) -> String {
     let tables = study.quantities().into_iter().map(|of| table_of(study, of));
     let tables: String = tables.map(|table| format!("\n\n{table}")).collect();
     format!("{}{tables}{}", head(study), failures(study))
 }
 
-/// Report of a convergence study without tables of the positions of single stations.
+/// Report of a convergence study without tables for single stations.
 pub fn summary(study: &Convergence) -> String {
     let positions = table_of(study, ALL_POSITIONS);
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))

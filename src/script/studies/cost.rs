@@ -1,4 +1,4 @@
-//! Cost studies of a scene with features that are added one at a time.
+//! Cost studies: run time of a scene with features that are added one at a time.
 
 use rhai::{Dynamic, FnPtr, Map};
 
@@ -17,10 +17,8 @@ use crate::system::Scene;
 /// Memory for snapshots [bytes] in the row that measures the cost of snapshots.
 const SNAPSHOTS: usize = 256_000_000;
 
-/// Names of the first two rows: the plain scene and its repetition. The difference of their times shows how reliable all times are.
 const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
-/// Largest ratio of the times of the plain scene and its repetition at which the ratios in the table are reliable.
 const TRUSTED_RATIO: f64 = 1.1;
 
 /// Settings of all rows of a cost study, unless a row varies them.
@@ -50,7 +48,6 @@ impl CostStepping {
     }
 }
 
-/// Rows of the study: the plain scene twice, the scene with each feature, and the scene with each variation of the settings.
 pub fn cases(
     call: &Call,
     options: &CostOptions,
@@ -100,7 +97,7 @@ pub fn cases(
             let has_beams = !cases[0].case.scene.beams.is_empty();
             for feature in FEATURES.iter().filter(|_| has_beams) {
                 let mut scene = fresh()?;
-                // Features that are impossible in the scene, such as a second hinge at the same station, give no row.
+                // A feature that is impossible in the scene, such as a second hinge at the same station, gives no row.
                 if (feature.add)(&mut scene).is_ok() {
                     cases.push(stepping.case(feature.name, scene));
                 }

@@ -23,7 +23,7 @@ pub fn step_size(settings: &SimulationSettings) -> String {
     }
 }
 
-/// Label of an error: `3.4e-5`, or `≤ 2.1e-6` if the error of the reference is not small enough.
+/// Label of an error: `3.4e-5`, or `≤ 2.1e-6` if it is only an upper bound.
 pub fn deviation(deviation: Option<Deviation>) -> String {
     let Some(of) = deviation else { return "-".to_owned() };
     let text = scientific(of.error(), ERROR_DIGITS);

@@ -1,5 +1,4 @@
 //! Studies: conversion of options to cases, and of results to tables, files and pictures.
-//! Runs and their evaluation belong to `analysis`, `sampling` and `fitting`.
 
 pub mod calls;
 pub mod case_runner;

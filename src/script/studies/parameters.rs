@@ -14,7 +14,6 @@ const DIGITS: usize = 6;
 
 #[derive(Clone, Debug)]
 pub struct StudyParameter {
-    /// Name of the parameter, which is the key of its value in each cell of the study.
     pub name: String,
     pub values: Array,
     pub labels: Vec<String>,
@@ -41,7 +40,6 @@ impl StudyParameter {
         Ok(Self { name, values, labels })
     }
 
-    /// Placeholder with a single nameless value, for an omitted option.
     pub fn none() -> Self {
         Self { name: String::new(), values: vec![Dynamic::UNIT], labels: vec![String::new()] }
     }
@@ -58,7 +56,6 @@ impl StudyParameter {
     }
 }
 
-/// Short label of a value. Large numbers are written as powers of ten. Texts are unchanged. Integrators and maps have their names.
 pub fn label(call: &Call, value: &Dynamic) -> String {
     if let Some(number) = as_number(value) {
         let short = significant(number, DIGITS);

@@ -1,4 +1,4 @@
-//! Plan of an error study, read from its options: scenes on meshes, settings, times.
+//! Plan of an error study, read from its options.
 
 use rhai::{Dynamic, FnPtr, Map};
 
@@ -31,7 +31,6 @@ pub struct ErrorStudyPlan {
 }
 
 impl ErrorStudyPlan {
-    /// Reads the common options of error studies. All scenes are created and the first scene is built, so that errors are reported before any run.
     pub fn read(call: &Call, options: &ErrorOptions) -> Result<Self, ScriptError> {
         let name = study_name(call, &options.name)?;
         let methods = all_of::<Method>(call, "integrators", &options.integrators, "an integrator")?;
@@ -80,7 +79,6 @@ impl ErrorStudyPlan {
         &self.subjects[0].observables
     }
 
-    /// History at the start of a run, which provides the columns. The scene is built for this purpose.
     pub fn history(&self) -> Result<History, ScriptError> {
         let (scene, stops) = (self.subjects[0].scene.clone(), self.times.clone());
         let case = Case { scene, settings: self.all_settings()[0], stops };
@@ -89,11 +87,9 @@ impl ErrorStudyPlan {
         Ok(built.history().clone())
     }
 
-    /// Adds columns of the history to the observables. With a reference table, only the columns in the table are added.
-    /// The name of a column in the table is a symbol (E, KE, SE, px, py or Lz) or its name in the history.
-    /// Without a reference table, all columns of the history are added to the observables.
-    ///
-    /// The option `columns` (argument `given`) assigns history columns to further names, and replaces columns with the same names.
+    /// Adds columns of the history to the observables: all columns, or those in the reference table if there is one.
+    /// Columns of the table are named by symbols (E, KE, SE, px, py or Lz) or as in the history.
+    /// `given`, the option `columns`, assigns history columns to further names, and replaces columns with the same names.
     pub fn add_columns(
         &mut self,
         call: &Call,
@@ -155,7 +151,7 @@ fn column_of(
     Ok(Observable::of_column(name, &column, factor))
 }
 
-/// Checks the name of a study, which is also that of its files and must be unique in the run.
+/// Name of a study, which must be unique in the run and a valid file name.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
         let message = format!("this run already has a study '{name}'");
@@ -187,7 +183,7 @@ pub fn at_key(
     call.error(message).hint(hint).at(CallPart::Key(key.to_owned()))
 }
 
-/// Elements of a non-empty array in which all elements must have the same type.
+/// Elements of a non-empty array, which must have the same type.
 fn all_of<T: Clone + 'static>(
     call: &Call,
     key: &str,
@@ -299,7 +295,6 @@ fn subject(call: &Call, mesh: String, made: &Dynamic) -> Result<ObservedScene, S
     Ok(ObservedScene { mesh, scene, observables })
 }
 
-/// Default stations of a comparison: ends of beams, particles and rigid bodies.
 pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     let ends = scene.beams.iter().enumerate().flat_map(|(index, beam)| {
         [("start", 0.0), ("end", beam.axis.length())]
@@ -328,7 +323,7 @@ pub fn expect_same_observables(
     })
 }
 
-/// Length of the longest beam, or largest distance of a point mass from the first point mass; 1 if there is neither.
+/// Length of the longest beam, or largest distance of a point mass from the first one; 1 if there is neither [length].
 fn size_of(scene: &Scene) -> f64 {
     let first = scene.particles.first().map(|first| first.position).unwrap_or_default();
     let particles = scene.particles.iter().map(|other| (other.position - first).norm());

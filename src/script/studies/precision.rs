@@ -48,7 +48,7 @@ pub fn study(
     };
     let is_found = found.is_some();
     let (trials, reference_solution) = found.unwrap_or_else(|| Reference::no_trials(&cases));
-    // Run times of different machines are not comparable. In a study of several parts, all runs are timed when the parts are merged.
+    // In a study of several parts, all runs are timed when the parts are merged, because machines differ in speed.
     let timings = match is_found {
         true => timings(&runner, &plan, (&cases, &trials), repeats)?,
         false => vec![None; cases.len()],

@@ -13,7 +13,6 @@ fn series_of(row: &PrecisionRow) -> String {
     }
 }
 
-/// Chart of error over run time, with one colour per integrator or other program, and the Pareto front as a line.
 pub fn chart(study: &Precision) -> LineChart {
     let mut chart = LineChart::new(format!(
         "{}: error at {} against run time",

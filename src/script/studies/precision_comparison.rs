@@ -5,7 +5,6 @@ use super::precision_rows::with;
 use crate::analysis::{Precision, machines};
 use crate::output::{Cell, TextTable, format_number, scientific};
 
-/// Text table of the fastest run of this program and the fastest run of every other program for several errors.
 pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     let heads = [
         "error ≤",
@@ -67,7 +66,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// Note that names the fastest confirmed combination; `None` if it is the fastest combination.
+/// Note with the fastest confirmed combination; `None` if it is the fastest of all.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let message = match study.cheapest_confirmed(error) {
@@ -79,7 +78,7 @@ fn confirmation(study: &Precision, error: f64) -> Option<String> {
     Some(format!("\n{error} also at all smaller steps of the mesh, confirmed: {message}"))
 }
 
-/// Other programs that have a run with an error of at most `error`. If no program has such a run, only the first program is returned.
+/// Other programs that have a run with an error of at most `error`, or only the first program if there are none.
 fn programs_with_error(study: &Precision, error: f64) -> Vec<Option<&str>> {
     let peers = study.program_names();
     let able = peers.iter().copied().filter(|peer| study.cheapest_of(peer, error).is_some());

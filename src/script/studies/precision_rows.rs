@@ -7,7 +7,6 @@ use crate::analysis::{Precision, PrecisionRow, Timing};
 use crate::output::{Cell, CsvRecords, TextTable, format_number};
 use crate::simulation::StepSize;
 
-/// Text of all combinations, one table per mesh. The Pareto front is marked, and the reasons of failures are below.
 pub fn table(study: &Precision) -> String {
     let mut text = format!(
         "study '{}': error at {} against run time\nreference: {}",

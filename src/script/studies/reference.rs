@@ -1,4 +1,4 @@
-//! Reference solutions: an independent table, or a run with finer steps and mesh.
+//! Reference solutions of studies: an independent table, or a run with finer steps and mesh.
 
 use rhai::{Dynamic, Map};
 
@@ -21,11 +21,9 @@ use crate::simulation::{StepControl, StepSize};
 
 #[derive(Clone, Default)]
 pub struct FinestRun {
-    /// Mesh argument for the scene function of the reference run. By default, it is the finest mesh of the study.
     pub mesh: Option<Dynamic>,
-    /// Step size [time]. By default, it is a quarter of the smallest step size of the study.
+    /// Step size [time] of the reference run; by default a quarter of the smallest step size of the study.
     pub dt: Option<f64>,
-    /// Integrator. By default, it is the integrator of the highest order in the study.
     pub method: Option<Method>,
 }
 
@@ -43,7 +41,7 @@ impl Scripted for FinestRun {
     }
 }
 
-/// Step size of the reference run: a fraction of the smallest fixed step size. Without fixed steps, the smallest tolerance is reduced.
+/// Step size of the reference run: a fraction of the smallest fixed step size or, without fixed steps, of the smallest tolerance.
 fn finer(dts: &[StepSize]) -> StepSize {
     let fixed = dts.iter().filter_map(|dt| match dt {
         StepSize::Fixed(dt) => Some(*dt),
@@ -62,8 +60,7 @@ fn finer(dts: &[StepSize]) -> StepSize {
         .map_or(StepSize::Adaptive(control), |dt| StepSize::Fixed(PART_OF_THE_SMALLEST_STEP * dt))
 }
 
-/// Doubles a fixed step size, or multiplies the tolerance of adaptive steps by four.
-/// With a second-order method, the adaptive steps then become twice as long.
+/// Doubled fixed step size, or four times the tolerance, which doubles the adaptive steps of a second-order method.
 fn doubled_step(dt: StepSize) -> StepSize {
     match dt {
         StepSize::Fixed(dt) => StepSize::Fixed(2.0 * dt),
@@ -75,8 +72,8 @@ fn doubled_step(dt: StepSize) -> StepSize {
 
 pub enum Reference {
     Table(String, ParsedCsv),
-    /// Reference run: its description, its case, and the case with twice the step size, for an error estimate.
-    /// The run with twice the step size is omitted if all runs of the study have the same time settings, because errors in time then cancel.
+    /// Description of the reference run, its case, and a case with twice the step size for an error estimate.
+    /// The second case is omitted if all runs of the study have the same time settings, because errors in time then cancel.
     ReferenceRun(String, Vec<Case>),
 }
 
@@ -88,7 +85,7 @@ pub fn read_sheet(call: &Call, key: &str, file: &str) -> Result<ParsedCsv, Scrip
     })
 }
 
-/// Rejects a reference run on one of the compared meshes, because the error of this mesh would be zero.
+/// Rejects a reference run on a compared mesh, whose error would be zero.
 pub fn expect_finer_than_all_meshes(
     call: &Call,
     reference: Option<&ReferenceOption>,
@@ -104,8 +101,8 @@ pub fn expect_finer_than_all_meshes(
     Err(at_key(call, "meshes", message, hint))
 }
 
-/// Rejects a reference with fixed steps that are not smaller than the fixed steps of the compared runs.
-/// Equal steps are allowed with an integrator of higher order, or on another mesh. The flag `is_of_a_mesh` is true for a mesh of the study.
+/// Rejects a reference with fixed steps that are not smaller than those of the compared runs.
+/// Equal steps are allowed on another mesh (`is_of_a_mesh` is false), or with an integrator of higher order.
 fn expect_finer_steps(
     call: &Call,
     plan: &ErrorStudyPlan,
@@ -166,7 +163,6 @@ fn columns_of(call: &Call, options: &ErrorOptions) -> Result<Option<Map>, Script
 }
 
 impl Reference {
-    /// Reads the option `reference`, and adds to the plan the history columns that can be compared with it.
     pub fn read(
         call: &Call,
         options: &ErrorOptions,
@@ -257,7 +253,6 @@ impl Reference {
         }
     }
 
-    /// Reference values with placeholder numbers, for checks before the run.
     pub fn placeholder(
         &self,
         call: &Call,

@@ -17,10 +17,9 @@ const FIRST_STEPS: f64 = 50.0;
 
 const MOST_RUNS: usize = 12;
 
-/// Largest factor of refinement between two runs, for the steps and for the mesh.
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Largest allowed error in time, and largest allowed error in space, each as a fraction of the tolerance.
+/// Largest allowed error due to the steps, and due to the mesh, each as a fraction of the tolerance.
 const PART: f64 = 0.5;
 
 pub struct RefinedRunRequest {
@@ -59,7 +58,6 @@ pub struct RefinedRunRow {
     pub seconds: f64,
 }
 
-/// Factor by which the next run refines the steps or the mesh; 1 if their error is small enough or cannot be estimated.
 fn refinement_factor(
     error: Option<&DiscretisationError>,
     length: f64,
@@ -72,7 +70,7 @@ fn refinement_factor(
         (ErrorVerdict::Exact, _) => 1.0,
         _ if ratio <= 1.0 && error.verdict == ErrorVerdict::Converged => 1.0,
         (ErrorVerdict::Converged, Some(order)) => {
-            // The factor of refinement is a power of two, so that all runs have times and knots in common.
+            // The factor is a power of two, so that all runs have times and knots in common.
             let halvings = (ln(power(ratio, 1.0 / order)) / ln(2.0)).ceil().max(1.0);
             power(2.0, halvings).min(most)
         }
@@ -81,11 +79,7 @@ fn refinement_factor(
 }
 
 impl RefinedRun {
-    /// Runs a scene repeatedly with smaller steps and finer meshes.
-    /// The runs end when the largest estimated error of the positions is within the tolerance.
-    ///
-    /// # Errors
-    /// Fails if no run can be completed, or the script is stopped.
+    /// Runs a scene with smaller steps and finer meshes until the estimated error of the positions is within the tolerance.
     pub fn run(
         scene: &SceneHandle,
         request: &RefinedRunRequest,
@@ -120,7 +114,7 @@ impl RefinedRun {
             };
             match ran {
                 Ok(()) => (),
-                // The solution may not exist for a step that is too large.
+                // The equations of a step that is too large may have no solution, so smaller steps are tried.
                 Err(ScriptError::Failure(failure)) if may_refine => {
                     row.steps = 0;
                     row.verdict = failure.message;

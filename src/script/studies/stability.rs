@@ -23,7 +23,6 @@ const COLUMNS: usize = 2;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapColouring {
     EnergyGrowth,
-    /// Average number of Newton iterations per step.
     Iterations,
     Retries,
 }
@@ -119,11 +118,7 @@ impl StabilityPlan {
         axes.map(|(of, at)| (of.name.as_str(), of.labels[at].as_str())).collect()
     }
 
-    /// Case of each cell, or the message of the value that the script function threw for the cell.
-    ///
-    /// # Errors
-    /// Fails if the function has an error that it did not throw, or returns an invalid value.
-    /// Also fails if the function throws a value at every cell, because the function is then wrong.
+    /// Case of each cell, or the message of the value that the script function threw for it.
     pub fn cases(
         &self,
         call: &Call,

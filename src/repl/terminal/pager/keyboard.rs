@@ -30,7 +30,7 @@ mod of_system {
 
     /// Interval at which Ctrl-C is checked [ms].
     const POLLING_INTERVAL: u8 = 50;
-    /// Time to wait for the rest of an escape sequence [ms].
+    /// Waiting time for the rest of an escape sequence [ms].
     const ESCAPE_TIMEOUT: u8 = 30;
 
     pub struct KeyboardTerminal(());
@@ -55,7 +55,7 @@ mod of_system {
         }
     }
 
-    /// Reads a byte without the buffer of the standard library, because the buffer would keep keys that belong to the prompt.
+    /// Reads a byte without the buffer of the standard library, which would keep keys that belong to the prompt.
     fn next() -> io::Result<Pressed> {
         let mut byte = [0];
         match read(stdin(), &mut byte) {
@@ -84,7 +84,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence, unless it is the first byte of the sequence.
+                // A letter or a tilde ends an escape sequence, unless it is its first byte.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {
@@ -98,7 +98,7 @@ mod of_system {
 
 #[cfg(not(unix))]
 mod of_system {
-    //! Systems other than Unix: single keys cannot be read. Texts are printed without pages unless a pager program is set.
+    //! Single keys cannot be read on systems other than Unix; texts are printed without pages unless a pager program is set.
 
     use std::io;
 

@@ -6,7 +6,6 @@ use std::ops::Range;
 use super::keyboard::{Keyboard, Pressed};
 use crate::repl::pager::PagerOutcome;
 
-/// Control sequence that moves the cursor to the start of the line and clears the line.
 const CLEAR: &str = "\r\x1b[K";
 const KEYS: &str = "space: next page, b: back, /: search, q: exit";
 

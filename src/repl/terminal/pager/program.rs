@@ -9,14 +9,10 @@ use crate::repl::terminal::typed_ahead::TypedAhead;
 
 const POLLING_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Environment variable with the default options of the pager less, and the options that withy sets.
-/// The options `FRX` make the pager less quit if the text fits on one screen, show colours, and leave the text on the screen.
+/// Environment variable of the pager less, and options to quit after a short text (F), show colours (R) and leave the text (X).
 const LESS: (&str, &str) = ("LESS", "FRX");
 
-/// Shows a text with a pager program, and waits until the program ends. The program handles Ctrl-C itself.
-///
-/// # Errors
-/// Fails if the program cannot be started.
+/// Shows a text with a pager program, which handles Ctrl-C itself, and waits until the program ends.
 pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io::Result<()> {
     let mut words = program.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());
@@ -28,7 +24,7 @@ pub fn show(program: &str, text: &str, was_interrupted: &dyn Fn() -> bool) -> io
     let mut child = command.spawn()?;
     if let Some(mut input) = child.stdin.take() {
         let text = format!("{text}\n");
-        // The pager may quit before it has read the whole text. The resulting write error is ignored.
+        // A write error is ignored, because the pager may quit before it has read the whole text.
         thread::spawn(move || input.write_all(text.as_bytes()));
     }
     while child.try_wait()?.is_none() {

@@ -1,5 +1,4 @@
-//! Search for branches that depend on a parameter of a scene.
-//! The search covers the syntax tree of a function, the called functions, and captured functions.
+//! Search for branches that depend on a parameter of a scene, in a function and in the functions that it calls or captures.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,22 +11,19 @@ use crate::script::bindings::call::{body_named, defined, written_within};
 use crate::script::bindings::parameter_variants::VariantValue;
 use crate::script::source::syntax::OWN;
 
-/// Operators, functions and methods whose results can jump.
 const JUMPS: &[&str] = &[
     "<", ">", "<=", ">=", "==", "!=", "%", "floor", "ceiling", "round", "round_to", "int",
     "to_int", "fraction", "quotient", "sign", "is_zero",
 ];
 
-/// Functions that create a schedule with jumps at given times.
 const JUMPING_SCHEDULES: &[&str] = &["pulse", "hold_for", "table"];
 
-/// Maximum depth of nested calls of functions in the search.
 const DEEPEST: usize = 8;
 
-/// Maximum number of functions in the search, so that the search of recursive functions ends.
+/// Maximum number of functions that are searched, because functions may be recursive.
 const MOST: usize = 100;
 
-/// Position at which a function branches on an expression that contains its argument and a variable that depends on a parameter.
+/// Position at which a function branches on an expression with its argument and a variable that depends on a parameter.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,

@@ -1,4 +1,4 @@
-//! Tables of the functions of Rhai that belong to the language. There is one file for each type of value.
+//! Tables of the functions of Rhai that belong to the language, by type of value.
 
 mod arrays;
 mod conversions;

@@ -93,7 +93,7 @@ fn every_function_of_the_engine_has_help() {
         let refused =
             REFUSED.iter().any(|refused| refused.name == name && refused.counts.contains(&count));
         let has_help = match name.split_once('$') {
-            // The property x.floor equals floor(x), because Rhai lets functions of one value be read as properties.
+            // The property `x.floor` equals `floor(x)`, because Rhai lets functions of one value be read as properties.
             Some(("get", property)) => is_documented(property, 1),
             Some(("set", property)) => language().named(property).any(|row| row.setter.is_some()),
             Some(("index", _)) => true,

@@ -10,9 +10,9 @@ use crate::geometry::Vec2;
 use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
-/// Combines the results of all variants to one value. The unperturbed variant is first.
-/// Equal results stay plain values. Scene objects (`is_thing`) already contain their variants.
-/// For booleans, texts and integers, only the result of the unperturbed variant is kept.
+/// Combines the results of all variants, the unperturbed variant first, to one value.
+/// The result is a plain value if all results are equal. Scene objects (`is_thing`) already contain their variants.
+/// Booleans, texts and integers keep only the result of the unperturbed variant.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.

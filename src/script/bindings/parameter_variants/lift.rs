@@ -14,13 +14,13 @@ use crate::script::bindings::parameter::Parameter;
 use crate::script::bindings::table::{CallSyntax, FunctionBinding};
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Hint for an error that occurs only at the perturbed value of a parameter.
+/// Hint for an error that occurs only at a perturbed value of a parameter.
 const BESIDE: &str = "derivatives are computed from values on both sides of a parameter: choose it inside the \
     allowed range, or use value_of(x) here, which has no derivatives";
 
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
-/// Evaluates a binding for each variant of its receiver and arguments, by the rule for its domain.
+/// Evaluates a binding for each variant of its receiver and arguments, by the rule of its domain.
 ///
 /// # Errors
 /// Fails if the call fails, if derivatives would be lost, or if parameters of two scenes are combined.
@@ -132,8 +132,7 @@ fn expect_plain_whole_numbers(
     }
 }
 
-/// Error for an argument that must not depend on parameters.
-/// If the argument is a map of options, the error refers to the option that depends on parameters.
+/// Error for an argument, or an option in it, that must not depend on parameters.
 fn refusal(
     row: &FunctionBinding,
     parameter: Option<&Parameter>,
@@ -220,7 +219,7 @@ impl ParameterSet {
     }
 }
 
-/// Combines the results of all variants. `from` contains the values from which the results were computed.
+/// Combines the results of all variants, which were computed from the values `from`.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.
@@ -234,7 +233,7 @@ pub fn combined(
     combine_variants(family, results, lost.as_ref(), &|_| false)
 }
 
-/// Combines the results of all variants to one value without derivatives. The value stores the reason for the missing derivatives.
+/// Combines the results of all variants to one value without derivatives, which stores the reason why they are missing.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.

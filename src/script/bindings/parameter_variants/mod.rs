@@ -1,8 +1,6 @@
-//! Evaluation of calls for variants of the parameters of a scene.
-//! If an argument of a call depends on a parameter, the call is evaluated at the parameter values, and again for every perturbed variant.
+//! Evaluation of calls at the values of the parameters of a scene, and at perturbed values.
 //!
-//! Derivatives are computed from the differences between the variants.
-//! Derivatives are available for sections, loads, simulations, and functions of their results.
+//! Derivatives are computed from the differences between the results, for sections, loads, simulations, and functions of them.
 
 mod gather;
 mod lift;

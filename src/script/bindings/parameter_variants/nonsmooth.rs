@@ -1,4 +1,4 @@
-//! Functions that are not differentiable at or near their arguments, because of kinks, jumps or infinite slopes.
+//! Functions that are not differentiable at or near their arguments: kinks, jumps and infinite slopes.
 
 use std::rc::Rc;
 
@@ -12,10 +12,10 @@ use crate::script::bindings::accept::as_point;
 use crate::script::messages::numbers::as_number;
 
 /// Minimum distance of an argument from a point of infinite slope, as a multiple of the perturbation of the argument.
-/// At the minimum distance from a point of infinite slope, the relative error of the difference quotient is about 1e-5.
+/// At the distance `NEAR`, the relative error of the difference quotient is about 1e-5.
 const NEAR: f64 = 300.0;
 
-/// Arguments of a call: at the parameter values, and with a positive and a negative perturbation of one parameter.
+/// Arguments of a call at the parameter values, and with a positive and a negative perturbation of one parameter.
 pub struct Sides<'s> {
     pub at: &'s [Dynamic],
     pub plus: &'s [Dynamic],

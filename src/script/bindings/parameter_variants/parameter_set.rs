@@ -1,4 +1,4 @@
-//! Set of the parameters of a scene. Each parameter has two perturbed variants: its value plus and minus a perturbation.
+//! Set of the parameters of a scene, each with two variants: its value plus and minus a perturbation.
 
 use std::any::TypeId;
 use std::cell::{Cell, RefCell};
@@ -11,12 +11,12 @@ use super::variant_value::VariantValue;
 use crate::output::significant;
 use crate::script::messages::error::{CallPart, ScriptError};
 
-/// Default perturbation of a parameter, as a fraction of its value.
-/// The relative error of a difference quotient is about the square of the relative perturbation `p`, plus the rounding error over `p`.
+/// Default perturbation `p` of a parameter, as a fraction of its value.
+/// The relative error of a difference quotient is about `p²` plus the relative rounding error over `p`.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. The unperturbed variant contains the given values.
-/// Variants 1 and 2 perturb the first parameter positively and negatively, variants 3 and 4 the second parameter, and so on.
+/// Parameters of a scene. Variant 0 has the given values.
+/// Variants 1 and 2 increase and decrease the first parameter, variants 3 and 4 the second, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
     parameters: RefCell<Vec<DeclaredParameter>>,
@@ -38,12 +38,10 @@ pub struct CurrentVariant {
 }
 
 thread_local! {
-    /// True if a parameter set has been created in this thread.
     static ANY: Cell<bool> = const { Cell::new(false) };
-    /// Type names of scene objects, with functions that return the parameter sets of these objects.
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason why the present call has no results for perturbed variants; `None` if the results exist.
+    /// Reason why the present call has no results in perturbed variants; `None` if it has.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
@@ -81,7 +79,6 @@ pub(super) fn take_unavailable() -> Option<Rc<str>> {
     LOST.take()
 }
 
-/// Guard for the evaluation of a call in a variant. Dropping the guard ends the evaluation.
 pub(super) struct VariantGuard;
 
 impl VariantGuard {
@@ -103,12 +100,12 @@ impl ParameterSet {
         Rc::default()
     }
 
-    /// Returns true if a parameter set has been created. Otherwise, values have no variants.
+    /// Returns true if a parameter set has been created, so that values may have variants.
     pub fn is_any() -> bool {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and an optional perturbation, which has a default. Returns the index of the parameter.
+    /// Adds a parameter with its value and an optional perturbation. Returns the index of the parameter.
     ///
     /// # Errors
     /// Fails if the name is already used, or if variants have been used.
@@ -134,7 +131,7 @@ impl ParameterSet {
         }
         let size = if value == 0.0 { 1.0 } else { value.abs() };
         let distance = distance.unwrap_or(RELATIVE_DISTANCE * size);
-        // The perturbation is rounded so that the perturbed values have no rounding error.
+        // The perturbation is rounded so that adding it to the value causes no rounding error.
         let distance = 0.5 * ((value + distance) - (value - distance));
         let mut values = vec![Dynamic::from(value); self.variants()];
         values.extend([value + distance, value - distance].map(Dynamic::from));
@@ -146,7 +143,7 @@ impl ParameterSet {
         self.reported.borrow_mut().insert((line, column))
     }
 
-    /// Returns true if a function of the scene branches on a parameter. Derivatives are wrong at the resulting jumps.
+    /// Returns true if a function of the scene branches on a parameter, so that derivatives may be wrong.
     pub fn branches_on_parameter(&self) -> bool {
         !self.reported.borrow().is_empty()
     }

@@ -1,4 +1,4 @@
-//! Rules for calls whose arguments depend on parameters. Each domain of the language has a rule for such calls.
+//! Rules for calls whose arguments depend on parameters, by domain of the language.
 
 use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 
@@ -7,7 +7,7 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 pub enum Lifting {
     Each,
     AtValues,
-    /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are rejected.
+    /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are errors.
     Once,
     /// The call is rejected, because the result would have no derivatives.
     Refused,
@@ -58,7 +58,7 @@ const REFUSED: &[&str] = &["equilibrium", "modes"];
 
 const WHOLE: &[&str] = &["quotient"];
 
-/// Methods that advance a simulation with all its variants, and methods whose result is the same in all variants, such as the time.
+/// Methods that advance a simulation in all variants, or whose result is the same in all variants, such as the time.
 const ONCE: &[&str] = &["start", "step", "run_to", "at", "t", "dt", "invariants", "parameter"];
 
 pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
@@ -78,6 +78,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Names of domains in the rules of this file. A test checks that these domains exist.
+/// Names of domains in these rules, whose existence a test checks.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

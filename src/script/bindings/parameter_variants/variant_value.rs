@@ -1,4 +1,4 @@
-//! Values that depend on parameters of a scene. A value is stored for each variant.
+//! Values that depend on parameters of a scene.
 
 use std::rc::Rc;
 
@@ -17,7 +17,6 @@ const DIGITS: usize = 5;
 #[derive(Clone)]
 pub struct VariantValue {
     family: Rc<ParameterSet>,
-    /// Value in each variant, starting with the unperturbed variant. Variants that are not stored have the value of the unperturbed variant.
     values: Rc<[Dynamic]>,
     lost: Option<Rc<str>>,
 }
@@ -27,7 +26,7 @@ impl VariantValue {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// Value in the given variant. Elements of arrays and maps, and captured values, are also replaced by their values in the variant.
+    /// Value in the given variant, also of elements of arrays and maps, and of captured values.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }
@@ -74,7 +73,7 @@ impl VariantValue {
     }
 }
 
-/// Set of the parameters on which a value depends. The search includes elements of arrays and maps, and captured values.
+/// Parameters on which a value depends, also through elements of arrays and maps, and through captured values.
 pub fn parameter_set_of(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     find(value, &|varied| Some(Rc::clone(&varied.family)))
 }

@@ -1,4 +1,4 @@
-//! Tables of names from other languages and programs, and search in these tables.
+//! Tables of names from other languages and programs.
 
 use super::{languages, mechanics};
 
@@ -10,7 +10,7 @@ pub struct ForeignName {
     pub see: &'static [&'static str],
 }
 
-/// Entry for a name from another language; `None` if there is none. If no name agrees exactly, upper and lower case are not distinguished.
+/// Entry for a name from another language, or for this name in other letter case; `None` if there is none.
 pub fn find(name: &str) -> Option<&'static ForeignName> {
     find_exactly(name).or_else(|| {
         let lower = name.to_lowercase();

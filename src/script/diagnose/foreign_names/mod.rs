@@ -1,4 +1,4 @@
-//! Names from other languages and programs, with their replacements. They are used only if a script contains an unknown name.
+//! Names from other languages and programs, with their replacements, for messages about unknown names.
 
 mod entry;
 mod languages;

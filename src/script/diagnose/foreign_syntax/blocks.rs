@@ -118,7 +118,6 @@ fn case(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Explains an unclosed block, an `end` in place of a closing brace, and a superfluous bracket.
 fn end(spot: &TokenWindow) -> Option<SyntaxFix> {
     if matches!(
         spot.word(0),

@@ -1,4 +1,4 @@
-//! List of all patterns of syntax from other languages, and the search for a match.
+//! Search for a pattern of syntax from other languages.
 
 use rhai::{ParseErrorType, Position};
 
@@ -13,10 +13,9 @@ pub struct SyntaxFix {
     pub at: Position,
 }
 
-/// Pattern of syntax from another language. It examines the tokens around the error. A pattern that matches returns an explanation.
+/// Pattern of syntax from another language: a function that explains the tokens around an error, or returns `None`.
 pub(super) type ForeignSyntax = fn(&TokenWindow) -> Option<SyntaxFix>;
 
-/// All patterns. Patterns with more context come first.
 const PATTERNS: &[&[ForeignSyntax]] = &[
     signs::PATTERNS,
     blocks::PATTERNS,
@@ -25,7 +24,7 @@ const PATTERNS: &[&[ForeignSyntax]] = &[
     brackets::PATTERNS,
 ];
 
-/// Explanation for a source with the syntax error `error` at `at`; `None` if no pattern matches.
+/// Explanation of the syntax error `error` at `at`; `None` if no pattern matches.
 pub fn explain(
     program: &Program,
     catalog: &Catalog,

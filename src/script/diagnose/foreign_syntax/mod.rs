@@ -1,7 +1,5 @@
-//! Recognition of syntax from other languages, and of mistakes that the parser reports far from their cause. Each pattern suggests a replacement.
-//!
-//! A pattern examines the tokens around the position of the syntax error. The first match is used.
-//! Patterns are tried only for sources with a syntax error.
+//! Recognition of syntax from other languages, and of mistakes that the parser reports far from their cause.
+//! Patterns are tried one after the other on the tokens around a syntax error, and the first match is used.
 
 mod blocks;
 mod brackets;

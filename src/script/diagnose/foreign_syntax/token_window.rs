@@ -22,7 +22,6 @@ pub struct TokenWindow<'s> {
     here: usize,
     first: usize,
     place: Position,
-    /// Text between the error and the token before it, including comments.
     gap: String,
 }
 
@@ -60,7 +59,7 @@ impl<'s> TokenWindow<'s> {
         Self { catalog, error, words, here, first, place, gap }
     }
 
-    /// Token at an offset from the token with the error; empty if there is no such token.
+    /// Token at an offset from the token with the error; empty if there is none.
     pub fn word(&self, from_here: isize) -> &str {
         self.find(from_here).map_or("", |word| word.text.as_str())
     }
@@ -93,8 +92,7 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// Searches the statement, up to two tokens after the error, for the first word in `sought`.
-    /// Returns the offset of the found word from the error, and the word.
+    /// First word in `sought` in the statement, up to two tokens after the error, with its offset from the error.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

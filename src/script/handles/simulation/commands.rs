@@ -1,9 +1,8 @@
-//! Outputs of the controllers of a simulation. Other simulations may share the cells of the scene that contain these outputs.
-//! Each simulation restores the outputs of its controllers before it is used.
+//! Outputs of the controllers of a simulation, which it restores before it is used, because simulations share their cells in the scene.
 
 use std::cell::RefCell;
 
-/// Output of each controller as a function of time. The time [time] and the output are stored at each change of the output.
+/// Time [time] and new output at each change of the output of each controller.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Commands(RefCell<Vec<Vec<(f64, f64)>>>);
 
@@ -24,7 +23,7 @@ impl Commands {
     }
 
     /// Records the output of a controller after the time `time`.
-    /// Outputs for later times are dropped, because they were computed before a rewind.
+    /// Outputs for later times, computed before a rewind, are dropped.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

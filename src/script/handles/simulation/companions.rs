@@ -1,4 +1,4 @@
-//! Companion runs. A companion repeats a simulation from its start with the same scene and functions, but on another mesh or with other steps.
+//! Companion runs, which repeat a simulation from its start on another mesh or with other steps.
 
 use std::rc::Rc;
 
@@ -22,7 +22,7 @@ pub enum RunStart {
     Loaded,
 }
 
-/// Discretisation of a companion run relative to the simulation.
+/// Discretisation of a companion run, relative to that of the simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Companion {
     pub span_ratio: f64,
@@ -33,7 +33,7 @@ const NO_FILES: &str = "companion runs repeat the functions of a simulation and 
     files; write them after the run";
 
 impl SimulationHandle {
-    /// Starts a simulation of a scene on a mesh with another number of spans. The simulation is not added to the report.
+    /// Starts a simulation of a scene on a mesh with another number of spans, without adding it to the report.
     pub fn start_refined(
         scene: &SceneHandle,
         span_ratio: f64,
@@ -48,7 +48,6 @@ impl SimulationHandle {
         Ok(handle)
     }
 
-    /// Runs the simulation to a time. Output printed by its functions is discarded, and their checks are ignored.
     pub fn run_silently(&self, end: f64, context: &Context) -> Result<(), ScriptError> {
         let checks = context.with_checks(|checks| checks.clone());
         let ran = context.without_output_or_files(NO_FILES, || self.run_to(context, end));
@@ -77,7 +76,6 @@ impl SimulationHandle {
         Ok(scene.with_span_ratio(companion.span_ratio)?)
     }
 
-    /// Settings of a companion run. For adaptive steps, the tolerance is changed according to the ratio of step sizes.
     pub fn companion_settings(&self, companion: Companion) -> SimulationSettings {
         let settings = *self.simulation().settings();
         let dt = match settings.dt {
@@ -92,10 +90,7 @@ impl SimulationHandle {
         SimulationSettings { dt, ..settings }
     }
 
-    /// Runs a companion to the present time of this simulation. Script functions are called again, and their output is discarded.
-    ///
-    /// # Errors
-    /// Fails if the companion cannot be started or does not reach the time, or if the result of a function depends on its earlier calls.
+    /// Runs a companion to the present time of this simulation, without the output of its functions.
     pub fn run_companion(
         &self,
         companion: Companion,
@@ -126,14 +121,13 @@ impl SimulationHandle {
         let captured = CapturedVariables::of(self)?;
         let ran =
             handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
-        // A companion run changes controller outputs that it shares with this simulation. Access to this simulation restores them.
+        // Access to this simulation restores its controller outputs, which the companion run has changed.
         self.with_simulation_mut(|_| ());
         captured.expect_unchanged()?;
         ran.map(|()| handle)
     }
 }
 
-/// Values of the variables captured by the functions of a simulation, stored before a companion run.
 struct CapturedVariables(Vec<CapturedVariable>);
 
 struct CapturedVariable {
@@ -166,8 +160,8 @@ impl CapturedVariables {
         Ok(Self(values))
     }
 
-    /// Restores the variables.
-    /// Fails if a function has changed a variable, because a companion run would need the value at the start of the simulation.
+    /// Restores captured variables.
+    /// Fails if a function has changed a captured variable, because a companion run needs its value at the start of the simulation.
     fn expect_unchanged(self) -> Result<(), ScriptError> {
         let mut changed = None;
         for CapturedVariable { role, mut shared, value } in self.0 {

@@ -1,4 +1,4 @@
-//! Temporary replacement of a simulation by a copy in an earlier state. During the replacement, all handles refer to the copy.
+//! Temporary replacement of a simulation by a copy in an earlier state, to which all handles then refer.
 
 use std::cell::{Ref, RefCell};
 use std::rc::Rc;
@@ -12,7 +12,6 @@ use crate::simulation::Simulation;
 /// Replacement of a simulation by a copy. Dropping this object restores the original.
 pub struct Revisit {
     handle: SimulationHandle,
-    /// Original simulation, while its handles refer to the copy. While the original is in use, this field contains the copy.
     original: RefCell<Simulation>,
     events: Events<Rc<StoredFunction>>,
     is_ending_told: bool,
@@ -50,15 +49,12 @@ impl Revisit {
         (self.handle.simulation().counts().steps, self.handle.time())
     }
 
-    /// Restores a stored state in the copy. Returns false if this state is not stored.
+    /// Restores a state in the copy. Returns false if this state is not stored.
     pub fn restore_step(&self, steps: usize) -> Result<bool, ScriptError> {
         Ok(self.handle.0.simulation.borrow_mut().revisit(&self.original(), steps)?)
     }
 
-    /// Advances the copy to a row in the history of the original. Returns true if its energies and momenta equal those of the original.
-    ///
-    /// # Errors
-    /// Fails if a step fails although it did not fail in the original run, or if the run is stopped.
+    /// Advances the copy to a row of the history. Returns true if its energies and momenta equal those of the original.
     pub fn run_again(&self, row: usize, context: &Context) -> Result<bool, ScriptError> {
         loop {
             self.handle.command()?;

@@ -1,4 +1,4 @@
-//! Columns, controllers and release conditions that script functions evaluate between steps.
+//! History columns, controllers and release conditions that script functions evaluate between steps.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
@@ -22,7 +22,6 @@ pub(super) struct ColumnReader {
     functions: Vec<Rc<StoredFunction>>,
     evaluated_at: Cell<Option<usize>>,
     controllers: Vec<Rc<Controller>>,
-    /// Outputs of sampled controllers, by sample number. A rewind keeps the outputs up to the present time.
     commands: RefCell<Vec<BTreeMap<u64, f64>>>,
     outputs: Commands,
     conditions: Vec<Condition>,
@@ -63,15 +62,15 @@ impl ColumnReader {
         }
     }
 
-    /// Sets the outputs of the controllers in the scene to their values in this simulation before the time `time`.
-    /// The outputs may belong to another simulation, because simulations share the scene.
+    /// Sets the outputs of the controllers in the scene to those of this simulation before the time `time`.
+    /// Outputs in the scene may belong to another simulation that shares the scene.
     fn recall(&self, time: f64) {
         for (number, controller) in self.controllers.iter().enumerate() {
             controller.value.set(self.outputs.before(number, time));
         }
     }
 
-    /// Rejects a call that would advance or rewind the simulation if it is made by a function that may only read the simulation.
+    /// Rejects advancing or rewinding by a function that may only read the simulation.
     pub fn expect_idle(&self) -> Result<(), ScriptError> {
         match self.is_looking.get() {
             false => Ok(()),
@@ -84,7 +83,6 @@ impl ColumnReader {
 }
 
 impl SimulationHandle {
-    /// Calls `look` with write access to the simulation, in the variant of the present call. The access ends when `look` returns.
     pub fn with_simulation_mut<T>(&self, look: impl FnOnce(&mut Simulation) -> T) -> T {
         let run = &mut *self.0.simulation.borrow_mut();
         self.0.sensing.recall(run.time());
@@ -146,9 +144,6 @@ impl SimulationHandle {
     }
 
     /// Evaluates release conditions and controllers for the next step or half step.
-    ///
-    /// # Errors
-    /// Fails if a function fails, or if it does not return a finite number.
     pub(super) fn command(&self) -> Result<(), ScriptError> {
         if !self.simulation().is_paused_in_step() {
             self.release_due()?;
@@ -161,12 +156,12 @@ impl SimulationHandle {
             };
             sensing.outputs.record(number, time, value);
         }
-        // All outputs change at the same time, so that every controller reads the previous outputs of the other controllers.
+        // All outputs change at the same time, so that every controller reads the previous outputs of the others.
         sensing.recall(time.next_up());
         Ok(())
     }
 
-    /// Output of a sampled controller. It is computed at the sample times and constant between them. Before the first output, it is zero.
+    /// Output of a sampled controller: zero before its first sample, and constant between samples.
     fn sampled_command(
         &self,
         number: usize,
@@ -226,8 +221,8 @@ impl SimulationHandle {
         !controllers.is_empty() || conditions.iter().any(waits)
     }
 
-    /// Runs the simulation to a time. The run is interrupted at recorded steps to evaluate user-defined columns.
-    /// If there are controllers or release conditions, the run is interrupted before every step to evaluate them.
+    /// Runs the simulation to a time. User-defined columns are evaluated at recorded steps.
+    /// Controllers and release conditions are evaluated before every step.
     pub(super) fn run_with_callbacks(
         &self,
         context: &Context,
@@ -251,7 +246,7 @@ impl SimulationHandle {
         let steps = self.simulation().counts().steps;
         loop {
             self.command()?;
-            // The number of substeps is not known in advance. Therefore the limit of steps cannot stop the run within a step.
+            // The limit of steps cannot stop the run within a step, because the number of substeps is not known in advance.
             let mut watch = ProgressMonitor::new(context, f64::NEG_INFINITY);
             watch.pauses = self.varies_steps() && self.is_controlled();
             let stepped = self.0.simulation.borrow_mut().step(&mut watch);

@@ -46,7 +46,7 @@ impl SimulationHandle {
         self.0.simulation.borrow()
     }
 
-    /// Parameter perturbed by the variant of the present call, and sign of the perturbation; `None` in the unperturbed variant.
+    /// Perturbed parameter and sign of the perturbation in the variant of the present call; `None` in the unperturbed variant.
     pub(super) fn present_side(run: &Simulation) -> Option<(usize, PerturbedSide)> {
         let (parameter, is_plus) = ParameterSet::side_of_variant(present()?.variant)?;
         run.parameters().next()?;

@@ -1,29 +1,23 @@
-//! Iteration over earlier states of a simulation. States are restored from snapshots, or computed again in a copy.
+//! Iteration over earlier states of a simulation, restored from snapshots or computed again in a copy.
 
 use super::{Revisit, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::simulation::Simulation;
 
-/// Callback for a state. Its arguments are the index of the time, and the simulation in this state.
 pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptError>;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visited {
     All,
-    /// The repeated run differs from the original run. The variant contains the first time with a difference.
-    /// A script function may have changed the simulation during the original run, so that the repeated run differs.
-    /// The original run may also have started from another state than the initial state of the scene.
+    /// The repeated run differs from the original run, first at the time in the variant.
     Diverged(f64),
 }
 
 impl SimulationHandle {
     /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first.
-    /// If a state is not stored, the run is repeated in a copy, which takes time and counts steps. States are then visited in the order of time.
-    /// The energies and momenta of the repeated run are compared with the original bit by bit.
-    ///
-    /// # Errors
-    /// Fails if a step fails although it did not fail in the original run, if the run is stopped, or if `look` fails.
+    /// If a state is not stored, the run is repeated in a copy, which counts steps, and states are visited in the order of time.
+    /// Energies and momenta of the repeated run must equal those of the original bit by bit.
     pub fn for_each_state(
         &self,
         times: &[f64],
@@ -41,7 +35,7 @@ impl SimulationHandle {
         }
     }
 
-    /// Calls `look` with stored states, from the last to the first, because the copy can only go back.
+    /// Calls `look` with stored states, from the last to the first, because the copy can only be rewound.
     fn for_each_stored(&self, steps: &[usize], look: Look) -> Result<Visited, ScriptError> {
         let revisit = Revisit::at_present(self)?;
         for (index, steps) in steps.iter().enumerate().rev() {

@@ -1,4 +1,4 @@
-//! Tests: the definition files contain all bindings of the script language, in valid syntax.
+//! Tests that the definition files contain all bindings in valid syntax.
 
 use super::types::{for_value, identifier};
 use super::{DefinitionFile, definitions};

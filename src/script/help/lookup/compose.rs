@@ -1,4 +1,4 @@
-//! Composition of help pages, and the overview.
+//! Help pages, and the overview.
 
 use super::find::{HelpSubject, find};
 use super::page::{HelpPage, StyledText};
@@ -17,7 +17,7 @@ use crate::script::messages::numbers::format_number;
 /// Help page for `name`, or the overview if the name is empty.
 ///
 /// # Errors
-/// Fails if no help exists for this name. The error contains suggestions.
+/// Fails with suggestions if no help exists for this name.
 pub fn page(catalog: &Catalog, name: &str) -> Result<HelpPage, UnknownTopic> {
     if name.trim().is_empty() {
         return Ok(overview(catalog));

@@ -24,9 +24,9 @@ pub enum HelpSubject {
     ModuleFunction(&'static ModuleFunction),
 }
 
-/// All subjects with the name `name`, the most likely subject first.
+/// All subjects with the name `name`, the most likely first.
 ///
-/// The name `simulation.run_to` refers to the method of the type `simulation`.
+/// A name such as `simulation.run_to` refers to the method of a type.
 /// If the text before the dot is not a type, as in `sim.run_to`, the methods of all types are returned.
 pub fn find(catalog: &Catalog, name: &str) -> Vec<HelpSubject> {
     let name = name.trim();
@@ -132,7 +132,6 @@ fn is_member(subject: HelpSubject) -> bool {
     matches!(subject, HelpSubject::Row(..) | HelpSubject::BuiltIn(_))
 }
 
-/// Returns true if the subject is a method or property of the type. Functions belong to no type, because they can follow a value of any type.
 fn belongs_to(subject: HelpSubject, owner: &str) -> bool {
     match subject {
         HelpSubject::Row(_, row) => match row.form {

@@ -1,8 +1,8 @@
-//! Help pages as data, and their conversion to plain or coloured text.
+//! Help pages, and their conversion to plain or coloured text.
 
 use crate::output::{columns, columns_of};
 
-/// Default page width in columns.
+/// Default page width [columns].
 pub const WIDTH: usize = 80;
 
 const NARROWEST: usize = 24;
@@ -15,13 +15,13 @@ pub struct HelpPage {
 #[derive(Clone, Debug, PartialEq)]
 pub enum HelpSection {
     Gap,
-    /// Text that is wrapped. The first line starts at `indent`, the following lines at `hang`.
+    /// Text that is wrapped, with the first line indented by `indent` and the others by `hang`.
     Words {
         indent: usize,
         hang: usize,
         spans: Vec<StyledText>,
     },
-    /// Script. Long lines are broken at positions where this does not change the meaning.
+    /// Script. Long lines are broken where this does not change the meaning.
     Code(String),
 }
 
@@ -66,7 +66,7 @@ impl HelpPage {
     }
 
     pub fn paragraph(&mut self, text: &str) {
-        // Backquotes mark code in Markdown. They are removed in a terminal.
+        // Backquotes, which mark code in Markdown, are removed in a terminal.
         let spans = vec![StyledText::plain(text.replace('`', ""))];
         self.parts.push(HelpSection::Words { indent: 0, hang: 0, spans });
     }
@@ -155,8 +155,7 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// Breaks a line of a script at `width`. Possible breaks are blanks outside strings after a comma, semicolon, brace, && or ||.
-/// A line with a comment is not broken.
+/// Breaks a line of a script at `width`, at blanks outside strings after a comma, semicolon, brace, && or ||.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();

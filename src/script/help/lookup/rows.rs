@@ -58,7 +58,7 @@ pub fn see(page: &mut HelpPage, names: &[&str]) {
     }
 }
 
-/// Appends the description of a parameter or key. For an option map, the descriptions of its keys are added.
+/// Appends the description of a parameter or key and, for an option map, of its keys.
 pub fn parameter(page: &mut HelpPage, parameter: &Parameter, indent: usize) {
     let mut spans = vec![StyledText::name(parameter.name), StyledText::plain(": ")];
     spans.extend(expectation(parameter));

@@ -146,7 +146,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of curves. The native value is `Rc<Curve>`.
+/// Type of curves, with the native value `Rc<Curve>`.
 pub const CURVE: Type = Type::of::<Rc<Curve>>();
 
 const A: Parameter = object("a", CURVE);

@@ -110,7 +110,7 @@ pub const TABLE: BindingTable = BindingTable {
     ],
 };
 
-/// Type of knot vectors. The native value is `Rc<KnotVector>`.
+/// Type of knot vectors, with the native value `Rc<KnotVector>`.
 pub const KNOTS: Type = Type::of::<Rc<KnotVector>>();
 
 const A: Parameter = object("a", KNOTS);
@@ -131,7 +131,6 @@ const KEYS: &[Parameter] = &[
         .optional(),
 ];
 
-/// Largest number of knots for which all knots of a vector are printed.
 const PRINTED: usize = 16;
 
 impl Scripted for Rc<KnotVector> {
@@ -191,7 +190,7 @@ fn uniform(call: &mut Call) -> Result<Dynamic, ScriptError> {
         }
         None => (call.count("spans")?, 3, 2),
     };
-    // The number of spans and the degree are in range, so only the continuity can be invalid.
+    // The continuity is the only argument that may be invalid here.
     let knots = KnotVector::uniform(spans, degree, continuity)
         .map_err(|error| ScriptError::from(error).at(CallPart::Key("continuity".into())))?;
     Ok(shared(knots))

@@ -70,7 +70,7 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Picture as text for a terminal, with options typed at the prompt.
-/// The picture shows only the present configuration unless other times are requested.
+/// Unless times are requested, only the present configuration is shown.
 pub fn motion_text(
     engine: &rhai::Engine,
     of: &SimulationHandle,

@@ -141,7 +141,7 @@ pub fn labels(options: &Options, count: usize) -> Result<Option<Vec<String>>, Op
     labels.map(Some).ok_or_else(|| wrong(message(), "for example labels: [\"first\", \"second\"]"))
 }
 
-/// Curves from an argument: one curve from an array of numbers, several curves from an array of arrays. Values that are not finite become gaps.
+/// Curves from an argument: an array of numbers is one curve, an array of arrays several. Values that are not finite become gaps.
 pub fn curves(call: &Call, name: &str, at: usize) -> Result<Vec<Vec<f64>>, ScriptError> {
     let given = call.array(name)?;
     let is_many = !given.is_empty() && given.iter().all(Dynamic::is_array);

@@ -55,7 +55,7 @@ pub fn histories(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     }
 }
 
-/// Histories that a call draws. Fails if a history is empty or has rows only at the ends of runs.
+/// Histories that a call draws. Fails if a history is empty or was recorded only at the ends of runs.
 pub fn histories_over_time(call: &Call) -> Result<Vec<HistoryHandle>, ScriptError> {
     let histories = histories(call)?;
     histories.iter().try_for_each(|history| expect_rows_between(call, &history.of))?;

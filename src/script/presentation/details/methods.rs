@@ -57,7 +57,7 @@ fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
     kept.join(", ")
 }
 
-/// Summary of a schedule: values and jumps. Script functions are not called.
+/// Summary of a schedule by its values and jumps; script functions are not called.
 pub fn of_schedule(schedule: &Schedule) -> Details {
     let mut breaks = schedule.breaks();
     breaks.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Quantities for the colours of beams in the viewer, computed from recorded configurations or from complete states.
+//! Quantities for the colours of beams in the viewer.
 
 use super::FrameSelection;
 use crate::geometry::Vec2;
@@ -13,9 +13,9 @@ struct FieldKind {
 }
 
 enum FieldSource {
-    /// Speed of the axis, computed from the configurations of the previous and the next frame [length/time].
+    /// Speed of the axis [length/time], computed from the configurations of the previous and next frame.
     AdjacentFrames,
-    /// Function of a point on the axis and of the control points in a frame. The text is the dimension of the value.
+    /// Function of a point on the axis and the control points of a frame, and the dimension of its value.
     Axis(fn(&AxisStation, &[Vec2]) -> f64, &'static str),
     State,
 }
@@ -24,8 +24,8 @@ const fn kind(name: &'static str, source: FieldSource) -> FieldKind {
     FieldKind { name, source }
 }
 
-/// All fields, in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
-/// The field `curvature` is the change of the axis curvature from the start [1/length].
+/// All fields in the order of [`FIELDS`]. The stretch is the relative elongation of the axis [-].
+/// The field `curvature` is the change of the axis curvature since the start [1/length].
 const KINDS: [FieldKind; 7] = [
     kind("speed", FieldSource::AdjacentFrames),
     kind("M", FieldSource::State),
@@ -39,14 +39,14 @@ const KINDS: [FieldKind; 7] = [
 pub(crate) const FIELDS: [&str; 7] =
     ["speed", "M", "strain_energy", "N", "Q", "stretch", "curvature"];
 
-/// Fields computed from the states of a simulation, frame by frame.
+/// Fields that are computed, frame by frame, from states of a simulation.
 pub struct FieldReader {
     beams: Vec<BeamPlaces>,
     taken: Vec<(&'static BeamQuantity, Vec<Vec<f64>>)>,
 }
 
 impl FieldReader {
-    /// Creates storage for the named fields in the given number of frames. Returns `None` if no named field is computed from states of the simulation.
+    /// Allocates the named fields for the given number of frames; `None` if none of them needs states of the simulation.
     ///
     /// # Errors
     /// Fails if the axis of a beam has a point without a tangent.

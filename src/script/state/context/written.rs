@@ -1,4 +1,4 @@
-//! Reading and writing of files, which count towards the limits of the run.
+//! File access that counts towards the limits of the run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -8,10 +8,10 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::files::WrittenFile;
 use crate::script::state::settings::RunMode;
 
-/// Memory that a read file needs for its content and its parsed form, as a multiple of its length.
+/// Memory for the content of a read file and its parsed form, as a multiple of its length.
 const TIMES_ITS_LENGTH: u64 = 4;
 
-/// File whose written bytes are counted. Writing fails as soon as the run must end.
+/// File whose written bytes are counted. Writing fails if the run must end.
 struct CountedFile<'c> {
     file: &'c mut dyn Write,
     context: &'c Context,
@@ -34,7 +34,7 @@ impl Write for CountedFile<'_> {
 
 impl Context {
     /// Writes a file in the output folder.
-    /// If a file with this name was not written by this program, it is kept under another name, and a message is printed.
+    /// An existing file that this program has not written is kept under another name, and a message is printed.
     ///
     /// # Errors
     /// Fails if the file cannot be written, or a limit of the run is exceeded.
@@ -43,7 +43,7 @@ impl Context {
         self.output().write(name, content).map(|written| self.report_kept(written))
     }
 
-    /// Writes a file in the output folder in pieces, and counts the bytes. An existing file is treated as in [`Self::write_file`].
+    /// Writes a file in the output folder in pieces. An existing file is treated as in [`Self::write_file`].
     ///
     /// # Errors
     /// Fails if the file cannot be written or a limit of the run is exceeded.
@@ -69,7 +69,7 @@ impl Context {
         self.output().write_to_read(name, content).map(|written| self.report_kept(written))
     }
 
-    /// Reads a file in the output folder or in the folder of the script. Its size must be within the memory limit.
+    /// Reads a file in the output folder or in the folder of the script.
     ///
     /// # Errors
     /// Fails if the file does not exist, is too large, or is not a regular file.

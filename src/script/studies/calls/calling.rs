@@ -11,19 +11,15 @@ const LONGEST_REASON: usize = 300;
 
 pub enum CallOutcome {
     Returned(Dynamic),
-    /// The function threw an error, exceeded its time, or a check failed. The field contains the reason.
     Failed(String),
-    /// The script itself seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 
-/// Processed result of a call, and number of steps of the simulations in the call.
 pub struct CallWork<R> {
     pub result: R,
     pub steps: u64,
 }
 
-/// Calls the function in a worker with named values and processes its result. `wall` is the time limit as text.
 pub fn call<R>(
     worker: &Worker,
     function: &RunFunction,

@@ -1,4 +1,4 @@
-//! Evaluation of a function of parameters at several points. Worker threads are used if there is a complete script, otherwise this thread.
+//! Evaluation of a function of parameters at several points, by worker threads or on this thread.
 
 use std::time::Duration;
 
@@ -18,7 +18,6 @@ const NO_FILES: &str = "a run of a study cannot write files: return the data as 
 pub enum FunctionResult {
     Numbers(Vec<f64>),
     Failed(String),
-    /// The script itself seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 
@@ -35,7 +34,6 @@ pub struct FunctionQuery<'q> {
 #[derive(Clone)]
 enum QueryPoint {
     Value(Vec<f64>),
-    /// Derivatives at a point, given by the value and the perturbation of each parameter.
     Slopes(Vec<(f64, f64)>),
 }
 
@@ -44,7 +42,7 @@ enum Executor<'w> {
     ThisThread,
 }
 
-/// Evaluates the function of a query. The evaluation uses worker threads or this thread.
+/// Evaluates the function of a query, by worker threads if there is a complete script, otherwise on this thread.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,
@@ -125,7 +123,6 @@ impl FunctionQuery<'_> {
         self.function.call_here(calling, self.key, self.values(point))
     }
 
-    /// Error of a function that fails at a required point. The function is called again in the engine of the script to find the error position.
     pub fn located_error(&self, calling: &Call, point: &[f64], reason: &str) -> ScriptError {
         let found =
             calling.context().without_output_or_files(NO_FILES, || self.here(calling, point));
@@ -167,8 +164,8 @@ impl<'w> Evaluator<'w> {
         Ok(found)
     }
 
-    /// Values and derivatives with respect to all parameters at a point, from one call with values that depend on parameters.
-    /// The argument `point` contains the value and the perturbation of each parameter. The inner error is the reason for missing derivatives.
+    /// Values and derivatives with respect to all parameters from one call with values that depend on parameters.
+    /// `point` contains the value and perturbation of each parameter. The inner error is the reason why derivatives are missing.
     pub fn slopes(&mut self, point: &[(f64, f64)]) -> Result<Sloped, ScriptError> {
         let answers = match self.evaluate_points(vec![QueryPoint::Slopes(point.to_vec())]) {
             Err(error) if self.call.context().is_stopped() => return Err(error),

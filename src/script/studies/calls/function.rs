@@ -1,4 +1,4 @@
-//! Function that a study calls with named values, with its captured variables and used names.
+//! Function that a study calls with named values.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,6 @@ use crate::script::engine::workers::EngineConfig;
 use crate::script::messages::error::{CallPart, Failure, ScriptError};
 use crate::script::messages::nouns::with_article;
 
-/// Script function in a form that can be sent to other threads.
 #[derive(Clone, Debug)]
 pub struct RunFunction {
     pub name: String,
@@ -28,7 +27,7 @@ pub fn changes(name: &str) -> String {
 
 struct ParameterReading {
     names: BTreeSet<String>,
-    /// True if the function uses its map of values as a whole, so that it may read any name.
+    /// True if the function may read any name, because it uses its map of values as a whole.
     is_whole: bool,
 }
 
@@ -36,7 +35,7 @@ impl RunFunction {
     /// Reads the function given for an option key.
     ///
     /// # Errors
-    /// Fails if the function has captured a value that cannot be sent to other threads. The error has the position at which the value is used.
+    /// Fails, at the position of its use, for a captured value that cannot be sent to other threads.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let message = format!(
@@ -98,9 +97,9 @@ impl RunFunction {
         Ok(())
     }
 
-    /// Captured values and arguments of the function on this thread. The callback `function_of` finds functions.
+    /// Captured values and arguments of the function on this thread. `function_of` finds functions.
     ///
-    /// Returns `None` if a function is not found.
+    /// The result is `None` if a function is not found.
     pub fn arguments(
         &self,
         values: Map,
@@ -122,7 +121,7 @@ impl RunFunction {
     /// Calls the function in the engine of the script, with copies of captured values.
     ///
     /// # Errors
-    /// Returns the error of the function with its position. Also fails if the function changes a captured variable.
+    /// Fails with the error of the function and its position, or if the function changes a captured variable.
     pub fn call_here(&self, call: &Call, key: &str, values: Map) -> Result<Dynamic, ScriptError> {
         let function_of = |name: &str, parameters| call.function_named(name, parameters);
         let lost = || ScriptError::internal_error("the function of a study is not found again");
@@ -140,10 +139,7 @@ impl RunFunction {
         }
     }
 
-    /// Rejects parameters that the function never reads, if this can be determined.
-    ///
-    /// # Errors
-    /// Fails if there is a parameter that the function never reads.
+    /// Rejects parameters that the function never reads, as far as this can be determined.
     pub fn expect_read<'n>(
         call: &Call,
         (key, function): (&str, &FnPtr),
@@ -165,7 +161,7 @@ impl RunFunction {
         Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// First name that the function does not read from its map of values. A function that passes its map on may read any name.
+    /// First name that the function does not read from its map of values; `None` if it passes its map on.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,
@@ -181,7 +177,6 @@ impl RunFunction {
     }
 }
 
-/// Returns true if the runs of a study can vary an input. Only workers run the statements of imported files again.
 fn is_varied_input(call: &Call, name: &str) -> bool {
     let sources = Sources::of(call.engine());
     let has_workers = || EngineConfig::of(call.engine(), call.context(), "").is_some();

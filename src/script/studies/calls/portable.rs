@@ -1,4 +1,4 @@
-//! Values that can be sent to the engines of other threads: plain values, script functions, and serialised values of the types in [`DataKind`].
+//! Values that can be sent to other threads: plain values, script functions, and serialised values of the types in [`DataKind`].
 
 use std::rc::Rc;
 
@@ -41,7 +41,6 @@ pub enum DataKind {
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotPortable {
-    /// Name of the type of the rejected value.
     pub kind: String,
 }
 
@@ -49,9 +48,6 @@ type Stored = (SectionVariation, Option<Solid>, Option<Relaxation>);
 
 impl Portable {
     /// Converts a value. `parameters_of` returns the number of parameters of a script function, including captured variables.
-    ///
-    /// # Errors
-    /// Fails if the value or one of its elements cannot be converted.
     pub fn of(
         engine: &Engine,
         value: &Dynamic,
@@ -100,7 +96,7 @@ impl Portable {
             .ok_or_else(|| NotPortable { kind: engine.map_type_name(value.type_name()).to_owned() })
     }
 
-    /// Restores the value on this thread. `function_of` finds functions by name and number of parameters. `None` if a function is not found.
+    /// Restores the value on this thread; `None` if `function_of` does not find a function by name and number of parameters.
     pub fn value(&self, function_of: &dyn Fn(&str, usize) -> Option<FnPtr>) -> Option<Dynamic> {
         let all = |values: &[Self]| -> Option<Vec<Dynamic>> {
             values.iter().map(|value| value.value(function_of)).collect()
@@ -129,7 +125,6 @@ impl Portable {
         })
     }
 
-    /// Returns true if a value equals this value bit by bit.
     pub fn is(&self, value: &Dynamic) -> bool {
         let value = value.flatten_clone();
         match self {

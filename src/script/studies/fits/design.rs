@@ -110,7 +110,6 @@ impl Limit {
         map.iter().map(limit).collect()
     }
 
-    /// Scaled distances of a result from its bounds; negative if a bound is violated.
     pub(super) fn distances(&self, value: f64) -> impl Iterator<Item = f64> {
         let low = self.low.map(|low| (value - low) / self.size());
         low.into_iter().chain(self.high.map(|high| (high - value) / self.size()))
@@ -179,9 +178,6 @@ fn names(given: &Dynamic) -> Vec<String> {
 
 impl DesignRequest<'_> {
     /// Finds the best design.
-    ///
-    /// # Errors
-    /// Fails if the function is wrong or fails at the start, if a result is missing, or if no run satisfies the constraints.
     pub fn run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let question = FunctionQuery {
@@ -276,7 +272,6 @@ impl DesignRequest<'_> {
 }
 
 impl DesignRequest<'_> {
-    /// Result of a dry run: the start values. The function is called once with these values.
     pub fn dry_run(self, call: &Call) -> Result<BestDesign, ScriptError> {
         let function = RunFunction::read(call, "run", self.function)?;
         let start: Vec<f64> = self.ranges.ranges.iter().map(|range| range.first()).collect();

@@ -18,7 +18,6 @@ use crate::script::studies::plan::at_key;
 const DIGITS: usize = 7;
 const ERROR_DIGITS: usize = 2;
 
-/// Interpretation of the values that the fitted function returns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Compared {
     Residuals,
@@ -30,7 +29,7 @@ pub struct FitRequest<'o> {
     pub ranges: Ranges,
     pub key: &'static str,
     pub function: &'o FnPtr,
-    /// Second argument of the function, if any. The first argument is the map of parameters.
+    /// Second argument of the fitted function, after the map of parameters; `None` if it has one argument.
     pub data: Option<Dynamic>,
     pub compared: Compared,
     /// Weights of the squares; `None` if all weights are one.
@@ -44,9 +43,9 @@ pub struct FitRequest<'o> {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
-    /// The runs may provide derivatives. For a run without derivatives, finite differences are used.
+    /// Derivatives from the runs, or finite differences for runs without derivatives.
     Known,
-    /// The runs provide no derivatives. Finite differences of runs, or a derivative-free search, are used.
+    /// Finite differences of runs, or a search without derivatives.
     Unknown,
 }
 
@@ -68,9 +67,6 @@ impl Derivatives {
 
 impl FitRequest<'_> {
     /// Finds the parameters.
-    ///
-    /// # Errors
-    /// Fails if the function is wrong, fails at the start, or returns a number of values that does not match the data.
     pub fn run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {
@@ -154,7 +150,6 @@ impl FitRequest<'_> {
         Err(at_key(call, self.key, message, hint))
     }
 
-    /// Result of a dry run: the start values. The function is called once with these values.
     pub fn dry_run(self, call: &Call) -> Result<Fit, ScriptError> {
         let mut function = RunFunction::read(call, self.key, self.function)?;
         if let Some(data) = &self.data {

@@ -1,4 +1,4 @@
-//! Parameter searches: fits to data, and designs under constraints. The algorithms are in `fitting`.
+//! Parameter searches: fits to data, and designs under constraints.
 
 pub mod design;
 pub mod fit;

@@ -1,4 +1,4 @@
-//! Scaling of the results of a design for the optimiser. Scaled values are of order one, the objective is minimised, and constraints are nonnegative.
+//! Scaling of the results of a design to order one, with an objective to be minimised and nonnegative constraints.
 
 use std::cell::Cell;
 
@@ -9,7 +9,6 @@ pub(super) struct ResultScales<'s> {
     goal: &'s Objective,
     at: usize,
     limits: &'s [(usize, &'s Limit)],
-    /// Magnitude of the objective in the first run.
     size: Cell<Option<f64>>,
 }
 
@@ -18,7 +17,6 @@ impl<'s> ResultScales<'s> {
         Self { goal, at, limits, size: Cell::new(None) }
     }
 
-    /// Divisor of the objective; negative for maximisation.
     fn divisor(&self, goal: f64) -> f64 {
         let own = Some(goal.abs()).filter(|size| *size > 0.0).unwrap_or(1.0);
         let size = self.size.get().unwrap_or(own);
@@ -42,7 +40,7 @@ impl<'s> ResultScales<'s> {
         let (numbers, slopes): (Vec<f64>, Vec<Vec<f64>>) = rows.into_iter().unzip();
         let wanted = || self.limits.iter().map(|(at, _)| *at).chain([self.at]);
         let parameters = slopes.first().map_or(0, Vec::len);
-        // Zero derivatives are accepted in later runs, because they may indicate the optimum.
+        // Zero derivatives are errors in the first run only; later they may indicate the optimum.
         let begins = self.size.get().is_none();
         if begins && (0..parameters).any(|by| wanted().all(|at| slopes[at][by] == 0.0)) {
             return Err("all derivatives by a parameter are zero".into());

@@ -18,7 +18,6 @@ const MOST_ROWS: usize = 100_000_000;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
     pub kind: SampleKind,
-    /// Number of points, or of blocks in a Saltelli design.
     pub count: usize,
     pub seed: u64,
 }
@@ -49,12 +48,10 @@ enum Spread {
     Distribution(Distribution),
 }
 
-/// Design of a sweep, and the level values passed to the function.
 pub struct SweepPlan {
     pub design: SweepDesign,
     /// Level values of each parameter; empty if each row has a separate value.
     levels: Vec<Vec<Portable>>,
-    /// Parameters for which the given distribution applies to the logarithm.
     spread_by_ratios: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Storage of a sweep: its journal, the computed part, or the parts to be merged.
+//! Storage of a sweep: its journal, a computed part, or the parts to be merged.
 
 use std::path::PathBuf;
 
@@ -13,11 +13,7 @@ use crate::script::state::parts::{StudyPart, find_parts};
 use crate::script::studies::calls::function::RunFunction;
 
 impl SweepRequest<'_> {
-    /// Opens the journal of the sweep, if the run uses journals, and reads its entries.
-    /// If parts are merged, all their rows are read and no journal is opened.
-    ///
-    /// # Errors
-    /// Fails if a file cannot be read or written, or if a part of the sweep is missing.
+    /// Opens the journal of the sweep, if the run uses journals, or reads the rows of all parts if they are merged.
     pub fn keeper(
         &self,
         call: &Call,
@@ -84,7 +80,7 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// Fingerprint of all data that determine the rows: program, script and imports, captured values, and parameters.
+    /// Hash of all data on which the rows depend: program, script and imports, captured values, and parameters.
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
         let captured = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());

@@ -1,4 +1,4 @@
-//! Sweeps: calls of a script function for each row of a design. Points of designs are computed in `sampling`.
+//! Sweeps: calls of a script function for each row of a design.
 
 pub mod design;
 pub mod keeping;

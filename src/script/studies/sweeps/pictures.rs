@@ -1,4 +1,4 @@
-//! Pictures of sweeps: lines, points and maps of a result over parameters, scatter matrices, and histograms.
+//! Pictures of sweeps: curves, points, maps, scatter matrices, and histograms.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,12 @@ use crate::output::{
 };
 use crate::sampling::Random;
 
-/// Maximum number of curves. More curves are replaced by mean, smallest and largest values.
 const MOST_CURVES: usize = 8;
-/// Maximum number of points in a scatter plot. If there are more points, a random subset is drawn.
 const MOST_POINTS: usize = 2000;
 const MOST_POINTS_AMONG: usize = 500;
-/// Number of cells along each axis for averages of scattered points.
 const CELLS: usize = 20;
 pub const MOST_COLUMNS: usize = 6;
-/// Maximum number of distinct values that have separate bins in a histogram, if each value occurs at least twice on average.
 const MOST_VALUES: usize = 64;
-/// Smallest ratio of the ends of a logarithmic axis.
 const DECADE: f64 = 10.0;
 
 pub struct Picture<'t> {
@@ -53,8 +48,7 @@ fn pairs(table: &SweepTable, x: SweepColumn, y: SweepColumn) -> Vec<(usize, f64,
     all.filter(|(_, x, y)| x.is_finite() && y.is_finite()).collect()
 }
 
-/// Random subset of at most `most` items, in order. All items have equal probability.
-/// The random subset of items is the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
+/// Random subset of at most `most` items in order, the same in every run (C. T. Fan, M. E. Muller, I. Rezucha, 1962).
 /// A regular subset of a grid or a Sobol' sequence could cover only a part of the range.
 fn thinned<T: Copy>(all: &[T], most: usize) -> Vec<T> {
     let mut random = Random::seeded(0);
@@ -73,7 +67,6 @@ impl Picture<'_> {
         self.table.sweep().column(name)
     }
 
-    /// Scale of a column. It is logarithmic if the values cover at least a decade, and either have equal ratios or are distributed by their logarithms.
     fn scale(&self, name: &str, column: SweepColumn) -> AxisScale {
         let by_ratios = match levels(column) {
             Some(middles) => {
@@ -93,7 +86,7 @@ impl Picture<'_> {
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
     }
 
-    /// Chart of a column over another column: curves for values on a grid, otherwise points. `None` if a column is missing.
+    /// Chart of a column over another column, with curves for a grid and points otherwise; `None` if a column is missing.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);
@@ -144,7 +137,6 @@ impl Picture<'_> {
         names.into_iter().map(curve).fold(chart, LineChart::series)
     }
 
-    /// Mean, smallest and largest values over all rows with the same abscissa.
     fn band(chart: LineChart, found: &[(usize, f64, f64)], count: usize) -> LineChart {
         let mut of_value: BTreeMap<u64, (f64, Vec<f64>)> = BTreeMap::new();
         for (_, x, y) in found {
@@ -165,7 +157,7 @@ impl Picture<'_> {
             .caption(format!("over {count} combinations of the other parameters"))
     }
 
-    /// Column as colours over two other columns: on a grid, or as the mean of binned points in each cell. `None` if a column is missing.
+    /// Map of a column over two other columns, with means of scattered points in cells; `None` if a column is missing.
     pub fn map(&self, x_name: &str, y_name: &str, z_name: &str) -> Option<LevelMap> {
         let [x, y, z] = [self.column(x_name)?, self.column(y_name)?, self.column(z_name)?];
         let rows: Vec<[f64; 3]> =
@@ -268,8 +260,7 @@ struct Class {
     count: usize,
 }
 
-/// Bins of a histogram. If few distinct values occur often, each value has a bin, bounded halfway between neighbours.
-/// A histogram of other values has bins of equal width.
+/// Bins of a histogram: one for each value if there are few distinct values, otherwise bins of equal width.
 fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
     numbers.sort_by(f64::total_cmp);
     let (Some(low), Some(high)) = (numbers.first().copied(), numbers.last().copied()) else {
@@ -285,7 +276,7 @@ fn classes(mut numbers: Vec<f64>) -> Vec<Class> {
             |(of, ends): (&&[f64], &[f64])| Class { from: ends[0], to: ends[1], count: of.len() };
         return values.iter().zip(ends.windows(2)).map(of).collect();
     }
-    // The number of bins is twice that of Sturges' rule (1926).
+    // The number of bins is twice that of H. A. Sturges (1926).
     let count = (2.0 * (1.0 + ln(numbers.len() as f64) / std::f64::consts::LN_2)).ceil().max(4.0);
     let width = if high > low { (high - low) / count } else { 1.0 };
     let at = |class: usize| low + class as f64 * width;

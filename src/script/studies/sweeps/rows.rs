@@ -1,4 +1,4 @@
-//! Result of a sweep function for a row.
+//! Result of the function of a sweep for a row.
 
 use std::sync::Arc;
 
@@ -10,9 +10,8 @@ use crate::script::studies::calls::calling::CallOutcome;
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
     Computed(Arc<[String]>, Vec<f64>),
-    /// The function threw an error, or returned a value that is not a number. The field contains the reason.
+    /// The function threw an error, or returned a value that is not a number. The field is the reason.
     Failed(String),
-    /// The script seems to be wrong. The field contains the reason.
     Wrong(String),
 }
 

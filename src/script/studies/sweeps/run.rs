@@ -21,7 +21,7 @@ use crate::script::studies::plan::at_key;
 
 const NO_FILES: &str = "a run of a sweep cannot write files: return the data in its map";
 
-/// Number of queued rows per worker. It is so large that workers do not wait while results are collected.
+/// Number of queued rows per worker, so that workers need not wait while results are collected.
 const AHEAD: usize = 4096;
 
 pub struct SweepRequest<'o> {
@@ -36,7 +36,7 @@ impl SweepRequest<'_> {
     ///
     /// # Errors
     /// Fails if the function cannot be sent to workers, is wrong, or fails in all rows.
-    /// Also fails if the run is stopped. The journal then contains the finished rows.
+    /// If the run is stopped, it also fails, but the journal contains the finished rows.
     pub fn run(self, call: &Call) -> Result<FinishedSweep, ScriptError> {
         let context = call.context();
         let function = RunFunction::read(call, "run", self.function)?;
@@ -112,8 +112,8 @@ impl SweepRequest<'_> {
         driven.map_err(SweepError::Other)?
     }
 
-    /// Runs the rows one by one in the engine of the script, for the case that no worker can be created.
-    /// A worker needs a complete script and sufficient address space.
+    /// Runs the rows one by one in the engine of the script.
+    /// Workers are not available without a complete script, or with too little address space.
     fn on_this_thread(
         &self,
         call: &Call,
@@ -153,8 +153,6 @@ impl SweepRequest<'_> {
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)
     }
 
-    /// Error for a row in which the function failed or returned an invalid result.
-    /// The function is called again in the engine of the script to find the position of the error.
     fn located_error(
         &self,
         call: &Call,
@@ -192,9 +190,8 @@ impl SweepRequest<'_> {
     }
 }
 
-/// Sends the unknown rows to the workers, a limited number in advance. Receives results until all are known or the run is stopped.
-/// The first completed row defines the names of the results.
-/// Results are processed in the order of the rows until a row has defined the names. The names are therefore deterministic.
+/// Sends a limited number of unknown rows at a time to the workers, until all rows are known or the run is stopped.
+/// Results are processed in the order of the rows until one has defined the names of the results, which are thus deterministic.
 fn drive(
     pool: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

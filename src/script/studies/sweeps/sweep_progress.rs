@@ -8,15 +8,12 @@ use crate::script::state::parts::StudyPart;
 pub struct SweepProgress {
     pub results: SweepResults,
     is_known: Vec<bool>,
-    /// Number of completed rows of the sweep, including the rows that other parts of a divided study compute.
     pub done: usize,
     pub rows: usize,
-    /// First completed row, which defines the names of the results.
     pub model: Option<usize>,
 }
 
 pub enum SweepError {
-    /// The function seems to be wrong. The fields are the row and the message.
     Row(usize, String),
     Other(ScriptError),
 }
@@ -45,7 +42,6 @@ impl SweepProgress {
         }
     }
 
-    /// Returns true if the row has a result or belongs to another part.
     pub fn knows(&self, row: usize) -> bool {
         self.is_known[row]
     }
@@ -59,7 +55,7 @@ impl SweepProgress {
         is_new
     }
 
-    /// Reads a journal entry. Entries with a wrong number of values are ignored.
+    /// Reads a journal entry, unless it has a wrong number of values.
     pub fn recall(&mut self, entry: RowEntry) {
         match entry {
             RowEntry::Sweep { .. } => (),

@@ -71,7 +71,6 @@ impl SweepTable {
         (0..self.length()).map(move |at| chosen.map_or(at, |chosen| chosen[at] as usize))
     }
 
-    /// Row as a script map: parameters, results, and the reason `failure` of a failed row.
     pub fn row(&self, row: usize) -> Map {
         let FinishedSweep { sweep, plan } = &*self.swept;
         let mut map = plan.values(row, &|_, _| None);
@@ -127,7 +126,7 @@ impl SweepTable {
         NpzArchive { arrays: self.sweep().names().filter_map(column).collect() }
     }
 
-    /// Writes the table as CSV, row by row. The required memory does not depend on the number of rows.
+    /// Writes the table as CSV, row by row, so that many rows need little memory.
     pub fn write_csv(&self, file: &mut dyn io::Write) -> io::Result<()> {
         let sweep = self.sweep();
         let columns: Vec<_> = sweep.names().filter_map(|name| sweep.column(name)).collect();
@@ -169,7 +168,6 @@ impl SweepTable {
 }
 
 impl FinishedSweep {
-    /// Short summary: number of completed runs, and the range of each result with the parameters at its ends.
     pub fn summary(&self) -> String {
         let Sweep { name, design, results } = &self.sweep;
         let failed = results.failures().len();
