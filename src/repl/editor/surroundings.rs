@@ -26,6 +26,7 @@ pub struct CompletionContext {
 /// Variable of the session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
+    /// Name of the variable.
     pub name: String,
     /// Type name in the language, such as `simulation`, `number` or `map`.
     pub of: String,
@@ -36,6 +37,7 @@ pub struct Variable {
 /// Script function of the session or of a module.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ScriptFunction {
+    /// Name of the function.
     pub name: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,
