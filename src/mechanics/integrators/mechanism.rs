@@ -57,7 +57,7 @@ pub trait Forces {
         tangent: &mut BandedMatrix,
     );
 
-    /// Adds `weight` times the force corrections that would remove the strain residuals, with the derivatives of the last linearisation.
+    /// Adds the force corrections that would satisfy the linearised force laws, times `weight`, to `out`.
     fn add_mismatch_forces(&mut self, weight: f64, out: &mut [f64]);
 
     /// Updates the section forces after an iteration has corrected the increments.

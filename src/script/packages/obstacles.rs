@@ -43,7 +43,10 @@ pub const TABLE: BindingTable = BindingTable {
                 span, its ends included. On a beam, stiffness is the force per length and \
                 penetration, on a point the force per penetration. With friction, contact \
                 sticks or slips (Coulomb); the friction force acts at the surface, at the distance \
-                radius from the axis, so a round body rolls. Choose the stiffness so that the largest \
+                radius from the axis, so a round body rolls. The contact deflects elastically along \
+                the surface before it slips and springs back, so an oblique impact without slip \
+                rebounds along the surface too, unlike with rigid Coulomb friction. Choose the \
+                stiffness so that the largest \
                 expected force gives a small penetration. With a restitution below 1 the contact \
                 is damped so that a resolved impact of a single mass rebounds with this fraction \
                 of its speed. sim.notes states impacts that the steps do not resolve, and \

@@ -112,7 +112,7 @@ pub fn highlight(text: &str, cursor: Option<usize>, vocabulary: &Vocabulary) -> 
     let (partners, _) = pair(&tokens);
     let touched = cursor.and_then(|cursor| bracket_at(&tokens, cursor));
     let marked = touched.and_then(|at| partners[at].map(|partner| [at, partner]));
-    // The members of parameters and local variables are not checked, because these may have the names of session variables.
+    // A parameter or local variable may have the name of a session variable of another type, so its members are not checked.
     let has_parameters =
         tokens.iter().any(|token| matches!(token.of(text), "fn" | "|" | "let" | "for"));
     let mut drawn = String::with_capacity(text.len() * 2);

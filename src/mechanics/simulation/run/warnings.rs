@@ -343,7 +343,7 @@ impl Simulation {
     fn possible_causes(&self) -> Vec<RateChangeCause> {
         let rows = self.history().samples();
         let others = rows.last().map(|row| row.measures).unwrap_or_default().dissipated;
-        // A damper may dissipate stored energy arbitrarily slowly, so only the kinetic energy is compared.
+        // The dissipated energy is compared with the kinetic energy alone, because a damper may dissipate stored energy arbitrarily slowly.
         let left = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);
         let most = self.model.most_damping();
         let is_much = |energy: f64| larger(energy, others) > MUCH * (larger(energy, others) + left);

@@ -176,7 +176,7 @@ impl Scene {
         })
     }
 
-    /// Stations that joints connect to a station in one component, including the station itself.
+    /// Stations whose given component (x, y or angle) joints tie to that of a station, including the station itself.
     /// The returned flag is true if the ground fixes the component. The search for joined stations ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];

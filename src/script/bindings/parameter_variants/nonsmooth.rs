@@ -141,12 +141,12 @@ pub fn at_zero_vector(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 0))
 }
 
-/// Check for an infinite slope where two points coincide, as for `distance`.
+/// Detects arguments at which two points coincide, where a function such as `distance` has no derivative.
 pub fn at_coinciding_points(sides: &Sides) -> Option<NoDerivative> {
     sides.nears_origin(|given| point(given, 1).zip(point(given, 0)).map(|(b, a)| b - a))
 }
 
-/// Check for a jump where the argument is an integer, as for `fraction`.
+/// Detects an integer argument, at which a function such as `fraction` jumps.
 pub fn at_integers(sides: &Sides) -> Option<NoDerivative> {
     let [_, plus, minus] = sides.each(|given| number(given, 0).trunc());
     (plus != minus).then_some(NoDerivative::Discontinuous)

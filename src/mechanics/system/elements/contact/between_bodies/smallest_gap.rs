@@ -63,7 +63,7 @@ impl<'s> GapSearch<'s> {
         self.gap > 0.0 && own.squared_distance(&other) < square(limit)
     }
 
-    /// Reduces the gap to the smallest gap between ends of spans of the two bodies.
+    /// Updates the smallest gap found so far with the gaps between the span ends of two bodies.
     /// A small initial gap excludes most contact points from the search for smaller gaps.
     fn add_vertices(&mut self, candidate: &CandidatePair) {
         let CandidatePair { shape, target, .. } = *candidate;
