@@ -1,11 +1,14 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! The error of a level with the mesh or step size `h` is `C h^p`, with a constant `C` and the observed order `p`.
-//! The order `p` solves `d₂₃/d₁₂ = (h₃^p - h₂^p)/(h₂^p - h₁^p)`, with the distances `d` of neighbouring levels of the sizes `h₁ < h₂ < h₃`.
-//! The error of a level of size `h` is `d₁₂ h^p/(h₂^p - h₁^p)`, with the distance `d₁₂` of the two finest levels, of the sizes `h₁ < h₂`.
+//! The error of a level with the mesh or step size `h` has the size `C h^p` over the run, with a constant `C` and the observed order `p`.
+//! The errors of two levels of the sizes `h < H` have the correlation `(h/H)^k` over the run.
+//! In the asymptotic range the errors are proportional functions of time, which is `k = 0`.
+//! The differences of neighbouring levels of the sizes `h₁ < h₂ < h₃` have two sizes `d₁₂`, `d₂₃` and a correlation, which determine `C`, `p` and `k`.
+//! The run is converged if the order is high enough and the differences are correlated. The error is proportional to the difference of the two finest levels.
 
 use super::trace::Trace;
-use crate::elementary::power;
+use crate::elementary::{power, square};
+use crate::geometry::Vec2;
 
 /// Largest distance of two runs that is attributed to rounding, relative to the scale of a quantity.
 const ROUNDING: f64 = 1e-10;
@@ -17,6 +20,18 @@ const SHARE_OF_ORDER: f64 = 0.7;
 
 /// Smallest observed order of a converging run if the order of the discretisation is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
+
+/// Smallest correlation of the differences of neighbouring levels of a converging run [-].
+const LEAST_CORRELATION: f64 = 0.2;
+
+/// Largest exponent `k` of the correlation `(h/H)^k` of the errors of two levels.
+const LEAST_CORRELATED: f64 = 8.0;
+
+/// Accuracy of the exponents of the convergence.
+const ACCURACY: f64 = 1e-3;
+
+/// Order with which the error is estimated at least if the runs do not converge.
+const FIRST_ORDER: Convergence = Convergence { order: 1.0, decorrelation: 0.0 };
 
 /// Largest error at which a run may count as converged, relative to the scale of a quantity.
 const TOO_LARGE: f64 = 0.3;
@@ -30,7 +45,8 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ErrorVerdict {
     Exact,
-    /// The error is small and the observed order is at least 0.7, or at least 0.7 times the order of the method if it is known.
+    /// The error is small, the differences of neighbouring levels are correlated, and the observed order is high enough.
+    /// The order must be at least 0.7, or at least 0.7 times the order of the method if it is known.
     Converged,
     /// The runs do not converge yet, so that the error estimate is only a lower bound.
     PreAsymptotic,
@@ -94,13 +110,56 @@ pub struct RefinementLevels<'a> {
     pub scale: f64,
 }
 
+/// Exponents of the errors of levels, with the sizes `C h^p` and the correlations `(h/H)^k`.
+#[derive(Debug, Clone, Copy)]
+struct Convergence {
+    /// Observed order `p`.
+    order: f64,
+    /// Exponent `k`.
+    decorrelation: f64,
+}
+
+/// Sizes and correlation of the differences of neighbouring levels. The difference of the two finest levels is `near`.
+#[derive(Debug, Clone, Copy)]
+struct Differences {
+    near: f64,
+    far: f64,
+    correlation: f64,
+}
+
+impl Convergence {
+    /// Differences of levels, for an error 1 of the finest level.
+    fn differences(self, sizes: [f64; 3]) -> Differences {
+        let errors = sizes.map(|size| power(size / sizes[0], self.order));
+        let together = |a: usize, b: usize| {
+            errors[a] * errors[b] * power(sizes[a] / sizes[b], self.decorrelation)
+        };
+        let square_distance = |a: usize, b: usize| {
+            square(errors[a] - errors[b]) + 2.0 * (errors[a] * errors[b] - together(a, b))
+        };
+        let [near, far] = [square_distance(0, 1).sqrt(), square_distance(1, 2).sqrt()];
+        let product = together(0, 1) - together(0, 2) - square(errors[1]) + together(1, 2);
+        Differences { near, far, correlation: product / (near * far) }
+    }
+}
+
+impl Differences {
+    fn between(near: &[(f64, Vec2)], far: &[(f64, Vec2)]) -> Self {
+        let sum = |a: &[(f64, Vec2)], b: &[(f64, Vec2)]| {
+            a.iter().zip(b).map(|((_, a), (_, b))| a.dot(b)).sum::<f64>()
+        };
+        let [near_square, far_square] = [sum(near, near), sum(far, far)];
+        let correlation = sum(near, far) / (near_square * far_square).sqrt();
+        Self { near: near_square.sqrt(), far: far_square.sqrt(), correlation }
+    }
+}
+
 impl RefinementLevels<'_> {
     /// Estimated error; `None` if the two finest levels have no common times.
     pub fn error(&self) -> Option<DiscretisationError> {
         let [fine, middle, coarse] = self.traces;
-        let middle = middle?;
-        let near = fine?.distances(middle);
-        let far = coarse.map(|coarse| middle.distances(coarse)).unwrap_or_default();
+        let (fine, middle) = (fine?, middle?);
+        let near = fine.distances(middle);
         near.last()?;
         let farthest = largest(&near);
         let scaled = |factor: f64, order, verdict| {
@@ -110,39 +169,73 @@ impl RefinementLevels<'_> {
         if farthest <= ROUNDING * self.scale {
             return scaled(1.0, None, ErrorVerdict::Exact);
         }
-        let order = self.observed_order(root_mean_square(&near), root_mean_square(&far));
-        let factor = order.map_or(1.0, |order| self.factor(order));
+        let far = coarse.map(|coarse| middle.distances(coarse)).unwrap_or_default();
+        let differences = coarse.map(|coarse| Differences {
+            near: root_mean_square(&near),
+            far: root_mean_square(&far),
+            ..Differences::between(
+                &fine.differences(middle, coarse),
+                &middle.differences(coarse, coarse),
+            )
+        });
+        let found = differences.and_then(|differences| self.convergence(differences));
+        let order = found.map(|found| found.order);
+        let factor = found.map_or(0.0, |found| self.factor(found));
         let is_small = factor * farthest < TOO_LARGE * self.scale;
-        if order.is_some_and(|order| self.is_converging(order)) && is_small {
+        let is_correlated = differences.is_some_and(|of| of.correlation >= LEAST_CORRELATION);
+        if order.is_some_and(|order| self.is_converging(order)) && is_small && is_correlated {
             return scaled(factor, order, ErrorVerdict::Converged);
         }
         let verdict = match self.last_convergence(&near, &far) {
             Some(until) => ErrorVerdict::Chaotic { until },
             None => ErrorVerdict::PreAsymptotic,
         };
-        // Without convergence, the estimated error is at least the distance of the two finest levels.
-        scaled(factor.max(1.0), order, verdict)
+        scaled(factor.max(self.factor(FIRST_ORDER)), order, verdict)
     }
 
-    fn factor(&self, order: f64) -> f64 {
-        let order = self.order.map_or(order, |claimed| order.min(claimed));
-        let [h1, h2, _] = self.sizes.map(|size| power(size / self.sizes[0], order));
-        power(self.sizes[self.level] / self.sizes[0], order) / (h2 - h1)
+    /// Ratio of the error of the run to the difference of the two finest levels.
+    fn factor(&self, found: Convergence) -> f64 {
+        let order = self.order.map_or(found.order, |claimed| found.order.min(claimed));
+        let own = power(self.sizes[self.level] / self.sizes[0], order);
+        own / Convergence { order, ..found }.differences(self.sizes).near
     }
 
     fn is_converging(&self, order: f64) -> bool {
         order >= self.order.map_or(LEAST_ORDER, |claimed| SHARE_OF_ORDER * claimed)
     }
 
-    fn observed_order(&self, near: f64, far: f64) -> Option<f64> {
-        let [_, h2, h3] = self.sizes.map(|size| size / self.sizes[0]);
-        let ratio = |order: f64| (power(h3, order) - power(h2, order)) / (power(h2, order) - 1.0);
-        let wanted = far / near;
+    /// Exponents that agree with the differences of neighbouring levels; `None` if the differences do not decrease.
+    fn convergence(&self, differences: Differences) -> Option<Convergence> {
+        let ratio = differences.far / differences.near;
+        let with = |decorrelation: f64| {
+            let order = self.observed_order(ratio, decorrelation)?;
+            Some(Convergence { order, decorrelation })
+        };
+        let mut found = with(0.0)?;
+        let mut most = LEAST_CORRELATED;
+        while most - found.decorrelation > ACCURACY {
+            let middle = 0.5 * (most + found.decorrelation);
+            match with(middle) {
+                Some(one) if one.differences(self.sizes).correlation > differences.correlation => {
+                    found = one;
+                }
+                _ => most = middle,
+            }
+        }
+        Some(found)
+    }
+
+    /// Order for a ratio of the difference of the two coarsest levels to the difference of the two finest levels.
+    fn observed_order(&self, wanted: f64, decorrelation: f64) -> Option<f64> {
+        let ratio = |order: f64| {
+            let of = Convergence { order, decorrelation }.differences(self.sizes);
+            of.far / of.near
+        };
         if wanted.is_nan() || wanted <= ratio(ORDERS.0) {
             return None;
         }
         let (mut low, mut high) = ORDERS;
-        while high - low > 1e-3 {
+        while high - low > ACCURACY {
             let middle = 0.5 * (low + high);
             if ratio(middle) < wanted { low = middle } else { high = middle }
         }
@@ -161,7 +254,7 @@ impl RefinementLevels<'_> {
             root_mean_square(&inside.collect::<Vec<_>>())
         };
         let converges = |to: f64| {
-            let order = self.observed_order(within(near, to), within(far, to));
+            let order = self.observed_order(within(far, to) / within(near, to), 0.0);
             let is_accurate = within(near, to) < TOO_LARGE / GROWTH_OF_CHAOS * self.scale;
             is_accurate && order.is_some_and(|order| self.is_converging(order))
         };
@@ -246,6 +339,29 @@ mod tests {
         });
         let ErrorVerdict::Chaotic { until } = separate.verdict else { panic!("{separate:?}") };
         assert!(until > 10.0 && until < 40.0, "{until}");
+    }
+
+    #[test]
+    fn partly_correlated_errors_are_not_overestimated() {
+        let sizes = [1.0, 4.0 / 3.0, 2.0];
+        // The errors have a common part and a part with a frequency of its own on each level.
+        let with_own_part = |share: f64| {
+            let levels: [(usize, f64); 3] = [(2, sizes[0]), (3, sizes[1]), (4, sizes[2])];
+            let traces = levels.map(|(harmonic, size)| {
+                let own = |time: f64| share * (harmonic as f64 * time).sin();
+                sampled(1.0, |time| 1e-4 * size * (time.sin() + own(time)))
+            });
+            let traces = traces.each_ref().map(Some);
+            RefinementLevels { sizes, traces, level: 0, order: None, scale: 1.0 }.error().unwrap()
+        };
+        for share in [0.0, 0.1, 0.2] {
+            let error = with_own_part(share);
+            assert_eq!(error.verdict, ErrorVerdict::Converged, "{share}");
+            // Without the correlation, the last estimate would be 3.1 times the error.
+            let ratio = error.largest() / (1e-4 * (1.0 + share));
+            assert!((0.9..1.4).contains(&ratio), "{share}: {ratio}");
+        }
+        assert_eq!(with_own_part(0.3).verdict, ErrorVerdict::PreAsymptotic);
     }
 
     #[test]

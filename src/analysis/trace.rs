@@ -83,17 +83,24 @@ impl Trace {
     /// Distances of a coarser trace from this trace at the times of the coarser trace [time, dimension of the values].
     /// For integrals, the distance is that of the means over the steps of the coarser trace.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
-        let pairs = coarser.times.iter().zip(&coarser.values);
-        let both = pairs.filter_map(|(time, value)| Some((*time, value - self.at(*time)?)));
+        let differences = self.differences(coarser, coarser).into_iter();
+        differences.map(|(time, difference)| (time, difference.norm())).collect()
+    }
+
+    /// Differences of another trace from this trace at the times of a third trace.
+    /// For integrals, means over the steps of the third trace are compared.
+    pub fn differences(&self, other: &Self, of_times: &Self) -> Vec<(f64, Vec2)> {
+        let difference = |time: f64| Some((time, other.at(time)? - self.at(time)?));
+        let all: Vec<(f64, Vec2)> =
+            of_times.times.iter().filter_map(|time| difference(*time)).collect();
         if !self.is_integral {
-            return both.map(|(time, difference)| (time, difference.norm())).collect();
+            return all;
         }
-        let both: Vec<(f64, Vec2)> = both.collect();
         let over_step = |pair: &[(f64, Vec2)]| {
             let ((start, before), (end, after)) = (pair[0], pair[1]);
-            (end > start).then(|| (end, (after - before).norm() / (end - start)))
+            (end > start).then(|| (end, (after - before) / (end - start)))
         };
-        both.windows(2).filter_map(over_step).collect()
+        all.windows(2).filter_map(over_step).collect()
     }
 
     /// Returns the value at a time, by cubic interpolation between recorded times; `None` outside the trace.

@@ -308,3 +308,39 @@ fn the_studies_of_the_project_can_be_checked() {
         assert_eq!(output.status.code(), Some(0), "{}: {}", script.display(), said(&output));
     }
 }
+
+/// Counts of the last line that the study of estimated errors prints: runs, converged runs, and the part of these, in per cent, whose largest error is within a factor of 3 of its estimate.
+/// The last value is the range of the estimate over the error.
+fn estimated_errors(problem: &str, meshes: &str) -> ([f64; 3], [f64; 2]) {
+    let folder = tempfile::tempdir().unwrap();
+    let study = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/studies/error_estimates.rhai");
+    let output = Command::new(env!("CARGO_BIN_EXE_withy"))
+        .args(["run", "--error=never", study, "--out"])
+        .arg(folder.path())
+        .args(["--set", &format!("problem={problem}"), "--set", &format!("spans={meshes}")])
+        .output()
+        .unwrap();
+    let text = printed(&output);
+    let last = text.lines().rev().find(|line| line.starts_with("| all")).unwrap_or_else(|| {
+        panic!("{text}{}", said(&output));
+    });
+    let cells: Vec<&str> = last.split('|').map(str::trim).collect();
+    let number = |cell: &str| cell.trim_end_matches(" %").parse().unwrap();
+    let (least, most) = cells[6].split_once(" to ").unwrap();
+    ([3, 4, 5].map(|at: usize| number(cells[at])), [number(least), number(most)])
+}
+
+#[test]
+fn estimated_errors_of_converged_runs_are_near_true_errors() {
+    let is_long = std::env::var_os("WITHY_LONG").is_some();
+    let parts: &[_] = match is_long {
+        false => &[("P2s", "4,8", 25.0)],
+        true => &[("P2s", "4,8,16", 45.0), ("P7b", "8,16", 75.0), ("P1s", "16,32", 25.0)],
+    };
+    for (problem, meshes, least) in parts {
+        let ([runs, converged, within], [low, high]) = estimated_errors(problem, meshes);
+        assert!(runs > converged && converged >= *least, "{problem}: {converged} of {runs}");
+        assert!(within >= 90.0, "{problem}: {within} %");
+        assert!(low > 0.1 && high < 10.0, "{problem}: {low} to {high}");
+    }
+}

@@ -15,6 +15,10 @@ const SMALLEST: f64 = 1e-6;
 /// Default largest step, as a multiple of the first step. It limits the steps of a scene without motion.
 const LARGEST: f64 = 1e6;
 
+/// Longest part of a step in which functions of time of loads are sampled as one, as a multiple of the first step.
+/// Thus long steps, as in a scene at rest, do not miss a short pulse.
+const SAMPLED_PART: f64 = 8.0;
+
 /// Smallest step, as a multiple of the rounding error of the present time.
 const ROUNDINGS: f64 = 64.0;
 
@@ -56,6 +60,7 @@ impl Adaptive {
         let least = control.smallest.unwrap_or(0.0);
         let most = control.largest.unwrap_or(f64::INFINITY);
         let first = control.first.unwrap_or_else(|| first_step(scene, model).clamp(least, most));
+        model.sample_loads_in_parts(SAMPLED_PART * first);
         let largest = control.largest.unwrap_or(LARGEST * first);
         let smallest = control.smallest.unwrap_or(SMALLEST * first);
         let controller = StepController { order: f64::from(order + 1), first, smallest, largest };

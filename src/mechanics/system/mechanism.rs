@@ -110,6 +110,11 @@ impl System {
         &self.bodies
     }
 
+    /// Sets the longest part of a step in which functions of time of loads are sampled as one [time].
+    pub(crate) fn sample_loads_in_parts(&mut self, longest: f64) {
+        self.elements.sample_in_parts(longest);
+    }
+
     pub(super) fn elements(&self) -> &Elements {
         &self.elements
     }

@@ -42,8 +42,9 @@ pub const TABLE: BindingTable = BindingTable {
         about its own length, as a fraction of the length of the longest beam and in rad, \
         whichever is larger. A tolerance 100 times smaller needs 10 times as many steps with a \
         method of order 2. Steps end where schedules jump or have kinks, at the end of run_to \
-        and at the times of sim.at; after a jump the steps are small again. sim.rejected \
-        counts rejected steps; the column dt has the step sizes.",
+        and at the times of sim.at; after a jump the steps are small again. Functions of time \
+        of loads are sampled densely in long steps, so that short pulses are resolved. \
+        sim.rejected counts rejected steps; the column dt has the step sizes.",
     )
     .example(
         "let careful = scene.start(#{ dt: adaptive(#{ tolerance: 1e-5, largest: 0.2 }) });\n\

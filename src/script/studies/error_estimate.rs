@@ -76,27 +76,27 @@ impl QuantityError {
         [&self.in_time, &self.in_space].into_iter().flatten().map(read).sum()
     }
 
+    /// Verdict in words. An error without convergence does not count if it is smaller than the other, converged one.
     pub fn verdict(&self) -> String {
         let both = [("in time", &self.in_time), ("in space", &self.in_space)];
-        let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?.verdict)));
-        let known: Vec<(&str, ErrorVerdict)> = known.collect();
-        let is_good = |verdict: ErrorVerdict| {
-            matches!(verdict, ErrorVerdict::Exact | ErrorVerdict::Converged)
-        };
-        let chaos = known.iter().filter_map(|(_, verdict)| match verdict {
-            ErrorVerdict::Chaotic { until } => Some(*until),
+        let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?)));
+        let known: Vec<(&str, &DiscretisationError)> = known.collect();
+        let chaos = known.iter().filter_map(|(_, error)| match error.verdict {
+            ErrorVerdict::Chaotic { until } => Some(until),
             _ => None,
         });
         if let Some(until) = chaos.reduce(f64::min) {
             return format!("chaotic, meaningful until t = {}", significant(until, 3));
         }
-        let bad: Vec<&str> =
-            known.iter().filter(|(_, verdict)| !is_good(*verdict)).map(|(of, _)| *of).collect();
-        match (known.is_empty(), bad.as_slice()) {
+        let with =
+            |verdict: ErrorVerdict| known.iter().filter(move |(_, error)| error.verdict == verdict);
+        let converged = with(ErrorVerdict::Converged).map(|(_, error)| error.largest());
+        let converged = converged.reduce(larger);
+        let counts = |error: &DiscretisationError| converged.is_none_or(|of| error.largest() >= of);
+        let bad = with(ErrorVerdict::PreAsymptotic).filter(|(_, error)| counts(error));
+        match (known.is_empty(), bad.map(|(of, _)| *of).collect::<Vec<_>>().as_slice()) {
             (true, _) => "not estimated".to_owned(),
-            (_, []) if known.iter().all(|(_, verdict)| *verdict == ErrorVerdict::Exact) => {
-                ErrorVerdict::Exact.describe().to_owned()
-            }
+            (_, []) if converged.is_none() => ErrorVerdict::Exact.describe().to_owned(),
             (_, []) => ErrorVerdict::Converged.describe().to_owned(),
             (_, [of]) => format!("{} {of}", ErrorVerdict::PreAsymptotic.describe()),
             _ => ErrorVerdict::PreAsymptotic.describe().to_owned(),

@@ -19,6 +19,9 @@ const MOST_RUNS: usize = 12;
 
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
+/// Largest error without convergence that is accepted, as a fraction of the allowed error [-].
+const NEGLIGIBLE: f64 = 0.1;
+
 /// Largest allowed error due to the steps, and due to the mesh, each as a fraction of the tolerance.
 const PART: f64 = 0.5;
 
@@ -74,6 +77,7 @@ fn refinement_factor(
             let halvings = (ln(power(ratio, 1.0 / order)) / ln(2.0)).ceil().max(1.0);
             power(2.0, halvings).min(most)
         }
+        (ErrorVerdict::PreAsymptotic, _) if ratio <= NEGLIGIBLE => 1.0,
         _ => 2.0,
     }
 }
@@ -234,7 +238,8 @@ mod tests {
         assert_eq!(refinement(1e-2, Some(2.0), converged), 4.0);
         assert_eq!(refinement(10.0, Some(2.0), converged), 8.0);
         assert_eq!(refinement(1e-2, Some(4.0), converged), 2.0);
-        assert_eq!(refinement(1e-9, None, ErrorVerdict::PreAsymptotic), 2.0);
+        assert_eq!(refinement(5e-4, None, ErrorVerdict::PreAsymptotic), 2.0);
+        assert_eq!(refinement(1e-9, None, ErrorVerdict::PreAsymptotic), 1.0);
         assert_eq!(refinement(1e-12, None, ErrorVerdict::Exact), 1.0);
     }
 }

@@ -36,6 +36,9 @@ const MOST_WAVES: usize = 64;
 /// Largest degree of a product of tables that is integrated in closed form.
 const MOST_DEGREE: usize = 4;
 
+/// Largest number of parts of a step in which a schedule is sampled.
+const MOST_SAMPLED_PARTS: f64 = 64.0;
+
 /// Number of terms in the power series for slowly oscillating functions. The series is accurate to rounding up to a phase of 1.
 const TERMS: usize = 10;
 
@@ -94,6 +97,27 @@ impl Schedule {
         let other = (1.0 - 2.0 * OUTER_WEIGHT) * centre + OUTER_WEIGHT * (first + last);
         let largest = largest.max(first.abs()).max(last.abs());
         Ok(StepMean { mean, sampling_error: (mean - other).abs(), largest })
+    }
+
+    /// Mean factor [-] over a step. A sampled schedule is sampled in parts of at most the given duration, up to a maximum number of parts.
+    ///
+    /// # Errors
+    /// As for [`mean`](Self::mean).
+    pub fn mean_of_parts(&self, start: f64, end: f64, longest: f64) -> Result<StepMean, LoadError> {
+        let parts = ((end - start) / longest).ceil().min(MOST_SAMPLED_PARTS);
+        if parts.is_nan() || parts <= 1.0 || !self.is_sampled_in_steps() {
+            return self.mean(start, end);
+        }
+        let (duration, share) = ((end - start) / parts, 1.0 / parts);
+        let mut whole = StepMean::default();
+        for part in 0..parts as usize {
+            let from = start + part as f64 * duration;
+            let StepMean { mean, sampling_error, largest } = self.mean(from, from + duration)?;
+            whole.mean += share * mean;
+            whole.sampling_error += share * sampling_error;
+            whole.largest = whole.largest.max(largest);
+        }
+        Ok(whole)
     }
 
     pub(crate) fn is_sampled_in_steps(&self) -> bool {
@@ -384,6 +408,21 @@ mod tests {
             let sine = Schedule::sine(1.0, turns * TAU / 0.1, 0.7).unwrap();
             assert!(sine.mean(0.3, 0.4).unwrap().mean.abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn parts_of_a_long_step_find_a_short_pulse() {
+        let pulse = |t: f64| (-((t - 3.3) / 0.02).powi(2)).exp();
+        let schedule =
+            Schedule::Function { function: Rc::new(move |t| Ok(pulse(t))), breaks: vec![] };
+        let missed = schedule.mean(0.0, 6.25).unwrap();
+        assert!(missed.mean < 1e-12);
+        assert_eq!(schedule.mean_of_parts(0.0, 6.25, f64::INFINITY).unwrap(), missed);
+        let found = schedule.mean_of_parts(0.0, 6.25, 0.1).unwrap().mean;
+        let exact = 0.02 * std::f64::consts::PI.sqrt() / 6.25;
+        assert!((found / exact - 1.0).abs() < 0.5, "{found} {exact}");
+        let sine = Schedule::sine(1.0, 40.0, 0.3).unwrap();
+        assert_eq!(sine.mean_of_parts(0.0, 6.25, 0.1).unwrap(), sine.mean(0.0, 6.25).unwrap());
     }
 
     #[test]

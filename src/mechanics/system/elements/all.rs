@@ -95,6 +95,11 @@ impl Elements {
         })
     }
 
+    /// Sets the longest part of a step in which functions of time of loads are sampled as one [time].
+    pub fn sample_in_parts(&mut self, longest: f64) {
+        self.forces.iter_mut().for_each(|force| force.sample_in_parts(longest));
+    }
+
     /// Evaluates all loads just after a time. If a load jumps at this time, the value after the jump is used.
     ///
     /// # Errors

@@ -49,6 +49,9 @@ pub trait ExternalForce {
         Ok(())
     }
 
+    /// Sets the longest part of a step that is sampled as one [time].
+    fn sample_in_parts(&mut self, _longest: f64) {}
+
     /// Evaluates the element just after a time, for example at the end of a static load step.
     fn evaluate_after(&mut self, _time: f64) -> Result<(), LoadError> {
         Ok(())

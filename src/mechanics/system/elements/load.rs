@@ -81,6 +81,7 @@ impl ElementDef for Load {
             name: self.name.clone(),
             schedule: self.schedule.clone(),
             check: ScheduleCheck::of(&self.schedule),
+            longest_part: f64::INFINITY,
             action,
             factors: StageFactors::default(),
             weighted_factors: 0.0,
@@ -119,6 +120,8 @@ struct AppliedLoad {
     name: String,
     schedule: Schedule,
     check: Option<ScheduleCheck>,
+    /// Longest part of a step that is sampled as one [time].
+    longest_part: f64,
     action: Action,
     factors: StageFactors,
     weighted_factors: f64,
@@ -187,7 +190,7 @@ impl ExternalForce for AppliedLoad {
     /// Evaluates only the stages that the step uses, because the schedule may be a script function.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), LoadError> {
         let Interval { start, end, .. } = interval;
-        let found = self.schedule.mean(start, end)?;
+        let found = self.schedule.mean_of_parts(start, end, self.longest_part)?;
         let mean = found.mean;
         self.check.iter_mut().for_each(|check| check.begin_step(interval, found));
         self.factors = StageFactors { mean, ..StageFactors::default() };
@@ -199,6 +202,10 @@ impl ExternalForce for AppliedLoad {
         (self.weighted_factors, self.current) = (0.0, 0.0);
         self.followers_mut().iter_mut().for_each(Follower::begin_step);
         Ok(())
+    }
+
+    fn sample_in_parts(&mut self, longest: f64) {
+        self.longest_part = longest;
     }
 
     fn evaluate_after(&mut self, time: f64) -> Result<(), LoadError> {

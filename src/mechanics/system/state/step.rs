@@ -72,6 +72,9 @@ impl StepMeasures {
     }
 }
 
+/// Largest residual that counts as zero. Smaller numbers are close to the smallest normal number, where rounding errors are large.
+const LEAST_RESIDUAL: f64 = f64::MIN_POSITIVE / f64::EPSILON;
+
 fn relative(residual: f64, scale: f64) -> f64 {
-    if residual == 0.0 { 0.0 } else { residual / scale }
+    if residual.abs() <= LEAST_RESIDUAL { 0.0 } else { residual / scale }
 }
