@@ -6,7 +6,7 @@ use super::sobol;
 ///
 /// The points form blocks of `dimensions + 2` points. The result has one list per coordinate.
 /// The first two points of a block are the halves of one point of a Sobol' sequence with `2 · dimensions` coordinates.
-/// Each further point of a block is the first point with one coordinate of the second.
+/// Each further point of a block is its first point, with one coordinate replaced by that of its second point.
 pub fn saltelli(blocks: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
     let pairs = sobol(blocks, 2 * dimensions, seed);
     (0..dimensions)

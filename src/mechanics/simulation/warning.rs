@@ -152,7 +152,7 @@ pub enum Warning {
         slider: String,
         /// Largest recorded speed along the master [length/time].
         speed: f64,
-        /// Largest speed for which the kink varies with the contact force [length/time].
+        /// Speed of the slider up to which its kink varies with the contact force [length/time].
         limit: f64,
     },
     /// Energy drift with a method that conserves energy.

@@ -175,7 +175,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // The first correction removes the rounding errors of the displacements, so the residual of the pair follows from a later correction.
+            // At least two corrections, because the first residual contains the rounding errors of the displacements.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL

@@ -16,7 +16,7 @@ impl System {
     /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
     /// Moves slaves and masters apart by the displacement of their kinks.
     /// Rotates the relative velocity of a slider at an end of its master from the smooth axis onto the kinked axis.
-    /// If the contact forces are unknown, kinks begin without load, and the first step reports the reason.
+    /// If the contact forces cannot be computed, all kinks start without load, and the first step reports this failure.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let slow = |slider: &SliderContact| slider.has_kink() && slider.is_slow(bodies, rates);

@@ -112,9 +112,9 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Deformations that an impact at limits includes, for steps of length `dt` [time].
-    /// An impact with a coefficient of restitution suppresses axial waves and all vibrations faster than the impact.
-    /// An elastic contact includes the deformations that the steps resolve.
+    /// Selects the deformations that may change their velocities in an impact at the given limits, for steps of length `dt` [time].
+    /// In an impact with a coefficient of restitution, axial waves and vibrations faster than the impact are suppressed.
+    /// In an elastic contact, vibrations that the steps do not resolve are suppressed.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {

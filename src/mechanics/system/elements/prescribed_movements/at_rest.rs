@@ -26,7 +26,8 @@ impl PrescribedMovements {
     }
 
     /// Finds the first drive whose static position under a load differs from its prescribed position just after `time`.
-    /// The load is the full load times `load_factor`. Returns the name of the drive and both positions.
+    /// The static position is that under the full load times `load_factor`.
+    /// Returns the name of the drive, its static position and its prescribed position; `None` if no positions differ.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
