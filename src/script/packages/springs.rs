@@ -122,7 +122,7 @@ pub const TABLE: BindingTable = BindingTable {
                       scene.brake(arm.end, #{ moment: |t, q| if abs(q.spin(arm.end)) > 3 { 2 } else { 0 } });\n\
                       let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
                       check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated.clutch\") > 0);")
-            .with_related(&["torsion_spring", "hinge", "motor", "friction"]),
+            .with_related(&["torsion_spring", "hinge", "motor"]),
         property(SPRING, "name", |call| Ok(call.receiver::<SpringHandle>()?.name().into()))
             .returns(Returns::TEXT)
             .summary("Name of the spring.")
