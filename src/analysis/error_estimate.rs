@@ -25,12 +25,12 @@ const LEAST_ORDER: f64 = 0.7;
 const LEAST_CORRELATION: f64 = 0.2;
 
 /// Largest exponent `k` of the correlation `(h/H)^k` of the errors of two levels.
-const LEAST_CORRELATED: f64 = 8.0;
+const LARGEST_DECORRELATION: f64 = 8.0;
 
 /// Accuracy of the exponents of the convergence.
 const ACCURACY: f64 = 1e-3;
 
-/// Order with which the error is estimated at least if the runs do not converge.
+/// Convergence that is assumed for the lower bound of the error if the runs do not converge.
 const FIRST_ORDER: Convergence = Convergence { order: 1.0, decorrelation: 0.0 };
 
 /// Largest error at which a run may count as converged, relative to the scale of a quantity.
@@ -131,26 +131,15 @@ impl Convergence {
     /// Differences of levels, for an error 1 of the finest level.
     fn differences(self, sizes: [f64; 3]) -> Differences {
         let errors = sizes.map(|size| power(size / sizes[0], self.order));
-        let together = |a: usize, b: usize| {
+        let covariance = |a: usize, b: usize| {
             errors[a] * errors[b] * power(sizes[a] / sizes[b], self.decorrelation)
         };
         let square_distance = |a: usize, b: usize| {
-            square(errors[a] - errors[b]) + 2.0 * (errors[a] * errors[b] - together(a, b))
+            square(errors[a] - errors[b]) + 2.0 * (errors[a] * errors[b] - covariance(a, b))
         };
         let [near, far] = [square_distance(0, 1).sqrt(), square_distance(1, 2).sqrt()];
-        let product = together(0, 1) - together(0, 2) - square(errors[1]) + together(1, 2);
+        let product = covariance(0, 1) - covariance(0, 2) - square(errors[1]) + covariance(1, 2);
         Differences { near, far, correlation: product / (near * far) }
-    }
-}
-
-impl Differences {
-    fn between(near: &[(f64, Vec2)], far: &[(f64, Vec2)]) -> Self {
-        let sum = |a: &[(f64, Vec2)], b: &[(f64, Vec2)]| {
-            a.iter().zip(b).map(|((_, a), (_, b))| a.dot(b)).sum::<f64>()
-        };
-        let [near_square, far_square] = [sum(near, near), sum(far, far)];
-        let correlation = sum(near, far) / (near_square * far_square).sqrt();
-        Self { near: near_square.sqrt(), far: far_square.sqrt(), correlation }
     }
 }
 
@@ -173,10 +162,10 @@ impl RefinementLevels<'_> {
         let differences = coarse.map(|coarse| Differences {
             near: root_mean_square(&near),
             far: root_mean_square(&far),
-            ..Differences::between(
+            correlation: correlation(
                 &fine.differences(middle, coarse),
                 &middle.differences(coarse, coarse),
-            )
+            ),
         });
         let found = differences.and_then(|differences| self.convergence(differences));
         let order = found.map(|found| found.order);
@@ -212,7 +201,7 @@ impl RefinementLevels<'_> {
             Some(Convergence { order, decorrelation })
         };
         let mut found = with(0.0)?;
-        let mut most = LEAST_CORRELATED;
+        let mut most = LARGEST_DECORRELATION;
         while most - found.decorrelation > ACCURACY {
             let middle = 0.5 * (most + found.decorrelation);
             match with(middle) {
@@ -273,6 +262,13 @@ fn largest(errors: &[(f64, f64)]) -> f64 {
 fn root_mean_square(distances: &[(f64, f64)]) -> f64 {
     let squares = distances.iter().map(|(_, distance)| distance * distance).sum::<f64>();
     (squares / distances.len() as f64).sqrt()
+}
+
+fn correlation(near: &[(f64, Vec2)], far: &[(f64, Vec2)]) -> f64 {
+    let product = |a: &[(f64, Vec2)], b: &[(f64, Vec2)]| {
+        a.iter().zip(b).map(|((_, a), (_, b))| a.dot(b)).sum::<f64>()
+    };
+    product(near, far) / (product(near, near) * product(far, far)).sqrt()
 }
 
 #[cfg(test)]
@@ -344,7 +340,7 @@ mod tests {
     #[test]
     fn partly_correlated_errors_are_not_overestimated() {
         let sizes = [1.0, 4.0 / 3.0, 2.0];
-        // The errors have a common part and a part with a frequency of its own on each level.
+        // The errors have a part that is equal on all levels and a part whose frequency differs from level to level.
         let with_own_part = |share: f64| {
             let levels: [(usize, f64); 3] = [(2, sizes[0]), (3, sizes[1]), (4, sizes[2])];
             let traces = levels.map(|(harmonic, size)| {

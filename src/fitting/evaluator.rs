@@ -12,7 +12,7 @@ pub struct CountedEvaluator<'a, 'e, E> {
     ranges: &'a [SearchRange],
     pub runs: usize,
     pub gradient_runs: usize,
-    /// Reason for finite differences instead of derivatives of the function; `None` while the function is asked for derivatives.
+    /// Reason for finite differences instead of derivatives of the function; `None` while derivatives of the function are requested.
     pub differences: Option<String>,
 }
 

@@ -5,7 +5,7 @@ use crate::common::{at, run, settings, simulate, step};
 use withy::beams::Station;
 use withy::integrators::Method;
 use withy::joints::{JointKind, Partner};
-use withy::loads::Schedule;
+use withy::loads::{LoadKind, Schedule};
 use withy::simulation::{Simulation, SimulationError};
 use withy::statics::{Equilibrium, Loading, StaticsError};
 use withy::system::{
@@ -103,7 +103,7 @@ fn a_held_brake_does_not_creep() {
     let ground = Anchor::Ground(at(0.0, 0.0));
     let limit = Schedule::constant(4.0).unwrap();
     add_brake(&mut scene, [ground, Anchor::Station(centre)], limit, deflection);
-    let moment = withy::loads::LoadKind::Moment { station: centre, moment: 2.0 };
+    let moment = LoadKind::Moment { station: centre, moment: 2.0 };
     scene.add_load(moment, Schedule::constant(1.0).unwrap());
     let mut simulation = Simulation::start(scene, settings(METHOD, 0.02)).unwrap();
     run(&mut simulation, 10.0).unwrap();

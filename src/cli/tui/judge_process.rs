@@ -36,7 +36,7 @@ impl JudgeProcess {
         let mut command = Command::new(env::current_exe()?);
         command.args(["learn", "try"]).args(options.to_arguments()).args(["--", &exercise.id()]);
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
-        // With a process group of its own, the process does not receive signals from keys such as Ctrl-C.
+        // A separate process group keeps signals of keys such as Ctrl-C from the process.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut process = command.spawn()?;

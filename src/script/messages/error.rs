@@ -16,7 +16,7 @@ pub enum ScriptError {
     Failure(Failure),
     /// The run was interrupted or exceeded a limit. Scripts cannot catch this error.
     Stopped(Stop),
-    /// Internal error of the program, which the user is asked to report.
+    /// Internal error of the program. Its message asks for a report.
     Internal(String),
     /// Error of a called script function, passed on unchanged.
     Engine(Box<EvalAltResult>),

@@ -24,7 +24,8 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::system::{
-    Anchor, BrakeLaw, DampingLaw, Origin, Spring, SpringKind, SpringLaw, SpringState, SystemError,
+    Anchor, BrakeLaw, DampingLaw, Origin, Scene, Spring, SpringKind, SpringLaw, SpringState,
+    SystemError,
 };
 
 pub const TABLE: BindingTable = BindingTable {
@@ -347,8 +348,7 @@ fn add(
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.shared_for_change();
     let prefix = if law.is_none() { "damper" } else { "spring" };
-    let name = options.get_if::<ImmutableString>("name").map(String::from);
-    let name = name.unwrap_or_else(|| scene.borrow().free_name(prefix));
+    let name = name(options, &scene.borrow(), prefix);
     let damping = damping(call, options)?;
     add_spring(handle, Spring { name, kind, law, origin, damping })
 }
@@ -375,39 +375,41 @@ fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add_damper(call, SpringKind::Length(anchors), &call.options("options")?)
 }
 
-fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
+fn name(options: &Options, scene: &Scene, prefix: &str) -> String {
+    let given = options.get_if::<ImmutableString>("name").map(String::from);
+    given.unwrap_or_else(|| scene.free_name(prefix))
+}
+
+/// Sections between which an angle is measured, and the options. With one station, the first section is the ground.
+fn sections(call: &Call) -> Result<([Anchor; 2], Options), ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
     let from = Anchor::Station(scene.own_station(&call.get::<StationHandle>("from")?)?);
-    match call.get_if::<StationHandle>("to") {
+    Ok(match call.get_if::<StationHandle>("to") {
         Some(to) => {
             let to = Anchor::Station(scene.own_station(&to)?);
-            let options = call.options_or_defaults("options")?;
-            add_damper(call, SpringKind::Torsion([from, to]), &options)
+            ([from, to], call.options_or_defaults("options")?)
         }
-        None => {
-            let ground = Anchor::Ground(Vec2::zeros());
-            add_damper(call, SpringKind::Torsion([ground, from]), &call.options("to")?)
-        }
-    }
+        None => ([Anchor::Ground(Vec2::zeros()), from], call.options("to")?),
+    })
+}
+
+fn torsion(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let (sections, options) = sections(call)?;
+    add_damper(call, SpringKind::Torsion(sections), &options)
 }
 
 fn brake(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let scene = call.receiver::<SceneHandle>()?;
-    let from = Anchor::Station(scene.own_station(&call.get::<StationHandle>("from")?)?);
-    let (sections, options) = match call.get_if::<StationHandle>("to") {
-        Some(to) => {
-            let to = Anchor::Station(scene.own_station(&to)?);
-            ([from, to], call.options("options")?)
-        }
-        None => ([Anchor::Ground(Vec2::zeros()), from], call.options("to")?),
-    };
+    let (sections, options) = sections(call)?;
+    if !options.has("moment") {
+        let hint = "give the largest friction moment: scene.brake(from, to, #{ moment: 2 })";
+        return Err(call.error("the moment of the brake is missing").hint(hint));
+    }
     let clock = sample_clock_of(&options)?;
     let limit = controlled_schedule_of(call, &options, "moment", &scene, clock)?;
     expect_controller(call, clock, std::iter::once(&limit))?;
     let law = BrakeLaw { limit, deflection: options.number("deflection")? };
-    let shared = scene.shared_for_change();
-    let name = options.get_if::<ImmutableString>("name").map(String::from);
-    let name = name.unwrap_or_else(|| shared.borrow().free_name("brake"));
+    let name = name(&options, &scene.shared_for_change().borrow(), "brake");
     let kind = SpringKind::Brake { sections, law };
     let (origin, damping) = (Origin::Zero, DampingLaw::default());
     let spring = Spring { name, kind, law: None, origin, damping };

@@ -1,6 +1,8 @@
 //! Brake or clutch: Coulomb friction between two sections, with a friction limit that is a function of time (docs/theory.md, section 9.1).
 //! The friction law with its elastic deflection is that of contact points.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use super::contact::{NormalContact, PointFriction, SlipTrial};
@@ -57,7 +59,7 @@ pub struct Brake {
     elongation: Elongation,
     law: BrakeLaw,
     friction: PointFriction<1>,
-    /// Derivative of the elongation change in the last linearisation [-].
+    /// Slope and secant of the elongation in the last linearisation [-].
     slope: Vec<f64>,
     secant: Vec<f64>,
     tangent: Vec<f64>,
@@ -112,6 +114,10 @@ impl Brake {
         self.elongation.evaluate(at);
         self.rotations = collocation(at.stage).rotations;
         self.share = if at.stage == Stage::End { at.weight } else { 1.0 };
+        self.evaluate_slip();
+    }
+
+    fn evaluate_slip(&mut self) {
         let (slip, moved) = (self.elongation.change, self.elongation.moved());
         self.friction.evaluate(SlipTrial::of_coordinate(slip, moved));
     }
@@ -187,14 +193,8 @@ impl InternalForce for Brake {
         let [condensed] = self.friction.condensed(0.0);
         self.elongation.scatter(&self.secant, at.weight * condensed, out);
         let ([[stiffness]], [moment]) = (self.friction.tangent([0.0]), self.friction.present());
-        let width = self.slope.len();
-        let rows = self.tangent.chunks_exact_mut(width).zip(&self.secant);
-        let bends = self.elongation.secant_slope.chunks_exact(width);
-        for ((row, secant), bend) in rows.zip(bends) {
-            for ((entry, slope), bend) in row.iter_mut().zip(&self.slope).zip(bend) {
-                *entry = at.weight * (stiffness * secant * slope + moment * bend);
-            }
-        }
+        let (moment, stiffness) = (at.weight * moment, at.weight * stiffness);
+        self.elongation.write_tangent(moment, stiffness, &mut self.tangent);
         self.elongation.scatter_tangent(&self.tangent, unknowns, &mut tangent.rows_mut());
     }
 
@@ -213,23 +213,20 @@ impl InternalForce for Brake {
     }
 
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
-        let count = self.secant.len();
-        let on_ground = (0..count).filter(|at| {
-            !self.elongation.moving().any(|(_, coordinates)| coordinates.contains(at))
-        });
         let [moment] = self.friction.present();
-        let impulse = |at: usize| self.share * moment * self.elongation.secant[at] * duration;
-        let angular = on_ground.map(impulse).sum();
+        let of_terminal = |(_, coordinates): (_, Range<usize>)| -> f64 {
+            self.elongation.secant[coordinates].iter().sum()
+        };
+        // The moments on both sections are opposite, so the sum over the moving sections is the moment of the ground.
+        let on_bodies: f64 = self.elongation.moving().map(of_terminal).sum();
+        let angular = -self.share * moment * on_bodies * duration;
         WorkAndImpulse::of(0.0, Vec2::zeros(), angular)
     }
 
     fn advance(&mut self, bodies: &[Body]) {
         self.elongation.advance(bodies, self.rotations);
         if self.acts(Stage::End) {
-            self.friction.evaluate(SlipTrial::of_coordinate(
-                self.elongation.change,
-                self.elongation.moved(),
-            ));
+            self.evaluate_slip();
             self.dissipated += self.friction.advance(self.contact());
         }
     }
@@ -262,7 +259,8 @@ impl InternalForce for Brake {
     fn each_damped_rate(&self, bodies: &[Body], rates: &[f64], take: &mut dyn FnMut(f64, f64)) {
         let mut elongation = self.elongation.clone();
         elongation.evaluate_at_start(bodies);
-        take(self.friction.sticking_damping(), elongation.rate_at_last_end(bodies, rates));
+        let damping = if self.is_released { 0.0 } else { self.friction.sticking_damping() };
+        take(damping, elongation.rate_at_last_end(bodies, rates));
     }
 
     /// Stiffness of a brake that holds.

@@ -303,6 +303,18 @@ impl Elongation {
         }
     }
 
+    /// Writes the derivative of a force along the elongation with respect to the coordinates, row by row.
+    /// The force has the given value and the given derivative with respect to the elongation change.
+    pub fn write_tangent(&self, force: f64, stiffness: f64, out: &mut [f64]) {
+        let width = self.slope.len();
+        let rows = out.chunks_exact_mut(width).zip(&self.secant);
+        for ((row, secant), bend) in rows.zip(self.secant_slope.chunks_exact(width)) {
+            for ((entry, slope), bend) in row.iter_mut().zip(&self.slope).zip(bend) {
+                *entry = stiffness * secant * slope + force * bend;
+            }
+        }
+    }
+
     pub fn advance(&mut self, bodies: &[Body], rotations: RotationIncrement) {
         let components = self.components();
         let terminals = self.movements.chunks_exact_mut(components.len()).zip(&self.terminals);

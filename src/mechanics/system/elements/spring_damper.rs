@@ -208,16 +208,9 @@ impl InternalForce for SpringDamper {
         }
         let stiffness = self.weighted(at, restoring.stiffness, damping.stiffness);
         let force = self.weighted(at, self.spring.force, self.damper.force);
-        let Elongation { secant, slope, secant_slope: bend, lag, lag_slope: lag_bend, .. } =
-            &self.elongation;
-        let rows = self.tangent.chunks_exact_mut(slope.len());
-        let bends = bend.chunks_exact(slope.len());
-        for ((row, secant), bend) in rows.zip(secant).zip(bends) {
-            for ((entry, slope), bend) in row.iter_mut().zip(slope).zip(bend) {
-                *entry = stiffness * secant * slope + force * bend;
-            }
-        }
+        self.elongation.write_tangent(force, stiffness, &mut self.tangent);
         if self.damping.is_active() {
+            let Elongation { slope, lag, lag_slope: lag_bend, .. } = &self.elongation;
             let rows = self.tangent.chunks_exact_mut(slope.len());
             let bends = lag_bend.chunks_exact(slope.len());
             for ((row, lag), bend) in rows.zip(lag).zip(bends) {

@@ -12,7 +12,7 @@ mod target;
 pub use between_bodies::{ContactMember, PairContact};
 use disc_path::DiscPath;
 use friction::sticking_damping;
-pub use friction::{NormalContact, PointFriction, SlipTrial};
+pub(super) use friction::{NormalContact, PointFriction, SlipTrial};
 use law::{ContactLaw, LEAST_RESTITUTION, damping_factor};
 use normal_force::{ContactTime, GapChange, NormalForce, NormalLaw, SOFT};
 pub use obstacle::{Obstacle, ObstacleShape};
