@@ -151,7 +151,7 @@ impl InternalForce for Brake {
     ) -> Result<(), LoadError> {
         let limit = self.law.limit.mean(interval.start, interval.end)?.mean;
         if limit < 0.0 {
-            let (schedule, name, allowed) = ("brake", "its moment", "zero or positive");
+            let (schedule, name, allowed) = ("friction limit", "the moment", "zero or positive");
             return Err(LoadError::Value { schedule, name, value: limit, allowed });
         }
         self.set_limit(limit);
