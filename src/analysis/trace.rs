@@ -58,6 +58,11 @@ impl Trace {
         }
     }
 
+    /// Trace of a value at one time.
+    pub fn at_one_time(value: Vec2) -> Self {
+        Self { times: vec![0.0], values: vec![value], is_integral: false }
+    }
+
     #[cfg(test)]
     pub fn of_values(times: Vec<f64>, values: impl IntoIterator<Item = f64>) -> Self {
         let values = values.into_iter().map(scalar).collect();

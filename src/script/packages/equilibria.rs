@@ -2,6 +2,7 @@
 
 use rhai::{Array, Dynamic, INT};
 
+use super::error_estimates::ERROR_ESTIMATE;
 use super::modes::MODES;
 use super::modes::{
     COUNT, ModesHandle, damped_modes, expect_room, undamped_modes as look_for_modes,
@@ -12,7 +13,7 @@ use super::simulations::SIMULATION;
 use super::simulations::{START, begin, tracked_angle};
 use super::sliding::{SliderHandle, WHICH};
 use super::vectors::VECTOR;
-use crate::beams::BodyPoint;
+use crate::beams::{BodyPoint, Station};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Scripted, Type};
@@ -28,9 +29,12 @@ use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::script::state::settings::RunMode;
+use crate::script::studies::error_estimate::{ErrorEstimate, POSITIONS};
+use crate::script::studies::error_on_meshes::MeshResult;
+use crate::script::studies::plan::usual_stations;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
-use crate::system::System;
+use crate::system::{Scene, System};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "equilibrium",
@@ -147,13 +151,24 @@ pub const TABLE: BindingTable = BindingTable {
             fixed.")
         .example(SLID)
         .with_related(&["slider_position"]),
+        method(EQUILIBRIUM, "error_estimate", &[], |call| {
+            let handle = call.receiver::<EquilibriumHandle>()?;
+            Ok(Dynamic::from(estimated_error(&handle.equilibrium(), call.context())?))
+        })
+        .returns(Returns::object(ERROR_ESTIMATE))
+        .summary("Estimates the errors of positions and strain energy due to the mesh.")
+        .doc("The equilibrium is found again with three quarters and half of the spans. Verdicts \
+            are those of sim.error_estimate().")
+        .example("let rest = scene.equilibrium();\nprint(rest.error_estimate().summary);\n\
+            check(rest.error_estimate().of(\"positions\").present < 0.01);"),
         method(EQUILIBRIUM, "modes", &[COUNT], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             expect_room(call, handle.equilibrium().model())?;
             let modes = look_for_modes(call, |count, goes_on| {
                 handle.equilibrium_mut().modes(count, goes_on)
             })?;
-            Ok(Dynamic::from(ModesHandle::new(handle.scene().clone(), handle.equilibrium().scene(), modes)))
+            let rest = handle.equilibrium();
+            Ok(Dynamic::from(ModesHandle::at_rest(handle.scene().clone(), &rest, modes)))
         })
         .returns(Returns::object(MODES))
         .summary("Computes the lowest natural frequencies and mode shapes about the equilibrium.")
@@ -334,6 +349,39 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     print_notes(context, &rest, loading.factor);
     Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
+}
+
+fn estimated_error(rest: &Equilibrium, context: &Context) -> Result<ErrorEstimate, ScriptError> {
+    let moment = format!(" at load factor {}", significant(rest.path().load_factor(), 6));
+    let stations = usual_stations(rest.scene());
+    let positions = (POSITIONS, stations.len());
+    ErrorEstimate::on_meshes(rest.scene(), moment, positions, |scene| {
+        let found = repeated(scene, *rest.loading(), context)?;
+        let position = |(name, station): &(String, Station)| {
+            let place = found.scene().place(station, found.model().meshes())?;
+            let value = found.model().position(&place);
+            Ok(MeshResult { name: name.clone(), dimension: "length", value, scale: 0.0 })
+        };
+        let mut results: Vec<MeshResult> =
+            stations.iter().map(position).collect::<Result<_, ScriptError>>()?;
+        let strain = found.path().points().last().map_or(0.0, |point| point.strain_energy);
+        results.push(MeshResult::scalar("strain".to_owned(), "energy", strain));
+        Ok(results)
+    })
+}
+
+/// Finds the equilibrium of a scene with another mesh, with a given loading.
+pub(super) fn repeated(
+    scene: Scene,
+    loading: Loading,
+    context: &Context,
+) -> Result<Equilibrium, ScriptError> {
+    let found = match context.mode() {
+        RunMode::DryRun => Equilibrium::dry_run(scene, loading),
+        RunMode::Run => Equilibrium::find(scene, loading, &mut |_| !context.is_stopped()),
+    };
+    context.proceed()?;
+    Ok(found?)
 }
 
 fn print_notes(context: &Context, rest: &Equilibrium, load_factor: f64) {

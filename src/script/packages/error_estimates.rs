@@ -22,7 +22,7 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::script::state::settings::RunMode;
-use crate::script::studies::error_estimate::{ErrorEstimate, POSITIONS, QuantityError};
+use crate::script::studies::error_estimate::{ErrorEstimate, QuantityError};
 use crate::script::studies::refined_run::{RefinedRun, RefinedRunRequest, RefinedRunRow};
 
 pub const TABLE: BindingTable = BindingTable {
@@ -83,7 +83,7 @@ pub const TABLE: BindingTable = BindingTable {
         .example("let rows = scene.solve(#{ to: 0.5, error: 1e-2 }).rows;\ncheck(rows[0].dt == 0.01);"),
         property(ERROR_ESTIMATE, "verdict", |call| {
             let error = call.receiver::<ErrorEstimate>()?;
-            let verdict = error.of(POSITIONS).map(QuantityError::verdict);
+            let verdict = error.together().map(QuantityError::verdict);
             Ok(verdict.unwrap_or_else(|| "not estimated".to_owned()).into())
         })
         .returns(Returns::TEXT)
@@ -138,7 +138,7 @@ const SOLVE: &[Parameter] = &[
 
 const REFINED_RUN: Type = Type::of::<RefinedRun>();
 
-const ERROR_ESTIMATE: Type = Type::of::<ErrorEstimate>();
+pub(super) const ERROR_ESTIMATE: Type = Type::of::<ErrorEstimate>();
 
 impl Scripted for ErrorEstimate {
     const NAME: &'static str = "error_estimate";

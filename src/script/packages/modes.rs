@@ -4,6 +4,8 @@ use std::rc::Rc;
 
 use rhai::{Array, Dynamic, INT, Map};
 
+use super::equilibria::repeated;
+use super::error_estimates::ERROR_ESTIMATE;
 use super::scenes::{SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::vectors::VECTOR;
@@ -20,6 +22,9 @@ use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::studies::error_estimate::{ErrorEstimate, FREQUENCIES};
+use crate::script::studies::error_on_meshes::MeshResult;
+use crate::statics::{Equilibrium, Loading};
 use crate::system::{DriveKind, Scene, StartMotion, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
@@ -132,6 +137,14 @@ pub const TABLE: BindingTable = BindingTable {
             )
             .example("check(scene.modes(3).residuals.all(|residual| residual < 1e-6));")
             .with_related(&["angular_frequencies"]),
+        method(MODES, "error_estimate", &[], estimated_error)
+            .returns(Returns::object(ERROR_ESTIMATE))
+            .summary("Estimates the errors of the angular frequencies due to the mesh.")
+            .doc("The modes are computed again with three quarters and half of the spans, about the \
+                equilibrium again if they are those of an equilibrium. Modes about the present \
+                configuration of a simulation are refused.")
+            .example("let error = scene.modes(2).error_estimate();\nprint(error);\n\
+                check(error.verdict == \"converged\" && error.of(\"mode 1\").present < 0.1);"),
         binding("is_stable", Returns::BOOLEAN, |call| Ok(modes(call)?.0.modes.is_stable().into()))
             .summary("True if no mode grows.")
             .example("check(scene.modes(1).is_stable);"),
@@ -178,16 +191,23 @@ struct ModesData {
 #[derive(Clone, Copy, PartialEq)]
 enum ModesReference {
     Drawn,
-    Loaded,
+    /// Equilibrium with the given loading.
+    Rest(Loading),
+    Motion,
 }
 
 impl ModesHandle {
     pub fn new(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
-        Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Loaded }))
+        Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Motion }))
     }
 
     fn drawn(of: SceneHandle, scene: &Scene, modes: Modes) -> Self {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
+    }
+
+    pub fn at_rest(of: SceneHandle, rest: &Equilibrium, modes: Modes) -> Self {
+        let (scene, about) = (rest.scene().clone(), ModesReference::Rest(*rest.loading()));
+        Self(Rc::new(ModesData { of, scene, modes, about }))
     }
 
     pub fn held(&self) -> (&Scene, &Modes) {
@@ -289,6 +309,35 @@ pub(super) fn undamped_modes(
         Err(VibrationError::Interrupted) => Err(context.why_stopped("a search for modes")),
         found => Ok(found?),
     }
+}
+
+fn estimated_error(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let ModesData { scene, modes, about, .. } = &*call.receiver::<ModesHandle>()?.0;
+    let (context, count) = (call.context(), modes.all().len());
+    let frequencies = |scene: Scene| {
+        let goes_on = &mut || !context.is_stopped();
+        let found = match about {
+            ModesReference::Motion => {
+                let message = "the errors of modes about the present configuration of a simulation \
+                    are not estimated";
+                return Err(call
+                    .error(message)
+                    .hint("use modes of the scene or of an equilibrium"));
+            }
+            ModesReference::Drawn => Modes::of(&System::assemble(&scene)?, count, goes_on),
+            ModesReference::Rest(loading) => {
+                repeated(scene, *loading, context)?.modes(count, goes_on)
+            }
+        };
+        context.proceed()?;
+        let found = found?;
+        let results = found.all().iter().enumerate().map(|(number, mode)| {
+            MeshResult::scalar(format!("mode {number}"), "1/time", mode.angular_frequency())
+        });
+        Ok(results.collect())
+    };
+    let together = (FREQUENCIES, count);
+    Ok(Dynamic::from(ErrorEstimate::on_meshes(scene, String::new(), together, frequencies)?))
 }
 
 pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {

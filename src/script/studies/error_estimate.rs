@@ -24,6 +24,9 @@ use super::plan::usual_stations;
 /// Name of the row with the largest error of all stations.
 pub const POSITIONS: &str = "positions";
 
+/// Name of the row with the largest error of all angular frequencies.
+pub const FREQUENCIES: &str = "frequencies";
+
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
@@ -34,8 +37,8 @@ const SPANS_TO_COARSEN: usize = 4;
 #[derive(Debug, Clone)]
 pub struct ErrorEstimate {
     pub name: String,
-    /// Present time of the simulation [time].
-    pub time: f64,
+    /// Time of a simulation or load factor of an equilibrium, as text after its name.
+    pub moment: String,
     /// Scale of positions [length].
     pub length: f64,
     /// Largest errors of all stations, followed by the errors of each station and recorded column.
@@ -105,19 +108,19 @@ impl QuantityError {
 }
 
 /// Companion runs of an estimate.
-struct Plan {
+pub(super) struct Plan {
     /// Meshes and step sizes of the companion runs. The first two have the mesh of the simulation, with twice and four times its step size.
-    companions: Vec<Companion>,
+    pub(super) companions: Vec<Companion>,
     /// Indices of the runs for the estimate in space, from the finest to the coarsest mesh.
-    meshes: Option<[usize; 3]>,
+    pub(super) meshes: Option<[usize; 3]>,
     /// Mesh sizes of the runs for the estimate in space, relative to the mesh of the simulation.
-    mesh_sizes: [f64; 3],
+    pub(super) mesh_sizes: [f64; 3],
     /// Index of the mesh of the simulation in `mesh_sizes`.
-    level: usize,
+    pub(super) level: usize,
 }
 
 impl Plan {
-    fn of(scene: &Scene) -> Result<Self, ScriptError> {
+    pub(super) fn of(scene: &Scene) -> Result<Self, ScriptError> {
         let at = |span_ratio, step_ratio| Companion { span_ratio, step_ratio };
         let mut companions = vec![at(1.0, 2.0), at(1.0, 4.0)];
         let spans = |scene: &Scene| scene.beams.iter().map(|beam| beam.mesh.spans()).sum::<usize>();
@@ -153,9 +156,10 @@ impl FinishedRun {
 impl ErrorEstimate {
     /// Estimate without results, for the given reason.
     pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
-        let (name, time) = (handle.name().to_owned(), handle.time());
+        let name = handle.name().to_owned();
+        let moment = format!(" at t = {}", significant(handle.time(), 6));
         let missing = vec![reason.to_owned()];
-        Self { name, time, length: 1.0, quantities: Vec::new(), missing }
+        Self { name, moment, length: 1.0, quantities: Vec::new(), missing }
     }
 
     /// Estimates the errors of a simulation at its present time and over its run. With a time limit, each companion run stops after this time.
@@ -248,6 +252,11 @@ impl ErrorEstimate {
         Ok(estimate)
     }
 
+    /// Largest errors of all positions or of all frequencies; `None` without an estimate.
+    pub fn together(&self) -> Option<&QuantityError> {
+        self.of(POSITIONS).or_else(|| self.of(FREQUENCIES))
+    }
+
     pub fn of(&self, name: &str) -> Option<&QuantityError> {
         self.quantities.iter().find(|quantity| quantity.name == name)
     }
@@ -291,7 +300,7 @@ impl ErrorEstimate {
     }
 
     pub fn summary(&self) -> String {
-        let Some(positions) = self.of(POSITIONS) else {
+        let Some(together) = self.together() else {
             return format!("not estimated: {}", self.missing.join("; "));
         };
         let part = |of: &str, error: &Option<DiscretisationError>| match error {
@@ -299,13 +308,14 @@ impl ErrorEstimate {
             Some(error) => format!("{of} {}", scientific(error.present(), 2)),
         };
         format!(
-            "positions {} at t = {}, {} ({}, {}; size {})",
-            scientific(positions.total().0, 2),
-            significant(self.time, 6),
-            positions.verdict(),
-            part("in time", &positions.in_time),
-            part("in space", &positions.in_space),
-            significant(self.length, 3),
+            "{} {}{}, {} ({}, {}; size {})",
+            together.name,
+            scientific(together.total().0, 2),
+            self.moment,
+            together.verdict(),
+            part("in time", &together.in_time),
+            part("in space", &together.in_space),
+            significant(if together.name == POSITIONS { self.length } else { together.scale }, 3),
         )
     }
 
@@ -313,11 +323,9 @@ impl ErrorEstimate {
     pub fn table(&self) -> String {
         let heads =
             ["quantity", "in time", "largest", "order", "in space", "largest", "order", "verdict"];
-        let title = format!(
-            "estimated errors of '{}' at t = {}, and the largest of the run",
-            self.name,
-            significant(self.time, 6)
-        );
+        let is_of_run = self.quantities.iter().any(|quantity| quantity.in_time.is_some());
+        let largest = if is_of_run { ", and the largest of the run" } else { "" };
+        let title = format!("estimated errors of '{}'{}{largest}", self.name, self.moment);
         let mut table = TextTable::new(&heads).title(title);
         let is_shown = |quantity: &&QuantityError| {
             let both = [&quantity.in_time, &quantity.in_space];

@@ -8,6 +8,7 @@ pub mod convergence_chart;
 pub mod convergence_table;
 pub mod cost;
 pub mod error_estimate;
+pub mod error_on_meshes;
 pub mod fits;
 pub mod labels;
 pub mod options;
