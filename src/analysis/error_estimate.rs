@@ -21,6 +21,9 @@ const SHARE_OF_ORDER: f64 = 0.7;
 /// Smallest observed order of a converging run if the order of the discretisation is unknown, as for meshes.
 const LEAST_ORDER: f64 = 0.7;
 
+/// Largest difference of the observed order of a converging single value from its largest expected order.
+const EXCESS: f64 = 1.0;
+
 /// Smallest correlation of the differences of neighbouring levels of a converging run [-].
 const LEAST_CORRELATION: f64 = 0.2;
 
@@ -105,9 +108,21 @@ pub struct RefinementLevels<'a> {
     pub sizes: [f64; 3],
     pub traces: [Option<&'a Trace>; 3],
     pub level: usize,
-    /// Order of the integrator; `None` if unknown.
-    pub order: Option<f64>,
+    pub order: ExpectedOrder,
     pub scale: f64,
+}
+
+/// Order of convergence in the asymptotic range.
+#[derive(Debug, Clone, Copy)]
+pub enum ExpectedOrder {
+    /// Order of the integrator.
+    Known(f64),
+    /// Unknown order of functions of time.
+    Unknown,
+    /// Largest order of a single value.
+    ///
+    /// The difference of two levels can be small by chance. The observed order of a single value is then too high.
+    AtMost(f64),
 }
 
 /// Exponents of the errors of levels, with the sizes `C h^p` and the correlations `(h/H)^k`.
@@ -184,13 +199,20 @@ impl RefinementLevels<'_> {
 
     /// Ratio of the error of the run to the difference of the two finest levels.
     fn factor(&self, found: Convergence) -> f64 {
-        let order = self.order.map_or(found.order, |claimed| found.order.min(claimed));
+        let order = match self.order {
+            ExpectedOrder::Known(most) | ExpectedOrder::AtMost(most) => found.order.min(most),
+            ExpectedOrder::Unknown => found.order,
+        };
         let own = power(self.sizes[self.level] / self.sizes[0], order);
         own / Convergence { order, ..found }.differences(self.sizes).near
     }
 
     fn is_converging(&self, order: f64) -> bool {
-        order >= self.order.map_or(LEAST_ORDER, |claimed| SHARE_OF_ORDER * claimed)
+        match self.order {
+            ExpectedOrder::Known(known) => order >= SHARE_OF_ORDER * known,
+            ExpectedOrder::Unknown => order >= LEAST_ORDER,
+            ExpectedOrder::AtMost(most) => (LEAST_ORDER..=most + EXCESS).contains(&order),
+        }
     }
 
     /// Exponents that agree with the differences of neighbouring levels; `None` if the differences do not decrease.
@@ -291,7 +313,9 @@ mod tests {
     ) -> DiscretisationError {
         let traces = sizes.map(|size| sampled(size, |time| value(time, size)));
         let traces = traces.each_ref().map(Some);
-        RefinementLevels { sizes, traces, level, order: Some(2.0), scale: 1.0 }.error().unwrap()
+        RefinementLevels { sizes, traces, level, order: ExpectedOrder::Known(2.0), scale: 1.0 }
+            .error()
+            .unwrap()
     }
 
     #[test]
@@ -316,6 +340,24 @@ mod tests {
         assert_eq!(lost.verdict, ErrorVerdict::PreAsymptotic);
         let first_order = estimate(SIZES, 0, |time, h| 1e-4 * time * h);
         assert_eq!(first_order.verdict, ErrorVerdict::PreAsymptotic);
+    }
+
+    #[test]
+    fn single_values_with_too_high_an_order_are_not_converged() {
+        let sizes = [1.0, 4.0 / 3.0, 2.0];
+        let error = |order: f64| {
+            let traces = sizes
+                .map(|size| Trace::at_one_time(Vec2::new(1.0 + 1e-4 * power(size, order), 0.0)));
+            let traces = traces.each_ref().map(Some);
+            let order = ExpectedOrder::AtMost(4.0);
+            RefinementLevels { sizes, traces, level: 0, order, scale: 1.0 }.error().unwrap()
+        };
+        for order in [2.0, 4.0] {
+            assert_eq!(error(order).verdict, ErrorVerdict::Converged);
+            assert!((error(order).present() / 1e-4 - 1.0).abs() < 0.02);
+        }
+        assert_eq!(error(8.0).verdict, ErrorVerdict::PreAsymptotic);
+        assert!(error(8.0).present() > 3e-4);
     }
 
     #[test]
@@ -348,7 +390,9 @@ mod tests {
                 sampled(1.0, |time| 1e-4 * size * (time.sin() + own(time)))
             });
             let traces = traces.each_ref().map(Some);
-            RefinementLevels { sizes, traces, level: 0, order: None, scale: 1.0 }.error().unwrap()
+            RefinementLevels { sizes, traces, level: 0, order: ExpectedOrder::Unknown, scale: 1.0 }
+                .error()
+                .unwrap()
         };
         for share in [0.0, 0.1, 0.2] {
             let error = with_own_part(share);
@@ -364,8 +408,13 @@ mod tests {
     fn without_a_third_level_the_distance_is_a_lower_bound() {
         let traces = [1.0, 2.0].map(|size| sampled(size, |time| 1e-6 * time * size * size));
         let traces = [Some(&traces[0]), Some(&traces[1]), None];
-        let levels =
-            RefinementLevels { sizes: SIZES, traces, level: 0, order: Some(2.0), scale: 1.0 };
+        let levels = RefinementLevels {
+            sizes: SIZES,
+            traces,
+            level: 0,
+            order: ExpectedOrder::Known(2.0),
+            scale: 1.0,
+        };
         let error = levels.error().unwrap();
         assert_eq!((error.verdict, error.order), (ErrorVerdict::PreAsymptotic, None));
         assert!((error.largest() / (3.0 * 64e-6) - 1.0).abs() < 1e-12);

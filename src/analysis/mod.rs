@@ -35,7 +35,9 @@ pub(crate) use combination::{
 pub(crate) use convergence::{ALL_POSITIONS, Convergence, RefinedParameter, Refinement};
 pub(crate) use cost::{CostCase, StepCost, step_costs};
 pub(crate) use csv_table::ParsedCsv;
-pub(crate) use error_estimate::{DiscretisationError, ErrorVerdict, RefinementLevels};
+pub(crate) use error_estimate::{
+    DiscretisationError, ErrorVerdict, ExpectedOrder, RefinementLevels,
+};
 pub(crate) use external_results::{ExternalResult, machines};
 pub use features::{FEATURES, Feature};
 pub use journal::{Journal, JournalError};

@@ -30,8 +30,8 @@ use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
 use crate::script::state::settings::RunMode;
 use crate::script::studies::error_estimate::{ErrorEstimate, POSITIONS};
-use crate::script::studies::error_on_meshes::MeshResult;
-use crate::script::studies::plan::usual_stations;
+use crate::script::studies::error_on_meshes::{MeshResult, Together};
+use crate::script::studies::plan::stations_and_middles;
 use crate::simulation::Simulation;
 use crate::statics::{ArcLength, Control, Equilibrium, Loading, Stability, StaticsError};
 use crate::system::{Scene, System};
@@ -167,8 +167,7 @@ pub const TABLE: BindingTable = BindingTable {
             let modes = look_for_modes(call, |count, goes_on| {
                 handle.equilibrium_mut().modes(count, goes_on)
             })?;
-            let rest = handle.equilibrium();
-            Ok(Dynamic::from(ModesHandle::at_rest(handle.scene().clone(), &rest, modes)))
+            Ok(Dynamic::from(ModesHandle::at_rest(&handle, modes)))
         })
         .returns(Returns::object(MODES))
         .summary("Computes the lowest natural frequencies and mode shapes about the equilibrium.")
@@ -353,35 +352,45 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn estimated_error(rest: &Equilibrium, context: &Context) -> Result<ErrorEstimate, ScriptError> {
     let moment = format!(" at load factor {}", significant(rest.path().load_factor(), 6));
-    let stations = usual_stations(rest.scene());
-    let positions = (POSITIONS, stations.len());
-    ErrorEstimate::on_meshes(rest.scene(), moment, positions, |scene| {
-        let found = repeated(scene, *rest.loading(), context)?;
+    let stations = stations_and_middles(rest.scene());
+    let results = |rest: &Equilibrium| {
         let position = |(name, station): &(String, Station)| {
-            let place = found.scene().place(station, found.model().meshes())?;
-            let value = found.model().position(&place);
+            let place = rest.scene().place(station, rest.model().meshes())?;
+            let value = rest.model().position(&place);
             Ok(MeshResult { name: name.clone(), dimension: "length", value, scale: 0.0 })
         };
-        let mut results: Vec<MeshResult> =
-            stations.iter().map(position).collect::<Result<_, ScriptError>>()?;
-        let strain = found.path().points().last().map_or(0.0, |point| point.strain_energy);
-        results.push(MeshResult::scalar("strain".to_owned(), "energy", strain));
-        Ok(results)
+        let positions = stations.iter().map(position);
+        let strain = rest.path().points().last().map_or(0.0, |point| point.strain_energy);
+        let strain = MeshResult::scalar("strain".to_owned(), "energy", strain);
+        positions.chain([Ok(strain)]).collect::<Result<Vec<MeshResult>, ScriptError>>()
+    };
+    let positions = Together { name: POSITIONS, count: stations.len() };
+    ErrorEstimate::on_meshes(rest.scene(), moment, positions, results(rest)?, |scene| {
+        results(&repeated(rest, scene, context)?)
     })
 }
 
-/// Finds the equilibrium of a scene with another mesh, with a given loading.
+/// Finds an equilibrium again for its scene with another mesh.
 pub(super) fn repeated(
+    rest: &Equilibrium,
     scene: Scene,
-    loading: Loading,
     context: &Context,
 ) -> Result<Equilibrium, ScriptError> {
     let found = match context.mode() {
-        RunMode::DryRun => Equilibrium::dry_run(scene, loading),
-        RunMode::Run => Equilibrium::find(scene, loading, &mut |_| !context.is_stopped()),
+        RunMode::DryRun => Equilibrium::dry_run(scene, *rest.loading()),
+        RunMode::Run => Equilibrium::find(scene, *rest.loading(), &mut |_| !context.is_stopped()),
     };
     context.proceed()?;
-    Ok(found?)
+    let found = found?;
+    let [own, other] = [rest, &found].map(|rest| rest.path().load_factor());
+    match own == other {
+        true => Ok(found),
+        false => Err(ScriptError::new(format!(
+            "the path ends at load factor {}, not {}",
+            significant(other, 6),
+            significant(own, 6)
+        ))),
+    }
 }
 
 fn print_notes(context: &Context, rest: &Equilibrium, load_factor: f64) {

@@ -18,13 +18,13 @@ use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{
     BindingTable, FunctionBinding, NativeFunction, method, property,
 };
+use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::SimulationHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::studies::error_estimate::{ErrorEstimate, FREQUENCIES};
-use crate::script::studies::error_on_meshes::MeshResult;
-use crate::statics::{Equilibrium, Loading};
+use crate::script::studies::error_on_meshes::{MeshResult, Together};
 use crate::system::{DriveKind, Scene, StartMotion, System};
 use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
 
@@ -188,11 +188,9 @@ struct ModesData {
     about: ModesReference,
 }
 
-#[derive(Clone, Copy, PartialEq)]
 enum ModesReference {
     Drawn,
-    /// Equilibrium with the given loading.
-    Rest(Loading),
+    Rest(EquilibriumHandle),
     Motion,
 }
 
@@ -205,9 +203,9 @@ impl ModesHandle {
         Self(Rc::new(ModesData { of, scene: scene.clone(), modes, about: ModesReference::Drawn }))
     }
 
-    pub fn at_rest(of: SceneHandle, rest: &Equilibrium, modes: Modes) -> Self {
-        let (scene, about) = (rest.scene().clone(), ModesReference::Rest(*rest.loading()));
-        Self(Rc::new(ModesData { of, scene, modes, about }))
+    pub fn at_rest(rest: &EquilibriumHandle, modes: Modes) -> Self {
+        let (of, scene) = (rest.scene().clone(), rest.equilibrium().scene().clone());
+        Self(Rc::new(ModesData { of, scene, modes, about: ModesReference::Rest(rest.clone()) }))
     }
 
     pub fn held(&self) -> (&Scene, &Modes) {
@@ -247,7 +245,7 @@ impl Scripted for ModesHandle {
         let mut shown = table.to_string().trim_end().to_owned();
         let ModesData { scene, about, .. } = &*self.0;
         let acts = scene.loads().next().is_some() || scene.gravity != Vec2::zeros();
-        if *about == ModesReference::Drawn && acts {
+        if matches!(about, ModesReference::Drawn) && acts {
             shown += "\nof the undeformed scene; scene.equilibrium().modes(n) includes the effect of \
                 loads and gravity, as on a pendulum";
         }
@@ -313,31 +311,32 @@ pub(super) fn undamped_modes(
 
 fn estimated_error(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let ModesData { scene, modes, about, .. } = &*call.receiver::<ModesHandle>()?.0;
+    if let ModesReference::Motion = about {
+        let message = "the errors of modes about the present configuration of a simulation are not \
+            estimated";
+        return Err(call.error(message).hint("use modes of the scene or of an equilibrium"));
+    }
     let (context, count) = (call.context(), modes.all().len());
+    let results = |modes: &Modes| {
+        let results = modes.all().iter().enumerate().map(|(number, mode)| {
+            MeshResult::scalar(format!("mode {number}"), "1/time", mode.angular_frequency())
+        });
+        results.collect::<Vec<_>>()
+    };
+    let together = Together { name: FREQUENCIES, count };
     let frequencies = |scene: Scene| {
         let goes_on = &mut || !context.is_stopped();
         let found = match about {
-            ModesReference::Motion => {
-                let message = "the errors of modes about the present configuration of a simulation \
-                    are not estimated";
-                return Err(call
-                    .error(message)
-                    .hint("use modes of the scene or of an equilibrium"));
+            ModesReference::Rest(rest) => {
+                repeated(&rest.equilibrium(), scene, context)?.modes(count, goes_on)
             }
-            ModesReference::Drawn => Modes::of(&System::assemble(&scene)?, count, goes_on),
-            ModesReference::Rest(loading) => {
-                repeated(scene, *loading, context)?.modes(count, goes_on)
-            }
+            _ => Modes::of(&System::assemble(&scene)?, count, goes_on),
         };
         context.proceed()?;
-        let found = found?;
-        let results = found.all().iter().enumerate().map(|(number, mode)| {
-            MeshResult::scalar(format!("mode {number}"), "1/time", mode.angular_frequency())
-        });
-        Ok(results.collect())
+        Ok(results(&found?))
     };
-    let together = (FREQUENCIES, count);
-    Ok(Dynamic::from(ErrorEstimate::on_meshes(scene, String::new(), together, frequencies)?))
+    let own = results(modes);
+    Ok(Dynamic::from(ErrorEstimate::on_meshes(scene, String::new(), together, own, frequencies)?))
 }
 
 pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {

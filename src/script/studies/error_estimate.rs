@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use crate::analysis::{
-    Case, CaseOutcome, DiscretisationError, ErrorVerdict, RefinementLevels, RunLimits, Trace,
-    TraceSource, TracedQuantity, is_of_the_motion, on_all_cores,
+    Case, CaseOutcome, DiscretisationError, ErrorVerdict, ExpectedOrder, RefinementLevels,
+    RunLimits, Trace, TraceSource, TracedQuantity, is_of_the_motion, on_all_cores,
 };
 use crate::geometry::larger;
 use crate::output::{
@@ -19,7 +19,7 @@ use crate::script::state::context::Context;
 use crate::simulation::{History, Simulation};
 use crate::system::Scene;
 
-use super::plan::usual_stations;
+use super::plan::stations_and_middles;
 
 /// Name of the row with the largest error of all stations.
 pub const POSITIONS: &str = "positions";
@@ -216,14 +216,14 @@ impl ErrorEstimate {
                     sizes: [1.0, 2.0, 4.0],
                     traces: time_levels.map(|run| Some(&run?.0[index])),
                     level: 0,
-                    order: Some(order),
+                    order: ExpectedOrder::Known(order),
                     scale,
                 };
                 let meshes = mesh_levels.map(|runs| RefinementLevels {
                     sizes: plan.mesh_sizes,
                     traces: runs.map(|run| Some(&run?.0[index])),
                     level: plan.level,
-                    order: None,
+                    order: ExpectedOrder::Unknown,
                     scale,
                 });
                 let (in_time, in_space) = (steps.error(), meshes.and_then(|levels| levels.error()));
@@ -307,45 +307,51 @@ impl ErrorEstimate {
             None => format!("{of} not estimated"),
             Some(error) => format!("{of} {}", scientific(error.present(), 2)),
         };
+        let parts = match self.is_of_run() {
+            false => String::new(),
+            true => {
+                let in_space = part("in space", &together.in_space);
+                format!("{}, {in_space}; ", part("in time", &together.in_time))
+            }
+        };
         format!(
-            "{} {}{}, {} ({}, {}; size {})",
+            "{} {}{}, {} ({parts}size {})",
             together.name,
             scientific(together.total().0, 2),
             self.moment,
             together.verdict(),
-            part("in time", &together.in_time),
-            part("in space", &together.in_space),
             significant(if together.name == POSITIONS { self.length } else { together.scale }, 3),
         )
     }
 
+    /// True for a run, false for a computation without time.
+    fn is_of_run(&self) -> bool {
+        self.quantities.iter().any(|quantity| quantity.in_time.is_some())
+    }
+
     /// Table of all quantities whose error is not zero.
     pub fn table(&self) -> String {
-        let heads =
-            ["quantity", "in time", "largest", "order", "in space", "largest", "order", "verdict"];
-        let is_of_run = self.quantities.iter().any(|quantity| quantity.in_time.is_some());
-        let largest = if is_of_run { ", and the largest of the run" } else { "" };
+        let heads: &[&str] = match self.is_of_run() {
+            true => &["quantity", "in time", "largest", "order", "in space", "largest", "order"],
+            false => &["quantity", "error", "order"],
+        };
+        let largest = if self.is_of_run() { ", and the largest of the run" } else { "" };
         let title = format!("estimated errors of '{}'{}{largest}", self.name, self.moment);
-        let mut table = TextTable::new(&heads).title(title);
+        let mut table = TextTable::new(&[heads, &["verdict"]].concat()).title(title);
         let is_shown = |quantity: &&QuantityError| {
             let both = [&quantity.in_time, &quantity.in_space];
             both.into_iter().flatten().any(|error| error.verdict != ErrorVerdict::Exact)
         };
         let shown: Vec<&QuantityError> = self.quantities.iter().filter(is_shown).collect();
         for quantity in shown.iter().take(MOST_ROWS) {
-            let cells = [&quantity.in_time, &quantity.in_space].into_iter().flat_map(|error| {
-                let number = |read: fn(&DiscretisationError) -> f64| {
-                    let shown = error.as_ref().map(|error| scientific(read(error), 2));
-                    shown.unwrap_or_else(|| "-".to_owned())
-                };
-                let order = error.as_ref().and_then(|error| error.order);
-                let order = order.map_or_else(|| "-".to_owned(), |order| format!("{order:.1}"));
-                [number(DiscretisationError::present), number(DiscretisationError::largest), order]
-            });
             let first = format!("{} [{}]", quantity.name, quantity.dimension);
-            let cells = cells.map(Cell::Number);
+            let in_space = error_cells(&quantity.in_space);
+            let cells = match self.is_of_run() {
+                true => [error_cells(&quantity.in_time), in_space].concat(),
+                false => vec![in_space[0].clone(), in_space[2].clone()],
+            };
             let verdict = Cell::Text(quantity.verdict());
-            table.row(std::iter::once(Cell::Text(first)).chain(cells).chain([verdict]));
+            table.row([Cell::Text(first)].into_iter().chain(cells).chain([verdict]));
         }
         let mut text = match self.quantities.is_empty() {
             true => format!("no estimated errors of '{}'", self.name),
@@ -354,7 +360,9 @@ impl ErrorEstimate {
         let exact = self.quantities.len() - shown.len();
         let left_out = shown.len().saturating_sub(MOST_ROWS);
         if exact > 0 {
-            text += &format!("\n{exact} quantities agree to rounding in all runs");
+            let agree = if exact == 1 { "quantity agrees" } else { "quantities agree" };
+            let of = if self.is_of_run() { "in all runs" } else { "on all meshes" };
+            text += &format!("\n{exact} {agree} to rounding {of}");
         }
         if left_out > 0 {
             text += &format!("\n{left_out} further quantities are in .rows");
@@ -364,6 +372,15 @@ impl ErrorEstimate {
         }
         text
     }
+}
+
+/// Cells of a table with the present error, the largest error and the observed order.
+fn error_cells(error: &Option<DiscretisationError>) -> [Cell; 3] {
+    let text = error.as_ref().map(|error| {
+        let order = error.order.map_or_else(|| "-".to_owned(), |order| format!("{order:.1}"));
+        [scientific(error.present(), 2), scientific(error.largest(), 2), order]
+    });
+    text.unwrap_or_else(|| ["-"; 3].map(str::to_owned)).map(Cell::Number)
 }
 
 /// Runs companions, in parallel if no script function is called between their steps.
@@ -434,7 +451,7 @@ fn largest_of_both(a: DiscretisationError, b: DiscretisationError) -> Discretisa
 }
 
 fn traced_quantities(simulation: &Simulation) -> Vec<TracedQuantity> {
-    let stations = usual_stations(simulation.scene()).into_iter().map(|(name, station)| {
+    let stations = stations_and_middles(simulation.scene()).into_iter().map(|(name, station)| {
         TracedQuantity { name, dimension: "length", source: TraceSource::Position(station) }
     });
     let columns = simulation.history().columns().filter(|(name, _)| is_of_the_motion(name));

@@ -1,7 +1,7 @@
 //! Estimated error of a computation without steps, from its results on other meshes.
 
 use super::error_estimate::{ErrorEstimate, Plan, QuantityError};
-use crate::analysis::{RefinementLevels, Trace};
+use crate::analysis::{ExpectedOrder, RefinementLevels, Trace};
 use crate::geometry::{Vec2, larger};
 use crate::script::messages::error::ScriptError;
 use crate::system::Scene;
@@ -22,23 +22,28 @@ impl MeshResult {
     }
 }
 
+/// Largest error of several results in one row.
+pub struct Together {
+    pub name: &'static str,
+    /// Number of results, from the first one.
+    pub count: usize,
+}
+
 impl ErrorEstimate {
-    /// Estimates the errors in space of a computation, which is repeated on two other meshes.
-    /// The first row, with the given name, has the largest error of the first `together` results.
+    /// Estimates the errors in space of a computation from its results on the mesh of the scene and on two other meshes.
     ///
     /// # Errors
-    /// Fails if the computation fails on the mesh of the scene, or a mesh cannot be scaled.
+    /// Fails if the script is stopped or a mesh cannot be scaled.
     pub fn on_meshes(
         scene: &Scene,
         moment: String,
-        (name, together): (&str, usize),
+        together: Together,
+        own: Vec<MeshResult>,
         compute: impl Fn(Scene) -> Result<Vec<MeshResult>, ScriptError>,
     ) -> Result<Self, ScriptError> {
-        let size = scene.size().unwrap_or(1.0);
         let (quantities, missing) = (Vec::new(), Vec::new());
-        let mut estimate =
-            Self { name: scene.name.clone(), moment, length: size, quantities, missing };
-        let own = compute(scene.clone())?;
+        let (name, length) = (scene.name.clone(), scene.size().unwrap_or(1.0));
+        let mut estimate = Self { name, moment, length, quantities, missing };
         let plan = Plan::of(scene)?;
         let Some(meshes) = plan.meshes else {
             estimate.missing.push("the scene has no beams".to_owned());
@@ -46,46 +51,56 @@ impl ErrorEstimate {
         };
         let mut levels = Vec::new();
         for (level, run) in meshes.into_iter().enumerate() {
+            let ratio = plan.companions[run].span_ratio;
             let found = match level == plan.level {
                 true => Ok(own.clone()),
-                false => compute(scene.with_span_ratio(plan.companions[run].span_ratio)?),
+                false => compute(scene.with_span_ratio(ratio)?),
             };
             match found {
                 Ok(found) => levels.push(found),
                 Err(ScriptError::Failure(failure)) => {
-                    estimate.missing.push(failure.message);
+                    let message = failure.message;
+                    estimate.missing.push(format!("with {ratio} times the spans: {message}"));
                     return Ok(estimate);
                 }
                 Err(error) => return Err(error),
             }
         }
-        for (index, MeshResult { name, dimension, scale, .. }) in own.into_iter().enumerate() {
-            let traces = [0, 1, 2].map(|level| {
-                let level: &Vec<MeshResult> = &levels[level];
-                level.get(index).map(|result| Trace::at_one_time(result.value))
-            });
-            let scale = if scale > 0.0 { scale } else { size };
-            let levels = RefinementLevels {
-                sizes: plan.mesh_sizes,
-                traces: traces.each_ref().map(Option::as_ref),
-                level: plan.level,
-                order: None,
-                scale,
-            };
-            let in_space = levels.error();
-            let error = QuantityError { name, dimension, scale, in_time: None, in_space };
-            estimate.quantities.push(error);
-        }
-        let worst = estimate
-            .quantities
-            .iter()
-            .take(together)
-            .max_by(|a, b| a.total().1.total_cmp(&b.total().1));
-        if let Some(worst) = worst.cloned() {
-            let scale = estimate.quantities.iter().take(together).map(|of| of.scale);
-            let scale = scale.fold(0.0, larger);
-            estimate.quantities.insert(0, QuantityError { name: name.to_owned(), scale, ..worst });
+        let degree = scene.beams.iter().map(|beam| beam.mesh.basis().degree()).max().unwrap_or(1);
+        let order = ExpectedOrder::AtMost(degree as f64 + 1.0);
+        estimate.quantities = compare(&plan, &levels, order, length);
+        let all = estimate.quantities.iter().take(together.count);
+        if let Some(worst) = all.clone().max_by(|a, b| a.total().1.total_cmp(&b.total().1)) {
+            let scale = all.map(|of| of.scale).fold(0.0, larger);
+            let worst = QuantityError { name: together.name.to_owned(), scale, ..worst.clone() };
+            estimate.quantities.insert(0, worst);
         }
         Ok(estimate)
     }
+}
+
+/// Errors of the results on the mesh of the scene, from the results on all levels.
+fn compare(
+    plan: &Plan,
+    levels: &[Vec<MeshResult>],
+    order: ExpectedOrder,
+    size: f64,
+) -> Vec<QuantityError> {
+    let own = &levels[plan.level];
+    let errors = own.iter().enumerate().map(|(index, result)| {
+        let traces: [Option<Trace>; 3] = std::array::from_fn(|level| {
+            levels[level].get(index).map(|result| Trace::at_one_time(result.value))
+        });
+        let scale = if result.scale > 0.0 { result.scale } else { size };
+        let levels = RefinementLevels {
+            sizes: plan.mesh_sizes,
+            traces: traces.each_ref().map(Option::as_ref),
+            level: plan.level,
+            order,
+            scale,
+        };
+        let (name, dimension) = (result.name.clone(), result.dimension);
+        QuantityError { name, dimension, scale, in_time: None, in_space: levels.error() }
+    });
+    errors.collect()
 }

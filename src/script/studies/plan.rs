@@ -308,6 +308,15 @@ pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).chain(bodies).collect()
 }
 
+/// Usual stations and the middles of beams, which move if both ends are fixed.
+pub fn stations_and_middles(scene: &Scene) -> Vec<(String, Station)> {
+    let middles = scene.beams.iter().enumerate().map(|(index, beam)| {
+        let middle = Station::on_beam(index, 0.5 * beam.axis.length());
+        (format!("{}.middle", beam.name), middle)
+    });
+    usual_stations(scene).into_iter().chain(middles).collect()
+}
+
 pub fn expect_same_observables(
     call: &Call,
     first: &ObservedScene,
