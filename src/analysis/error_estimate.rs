@@ -15,10 +15,10 @@ const ROUNDING: f64 = 1e-10;
 
 const ORDERS: (f64, f64) = (0.05, 12.0);
 
-/// Smallest observed order of a converging run, as a fraction of the order of the integrator.
+/// Smallest observed order of a converging run, as a fraction of the order of the integrator or mesh.
 const SHARE_OF_ORDER: f64 = 0.7;
 
-/// Smallest observed order of a converging run if the order of the discretisation is unknown, as for meshes.
+/// Smallest observed order of a converging single value.
 const LEAST_ORDER: f64 = 0.7;
 
 /// Largest difference of the observed order of a converging single value from its largest expected order.
@@ -49,7 +49,7 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 pub enum ErrorVerdict {
     Exact,
     /// The error is small, the differences of neighbouring levels are correlated, and the observed order is high enough.
-    /// The order must be at least 0.7, or at least 0.7 times the order of the method if it is known.
+    /// The order must be at least 0.7 times the expected order.
     Converged,
     /// The runs do not converge yet, so that the error estimate is only a lower bound.
     PreAsymptotic,
@@ -117,8 +117,8 @@ pub struct RefinementLevels<'a> {
 pub enum ExpectedOrder {
     /// Order of the integrator.
     Known(f64),
-    /// Unknown order of functions of time.
-    Unknown,
+    /// Order of a mesh for functions of time. It may be exceeded.
+    AtLeast(f64),
     /// Largest order of a single value.
     ///
     /// The difference of two levels can be small by chance. The observed order of a single value is then too high.
@@ -201,7 +201,7 @@ impl RefinementLevels<'_> {
     fn factor(&self, found: Convergence) -> f64 {
         let order = match self.order {
             ExpectedOrder::Known(most) | ExpectedOrder::AtMost(most) => found.order.min(most),
-            ExpectedOrder::Unknown => found.order,
+            ExpectedOrder::AtLeast(_) => found.order,
         };
         let own = power(self.sizes[self.level] / self.sizes[0], order);
         own / Convergence { order, ..found }.differences(self.sizes).near
@@ -209,8 +209,9 @@ impl RefinementLevels<'_> {
 
     fn is_converging(&self, order: f64) -> bool {
         match self.order {
-            ExpectedOrder::Known(known) => order >= SHARE_OF_ORDER * known,
-            ExpectedOrder::Unknown => order >= LEAST_ORDER,
+            ExpectedOrder::Known(known) | ExpectedOrder::AtLeast(known) => {
+                order >= SHARE_OF_ORDER * known
+            }
             ExpectedOrder::AtMost(most) => (LEAST_ORDER..=most + EXCESS).contains(&order),
         }
     }
@@ -390,9 +391,15 @@ mod tests {
                 sampled(1.0, |time| 1e-4 * size * (time.sin() + own(time)))
             });
             let traces = traces.each_ref().map(Some);
-            RefinementLevels { sizes, traces, level: 0, order: ExpectedOrder::Unknown, scale: 1.0 }
-                .error()
-                .unwrap()
+            RefinementLevels {
+                sizes,
+                traces,
+                level: 0,
+                order: ExpectedOrder::AtLeast(1.0),
+                scale: 1.0,
+            }
+            .error()
+            .unwrap()
         };
         for share in [0.0, 0.1, 0.2] {
             let error = with_own_part(share);

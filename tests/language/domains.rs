@@ -308,6 +308,10 @@ impl Reporter for Work {
         rhai::Dynamic::UNIT
     }
 
+    fn is_in_use(&self) -> bool {
+        true
+    }
+
     fn remains(&self, _numbers: usize) -> Option<(String, String)> {
         None
     }

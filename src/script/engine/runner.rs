@@ -174,7 +174,8 @@ fn estimated_errors(
         let estimate = estimate.unwrap_or_else(|reason| format!("not estimated: {reason}"));
         lines.push(format!("estimated error of '{name}': {estimate}"));
     }
-    if let Some(more) = ran.len().checked_sub(MOST_ESTIMATES).filter(|more| *more > 0) {
+    let number = ran.len() + context.released_simulations();
+    if let Some(more) = number.checked_sub(MOST_ESTIMATES).filter(|more| *more > 0) {
         lines.push(format!("estimated error: not estimated for {more} further simulations"));
     }
     lines

@@ -79,6 +79,10 @@ impl Reporter for SimulationHandle {
         Dynamic::from(self.clone())
     }
 
+    fn is_in_use(&self) -> bool {
+        self.is_shared()
+    }
+
     fn remains(&self, numbers: usize) -> Option<(String, String)> {
         let simulation = self.simulation();
         let table = (simulation.counts().steps > 0)

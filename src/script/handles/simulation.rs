@@ -91,6 +91,11 @@ impl Monitor for DryRunObserver<'_> {
 }
 
 impl SimulationHandle {
+    /// True if there is another handle to the same simulation.
+    pub fn is_shared(&self) -> bool {
+        Rc::strong_count(&self.0) > 1
+    }
+
     pub fn new(
         simulation: Simulation,
         scene: SceneHandle,

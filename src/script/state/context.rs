@@ -379,6 +379,11 @@ impl Context {
         self.0.reports.objects()
     }
 
+    /// Number of simulations that the script can no longer reach and whose results are released.
+    pub fn released_simulations(&self) -> usize {
+        self.0.reports.released()
+    }
+
     /// Writes the rescue files of the simulations after the script has failed.
     pub fn save_remains(&self) {
         let (files, note) = self.0.reports.remains(self.meter().rescue_budget());

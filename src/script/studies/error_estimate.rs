@@ -16,7 +16,7 @@ use crate::output::{
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
-use crate::simulation::{History, Simulation};
+use crate::simulation::{History, Simulation, StepSize};
 use crate::system::Scene;
 
 use super::plan::stations_and_middles;
@@ -37,7 +37,7 @@ const SPANS_TO_COARSEN: usize = 4;
 #[derive(Debug, Clone)]
 pub struct ErrorEstimate {
     pub name: String,
-    /// Time of a simulation or load factor of an equilibrium, as text after its name.
+    /// Time of a simulation, with the tolerance of adaptive steps, or load factor of an equilibrium, as text after its name.
     pub moment: String,
     /// Scale of positions [length].
     pub length: f64,
@@ -157,7 +157,11 @@ impl ErrorEstimate {
     /// Estimate without results, for the given reason.
     pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
         let name = handle.name().to_owned();
-        let moment = format!(" at t = {}", significant(handle.time(), 6));
+        let steps = match handle.simulation().settings().dt {
+            StepSize::Fixed(_) => String::new(),
+            StepSize::Adaptive(control) => format!(" ({control})"),
+        };
+        let moment = format!(" at t = {}{steps}", significant(handle.time(), 6));
         let missing = vec![reason.to_owned()];
         Self { name, moment, length: 1.0, quantities: Vec::new(), missing }
     }
@@ -207,6 +211,7 @@ impl ErrorEstimate {
             estimate.missing.push("in space: the scene has no beams".to_owned());
         }
         let order = f64::from(settings.method.entry().claims.order);
+        let mesh_order = handle.simulation().scene().mesh_order();
         let scales = Scales::of(&handle.simulation(), &quantities, &own.0);
         estimate.length = scales.length;
         for (index, quantity) in quantities.iter().enumerate() {
@@ -223,7 +228,7 @@ impl ErrorEstimate {
                     sizes: plan.mesh_sizes,
                     traces: runs.map(|run| Some(&run?.0[index])),
                     level: plan.level,
-                    order: ExpectedOrder::Unknown,
+                    order: ExpectedOrder::AtLeast(mesh_order),
                     scale,
                 });
                 let (in_time, in_space) = (steps.error(), meshes.and_then(|levels| levels.error()));

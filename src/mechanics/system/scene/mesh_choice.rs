@@ -75,7 +75,7 @@ impl BeamDefinition {
     }
 }
 
-fn concentrated(element: &Element) -> Vec<Station> {
+pub(super) fn concentrated(element: &Element) -> Vec<Station> {
     match element {
         Element::PointMass(mass) => vec![mass.station],
         Element::Spring(spring) => spring.stations().copied().collect(),

@@ -8,6 +8,7 @@ mod extent;
 mod likeness;
 mod loads;
 mod mesh_choice;
+mod mesh_order;
 mod releases;
 mod resisting;
 mod rigid_bodies;
