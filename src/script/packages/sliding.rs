@@ -49,7 +49,7 @@ pub const TABLE: BindingTable = BindingTable {
             .with_related(&["kinked", "exact", "relaxed", "slider"]),
         rule("kinked", |_| Ok(Dynamic::from(SlidingRule::Kinked)))
             .summary("Selects the conserving rule with the kink of the beam at the contact force: \
-                second order in the mesh, where conserving() is first order.")
+                second to third order in the mesh up to about 64 spans, where conserving() is first order.")
             .doc("Requires meshes of smooth splines. With energy_momentum(): keeps energy, \
                 linear momentum, angular momentum and the gap to rounding. Only first order \
                 near the ends of the beam, and where the slider reaches 0.8 of the shear wave \
