@@ -31,7 +31,6 @@ fn reads_files(attempt: &Source) -> bool {
 }
 
 /// Maximum number of files that a fingerprint covers.
-/// Of a file with more than [`MOST_READ`] bytes, only the length and the time of the last change are hashed.
 const MOST_FILES: usize = 1000;
 const MOST_READ: u64 = 1 << 20;
 

@@ -1,9 +1,11 @@
-//! Gauss quadrature for splines with the smallest number of points that determine all derivatives.
+//! Gauss quadrature for the derivatives of splines.
+//!
+//! The number of quadrature points is the smallest number at which the values of such a derivative determine it uniquely.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
-/// Quadrature points of each span of a run, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
+/// Quadrature points of each span in a sequence of smoothly joined spans, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
 /// Largest relative difference of two span lengths that count as equal.

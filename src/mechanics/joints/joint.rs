@@ -99,9 +99,9 @@ pub enum JointKind {
 /// Object to which a joint ties its station.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
-    /// Ground, at the initial position of the station.
+    /// Point of the ground at the initial position of the station of the joint.
     Ground,
-    /// Station of a beam with the same initial position.
+    /// Station of another body, with the same initial position as the station of the joint.
     Station(Station),
 }
 

@@ -56,6 +56,7 @@ pub struct PathVector {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length of the master, as a function along the path of the slave [length].
+    /// The kink length is the shear stiffness times the additional deflection per unit force that the mesh does not represent.
     pub along: FunctionOnPath,
     /// Compliance of the master in shear: inverse of its shear stiffness [1/force].
     pub compliance: f64,

@@ -1,4 +1,4 @@
-//! Sliding rule that conserves energy, linear and angular momentum and the closed gap to a kinked axis.
+//! Sliding rule that conserves energy, linear and angular momentum, and keeps the gap to a kinked axis closed.
 
 use super::dual::{ContactDuals, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, UNITS, vanish};
