@@ -11,8 +11,8 @@ pub type RunRule = Vec<Vec<(f64, f64)>>;
 /// Largest relative difference of two span lengths that count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Computes the patch rule of a run of spans, which are consecutive and joined at least C¹ (docs/theory.md, section 4).
-/// The patch rule has as many points as the basis functions have linearly independent derivatives, and integrates all derivatives exactly.
+/// Computes the patch rule of a run, a sequence of consecutive spans that are joined at least C¹ (docs/theory.md, section 4).
+/// The number of points equals the number of linearly independent derivatives of basis functions. All derivatives are integrated exactly.
 ///
 /// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).

@@ -138,7 +138,8 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate; a support for a direction parallel to an axis, `None` for a zero vector.
+    /// Roller that is free to move along a direction and free to rotate; `None` for a zero vector.
+    /// If the direction is parallel to a coordinate axis, the result is a support of the other component.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),

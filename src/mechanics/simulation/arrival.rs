@@ -16,7 +16,8 @@ pub enum ArrivalKind {
     Held,
     /// The slider was released.
     Released,
-    /// The slider passed a seam of its track, or a slider in flight passed the extension of its master beyond an end without contact.
+    /// The slider passed from one beam of its track to the next.
+    /// This is also the kind of arrival if a slider in flight passes an end of its master, beyond which it cannot land.
     Passed,
     /// The slider left the axis of its master.
     TookOff,

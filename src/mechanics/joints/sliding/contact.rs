@@ -11,7 +11,8 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; the force `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple on the master, divided by a length [force]. It balances the moment of the contact forces, so that angular momentum is conserved.
+    /// Factor `μ` of additional forces on the control points of the master [force]. The sum of these forces is zero.
+    /// Their moment balances the moment of the contact forces, so that angular momentum is conserved.
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
