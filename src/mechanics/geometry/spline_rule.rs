@@ -181,7 +181,7 @@ impl Polynomial {
     }
 }
 
-/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run exactly; `None` if they are infinite.
+/// Weights for which the quadrature points of a run integrate the derivatives of all its basis functions exactly; `None` if they are infinite.
 /// Reference: F. Auricchio et al., Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);

@@ -17,7 +17,7 @@ pub enum ArrivalKind {
     /// The slider was released.
     Released,
     /// The slider passed from one beam of its track to the next.
-    /// This is also the kind of arrival if a slider in flight passes an end of its master, beyond which it cannot land.
+    /// This kind also applies if a slider in flight crosses the extension of the axis of its master beyond an end, without contact.
     Passed,
     /// The slider left the axis of its master.
     TookOff,

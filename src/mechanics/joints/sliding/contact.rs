@@ -53,7 +53,7 @@ pub struct PathVector {
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master under the contact force, which the mesh does not represent (docs/theory.md, section 10.1).
+/// Kink of the axis of a master: jump of its tangent under the contact force. The mesh does not represent it (docs/theory.md, section 10.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length of the master, as a function along the path of the slave [length].

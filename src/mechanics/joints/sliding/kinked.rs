@@ -5,7 +5,7 @@ use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 use crate::geometry::{Dual, DualVector};
 
-/// Conserving sliding law for an axis with a kink at the slave.
+/// Conserving sliding law for an axis with a kink, a jump of its tangent, at the slave.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// The kinked law adds the energy of the kink, which the mesh does not contain.

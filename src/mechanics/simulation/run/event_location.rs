@@ -400,9 +400,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts the kinks under sliders at ends of their masters with the present contact forces.
-    /// If the previous arrival at an end was less than a step ago, the kinks start without load.
-    /// Contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
+    /// Initialises the kinks under sliders at ends of their masters. The present contact forces determine the jumps of the tangents.
+    /// If the previous arrival at an end was less than a step ago, the kinks start without load,
+    /// because contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {

@@ -65,7 +65,7 @@ impl Simulation {
 
     /// Sums the phase errors of a vibration over the rows of the history.
     ///
-    /// If dampers dissipate a fraction of the energy, the sum decreases by the same fraction.
+    /// If dampers dissipate energy, the sum decreases in proportion to this energy as a fraction of the largest kinetic energy.
     /// The result is the largest value of the sum multiplied by the ratio of the amplitude at the row to the largest amplitude.
     fn phase_sum(&self, frequency: f64) -> PhaseSum {
         let rows = self.history().samples();

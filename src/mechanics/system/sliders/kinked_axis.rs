@@ -1,4 +1,4 @@
-//! Kink of the axis of a master at its slider. The mesh of the master does not represent the kink.
+//! Kink of the axis of a master at its slider: jump of the tangent under the contact force. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 const RIGID: f64 = 1e-14;
 
 /// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
-/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. Above `FASTEST`, the kink is kept constant.
+/// Above this limit, the kink is kept constant. Near the speed of shear waves, the stiffness of a moving kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
 /// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.

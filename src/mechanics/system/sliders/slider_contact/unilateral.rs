@@ -30,7 +30,7 @@ pub enum ContactChange {
     Landing,
     /// The slider struck its master and rebounded.
     Bounce,
-    /// The slider passed the axis of its master beyond an end of the master.
+    /// The slider crossed the extension of the axis of its master beyond an end, without contact.
     Passage,
 }
 
