@@ -1,16 +1,16 @@
 //! Estimate of the discretisation error of a run from coarser runs of the same scene (Richardson 1911; order from three levels, Roache 1998).
 //!
-//! The error of a level with the mesh or step size `h` has the size `C h^p` over the run, with a constant `C` and the observed order `p`.
-//! The errors of two levels of the sizes `h < H` have the correlation `(h/H)^k` over the run.
-//! In the asymptotic range the errors are proportional functions of time, which is `k = 0`.
-//! The differences of neighbouring levels of the sizes `h₁ < h₂ < h₃` have two sizes `d₁₂`, `d₂₃` and a correlation, which determine `C`, `p` and `k`.
+//! Each refinement level is a run with the mesh or step size `h`. Its error is a function of time.
+//! The root mean square of this error over the run is `C h^p`, with a constant `C` and the observed order `p`.
+//! The errors of two levels with `h < H` have the correlation coefficient `(h/H)^k`. In the asymptotic range, the errors are proportional, and `k = 0`.
+//! Three levels `h₁ < h₂ < h₃` have two differences. Their root mean squares `d₁₂`, `d₂₃` and their correlation determine `C`, `p` and `k`.
 //! The run is converged if the order is high enough and the differences are correlated. The error is proportional to the difference of the two finest levels.
 
 use super::trace::Trace;
 use crate::elementary::{power, square};
 use crate::geometry::Vec2;
 
-/// Largest distance of two runs that is attributed to rounding, relative to the scale of a quantity.
+/// Largest distance of two runs that is attributed to rounding, as a fraction of the scale of the compared quantity.
 const ROUNDING: f64 = 1e-10;
 
 const ORDERS: (f64, f64) = (0.05, 12.0);
@@ -24,25 +24,26 @@ const LEAST_ORDER: f64 = 0.7;
 /// Largest difference of the observed order of a converging single value from its largest expected order.
 const EXCESS: f64 = 1.0;
 
-/// Smallest correlation of the differences of neighbouring levels of a converging run [-].
+/// Smallest correlation coefficient of the differences of successive refinement levels for which the runs count as converging [-].
 const LEAST_CORRELATION: f64 = 0.2;
 
 /// Largest exponent `k` of the correlation `(h/H)^k` of the errors of two levels.
 const LARGEST_DECORRELATION: f64 = 8.0;
 
-/// Accuracy of the exponents of the convergence.
+/// Absolute tolerance of the order `p` and of the exponent `k`.
 const ACCURACY: f64 = 1e-3;
 
-/// Convergence that is assumed for the lower bound of the error if the runs do not converge.
+/// Order and correlation exponent that are assumed for the lower bound of the error if the runs do not determine them.
 const FIRST_ORDER: Convergence = Convergence { order: 1.0, decorrelation: 0.0 };
 
-/// Largest error at which a run may count as converged, relative to the scale of a quantity.
+/// Largest error at which a run may count as converged, as a fraction of the scale of the compared quantity.
 const TOO_LARGE: f64 = 0.3;
 
-/// Smallest fraction of the duration in which a chaotic run must converge. If the fraction is smaller, the run counts as too coarse.
+/// Smallest fraction of the duration of a chaotic run in which the refinement levels must converge. Otherwise, the run counts as too coarse.
 const LEAST_CONVERGED_PART: f64 = 1.0 / 3.0;
 
-/// Largest growth factor of the distance of two runs, after their last convergence, for which the motion does not count as chaotic.
+/// Growth factor of the distance of two runs, after the last time at which they converge under refinement.
+/// The motion counts as chaotic if the growth factor exceeds this value.
 const GROWTH_OF_CHAOS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +126,8 @@ pub enum ExpectedOrder {
     AtMost(f64),
 }
 
-/// Exponents of the errors of levels, with the sizes `C h^p` and the correlations `(h/H)^k`.
+/// Order `p` and correlation exponent `k` of the errors of refinement levels.
+/// A level with the mesh or step size `h` has the error `C h^p`. The errors of two levels `h < H` have the correlation coefficient `(h/H)^k`.
 #[derive(Debug, Clone, Copy)]
 struct Convergence {
     /// Observed order `p`.
@@ -134,7 +136,8 @@ struct Convergence {
     decorrelation: f64,
 }
 
-/// Sizes and correlation of the differences of neighbouring levels. The difference of the two finest levels is `near`.
+/// Root mean squares and correlation coefficient of the differences of successive refinement levels.
+/// The field `near` belongs to the two finest levels, and `far` belongs to the two coarsest levels.
 #[derive(Debug, Clone, Copy)]
 struct Differences {
     near: f64,
@@ -143,7 +146,7 @@ struct Differences {
 }
 
 impl Convergence {
-    /// Differences of levels, for an error 1 of the finest level.
+    /// Computes the differences of successive levels if the error of the finest level is 1.
     fn differences(self, sizes: [f64; 3]) -> Differences {
         let errors = sizes.map(|size| power(size / sizes[0], self.order));
         let covariance = |a: usize, b: usize| {
@@ -216,7 +219,7 @@ impl RefinementLevels<'_> {
         }
     }
 
-    /// Exponents that agree with the differences of neighbouring levels; `None` if the differences do not decrease.
+    /// Order and correlation exponent, computed from the differences of successive levels; `None` if the differences do not decrease.
     fn convergence(&self, differences: Differences) -> Option<Convergence> {
         let ratio = differences.far / differences.near;
         let with = |decorrelation: f64| {
@@ -237,7 +240,8 @@ impl RefinementLevels<'_> {
         Some(found)
     }
 
-    /// Order for a ratio of the difference of the two coarsest levels to the difference of the two finest levels.
+    /// Order for which the difference of the two coarsest levels is `wanted` times the difference of the two finest levels.
+    /// The errors of the levels have the correlation exponent `decorrelation`.
     fn observed_order(&self, wanted: f64, decorrelation: f64) -> Option<f64> {
         let ratio = |order: f64| {
             let of = Convergence { order, decorrelation }.differences(self.sizes);
@@ -254,8 +258,8 @@ impl RefinementLevels<'_> {
         Some(low)
     }
 
-    /// Time until which runs that differ strongly at their end converge.
-    /// The time is `None` if the runs never converge, or if their distances do not grow after the last convergence.
+    /// Last time at which runs with very different final states still converge.
+    /// The time is `None` if the runs converge in less than a third of the duration, or if their distance hardly grows afterwards.
     fn last_convergence(&self, near: &[(f64, f64)], far: &[(f64, f64)]) -> Option<f64> {
         let end = near.last()?.0;
         let start = near.first()?.0;
@@ -404,7 +408,7 @@ mod tests {
         for share in [0.0, 0.1, 0.2] {
             let error = with_own_part(share);
             assert_eq!(error.verdict, ErrorVerdict::Converged, "{share}");
-            // Without the correlation, the last estimate would be 3.1 times the error.
+            // If the estimate assumed proportional errors (`k = 0`), it would be 3.1 times the true error for the last `share`.
             let ratio = error.largest() / (1e-4 * (1.0 + share));
             assert!((0.9..1.4).contains(&ratio), "{share}: {ratio}");
         }

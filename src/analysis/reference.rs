@@ -12,7 +12,8 @@ pub struct Deviation {
     pub distance: f64,
     /// Estimated error of the reference value, in the unit of the observable; zero if unknown.
     pub estimated_error: f64,
-    /// True if the reference is a run of this program, so that errors are only upper bounds: both runs may have the same error.
+    /// True if the reference was computed by this program. Its errors may then be partly equal to those of the compared run.
+    /// Therefore the sum of the distance and the estimated error of the reference is reported as an upper bound of the error.
     pub is_of_own_run: bool,
 }
 

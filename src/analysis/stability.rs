@@ -11,8 +11,9 @@ use crate::system::Scene;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
-    /// Largest increase of the energy, minus the work of loads, over any earlier value, as a fraction of the largest energy.
-    /// The increase is measured after the last break of a schedule; NaN if the run did not start or an energy is NaN.
+    /// Largest increase of the energy minus the work of the loads above any earlier value of this difference.
+    /// The increase is given as a fraction of the largest energy, and is measured after the last discontinuity of a schedule.
+    /// It is NaN if the run did not start or if an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,
     pub mean_iterations: f64,

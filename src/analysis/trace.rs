@@ -86,14 +86,14 @@ impl Trace {
     }
 
     /// Distances of a coarser trace from this trace at the times of the coarser trace [time, dimension of the values].
-    /// For integrals, the distance is that of the means over the steps of the coarser trace.
+    /// If the values are time integrals, the means of the integrand over the steps of the coarser trace are compared.
     pub fn distances(&self, coarser: &Self) -> Vec<(f64, f64)> {
         let differences = self.differences(coarser, coarser).into_iter();
         differences.map(|(time, difference)| (time, difference.norm())).collect()
     }
 
     /// Differences of another trace from this trace at the times of a third trace.
-    /// For integrals, means over the steps of the third trace are compared.
+    /// If the values are time integrals, the means of the integrand over the steps of the third trace are compared.
     pub fn differences(&self, other: &Self, of_times: &Self) -> Vec<(f64, Vec2)> {
         let difference = |time: f64| Some((time, other.at(time)? - self.at(time)?));
         let all: Vec<(f64, Vec2)> =

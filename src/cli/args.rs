@@ -1,4 +1,4 @@
-//! Definitions of the command line, and nothing else.
+//! Definitions of the command line arguments.
 
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ pub enum CliCommand {
     /// Writes an animated page of a saved simulation, or of the simulations of a script, and opens it in a browser.
     #[command(after_help = EXIT_CODES)]
     View(ViewOptions),
-    /// Shows help on a name or the whole reference, or writes definition files for editors.
+    /// Shows the help on one name or the whole reference, or writes definition files for editors.
     Docs(DocsOptions),
     /// Offers exercises with hints and automatic judging.
     Learn(LearnOptions),
@@ -53,7 +53,7 @@ pub enum CliCommand {
     Repl(ReplOptions),
     /// Starts the language server for editors: errors while typing, completion, help and definitions.
     ///
-    /// The editor starts it, and exchanges messages of the Language Server Protocol with it through stdin and stdout. Scripts are checked like by `withy check`.
+    /// The editor starts it, and exchanges messages of the Language Server Protocol with it through stdin and stdout. Scripts are checked as by `withy check`.
     #[command(after_help = LSP_EXIT_CODES)]
     Lsp,
 }
@@ -97,9 +97,9 @@ pub struct SessionOptions {
 /// Keys of the line editor.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum KeyBindings {
-    /// As in Emacs and most shells.
+    /// Key bindings as in Emacs and most shells.
     Emacs,
-    /// As in vi.
+    /// Key bindings as in vi.
     Vi,
 }
 
@@ -123,8 +123,8 @@ pub struct RunOptions {
     /// Writes the reports of all simulations to this JSON file, also after a failure.
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Estimates the discretisation errors of all simulations from runs with larger steps and on other meshes.
-    /// auto estimates on a terminal, after runs of less than a second.
+    /// Estimates the discretisation errors of all simulations. The estimates need additional runs with larger steps and on other meshes.
+    /// With auto, errors are estimated only if the output is a terminal and the run took less than a second.
     #[arg(long, value_enum, value_name = "WHEN", default_value_t = ErrorChoice::Auto, num_args = 0..=1, require_equals = true, default_missing_value = "always")]
     pub error: ErrorChoice,
     /// Hides the progress bar and the closing lines; printed text and errors are still shown.
@@ -141,7 +141,7 @@ pub struct RunOptions {
     pub limits: LimitOptions,
 }
 
-/// Estimation of errors after a run.
+/// Condition under which discretisation errors are estimated after a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ErrorChoice {
     /// No estimate.

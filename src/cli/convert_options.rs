@@ -1,4 +1,4 @@
-//! Definitions of `withy convert` on the command line, and nothing else.
+//! Command line arguments of `withy convert`.
 
 use std::path::PathBuf;
 

@@ -18,9 +18,9 @@ const TO_WRITE: Duration = Duration::from_secs(20);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InterruptLoss {
-    /// The results of a run. The program ends at a second Ctrl-C, or if the run does not react to the first in time.
+    /// Loss of the results of a run. The program ends at a second Ctrl-C, or if the run does not react to the first in time.
     Run,
-    /// The session with all its data. The program ends only at a second Ctrl-C, at least a second after one without effect.
+    /// Loss of a session with all its data. The program ends only if a Ctrl-C has had no effect for a second and Ctrl-C is pressed again.
     Session,
 }
 

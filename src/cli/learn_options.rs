@@ -1,4 +1,4 @@
-//! Definitions of `withy learn` on the command line, and nothing else.
+//! Command line arguments of `withy learn`.
 
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ pub struct LearnOptions {
 /// Actions of `withy learn`.
 #[derive(Subcommand)]
 pub enum LearnAction {
-    /// Lists all exercises and those passed.
+    /// Lists all exercises, and marks those that are passed.
     List,
     /// Shows the first exercise that is not passed.
     Next,

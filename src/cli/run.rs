@@ -217,7 +217,7 @@ fn exit_for_study(outcome: &RunOutcome, out: &Path) -> Exit {
 }
 
 /// Exit code of a run that computes only a part of the studies.
-/// An error after the studies is ignored, because the results of the other parts are missing there.
+/// An error of the script after its studies is ignored, because statements that need the results of the other parts must fail.
 fn exit_for_part(outcome: &RunOutcome, options: &StudyOptions) -> Exit {
     let cases = match outcome.kept_cases {
         1 => "1 finished case is".to_owned(),

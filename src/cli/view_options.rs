@@ -1,4 +1,4 @@
-//! Definitions of `withy view` on the command line, and nothing else.
+//! Command line arguments of `withy view`.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use super::limits::LimitOptions;
 /// Options of `withy view`.
 #[derive(Args)]
 pub struct ViewOptions {
-    /// Saved simulation (written by sim.save), or a script, whose variables that are simulations are shown.
+    /// Saved simulation (written by sim.save), or a script. All variables of the script that contain simulations are shown.
     pub file: PathBuf,
     /// Page; by default NAME.html beside a saved simulation, or in the output folder of a script.
     #[arg(long, short, value_name = "FILE.html")]

@@ -31,8 +31,8 @@ fn reads_files(attempt: &Source) -> bool {
 }
 
 /// Maximum number of files that a fingerprint covers.
-/// Of a file with more than [`MOST_READ`] bytes, only the length and the time of the last change are hashed.
 const MOST_FILES: usize = 1000;
+/// Size of a file above which only the length and the time of the last change are hashed, instead of the content [bytes].
 const MOST_READ: u64 = 1 << 20;
 
 fn note_files(folder: &Folder, noted: &mut Vec<u8>, count: &mut usize) {

@@ -128,7 +128,7 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The script engine has other names for the types of texts and functions than the headers of judges.
+            // The headers of judges call the types of strings and functions "text" and "function". The script engine has other names for them.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",

@@ -28,7 +28,7 @@ impl<'a> Watcher<'a> {
     }
 
     /// Returns the first exercise, in the order of the catalogue, whose file has changed.
-    /// A file that is empty or missing at one check only is not a change, because an editor may be saving it.
+    /// A file that is empty or missing in a single check does not count as changed, because an editor may be saving it.
     pub fn changed(&mut self) -> Option<&'static Exercise> {
         EXERCISES.iter().zip(&mut self.files).find_map(|(exercise, seen)| {
             let now = content(self.workbook, exercise);

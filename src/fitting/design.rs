@@ -9,7 +9,8 @@ use super::SearchRange;
 /// Length of the first step of the search, as a fraction of the size of the parameters.
 const FIRST_STEP: f64 = 0.1;
 const MET: f64 = 1e-6;
-/// Largest magnitude of an unbounded parameter in the search, as a multiple of its size, near which it counts as diverged.
+/// Bound of an unbounded parameter in the search, as a multiple of the size of the parameter.
+/// A parameter that comes near the bound counts as diverged.
 const FARTHEST: f64 = 1e15;
 pub(super) const PENALTY: f64 = 10.0;
 

@@ -39,7 +39,7 @@ impl Stencil {
     }
 }
 
-/// Derivatives of all values (rows) with respect to all parameters (columns), by differences of second order.
+/// Derivatives of all values (rows) with respect to all parameters (columns), by finite differences that are accurate to second order.
 /// All points, two per parameter, are requested in one call of `evaluate`, so that they can run in parallel.
 /// `here` contains the values at the point `x`.
 ///

@@ -52,7 +52,7 @@ impl<'a, 'e, E> CountedEvaluator<'a, 'e, E> {
         }
         self.runs += 1;
         let values = only((self.evaluate)(&[x.to_vec()])?);
-        // A failure that also occurs without derivatives does not show that derivatives are missing or wrong.
+        // Finite differences replace derivatives from now on only if the evaluation without derivatives succeeds. Otherwise, the run fails for another reason.
         if values.is_ok() && self.differences.is_none() {
             self.differences = unknown;
         }

@@ -6,7 +6,7 @@ use super::evaluator::{CountedEvaluator, EvaluatedPoint};
 use super::{Estimate, Evaluate, RELATIVE_STEP, SearchRange, Slopes};
 
 const MOST_ITERATIONS: usize = 30;
-/// Maximum number of steps between two computations of the derivatives, minus the number of parameters.
+/// Number of steps, in addition to the number of parameters, after which the derivatives are computed again.
 const MORE_STEPS: usize = 6;
 /// Largest change of a parameter at which the search counts as converged, as a fraction of the size of the parameter.
 const SETTLED: f64 = 1e-7;

@@ -24,7 +24,7 @@ pub enum RootError<E> {
     Function(E),
 }
 
-/// Root of `function` between `from` and `to`, where it must have different signs, with the error `tolerance` of the argument.
+/// Root of `function` between `from` and `to`, accurate to `tolerance` in the argument. The signs of `function` at `from` and `to` must differ.
 ///
 /// Method of R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4.
 pub fn root<E>(
@@ -50,7 +50,7 @@ pub fn root<E>(
     let (mut c, mut fc) = (a, fa);
     let (mut last, mut step) = (b - a, b - a);
     for _ in 0..MOST_CALLS {
-        // `b` is the best estimate of the root, and the function has opposite signs at `b` and `c`.
+        // Restores the invariant: `b` is the best estimate of the root, and the function has opposite signs at `b` and `c`.
         if fb.signum() == fc.signum() {
             (c, fc) = (a, fa);
             step = b - a;

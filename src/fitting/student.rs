@@ -59,7 +59,8 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
 /// Quantile of Student's distribution with `freedom` degrees of freedom. `probability` must be above one half.
 pub fn student_quantile(probability: f64, freedom: f64) -> f64 {
     let tail = 2.0 * (1.0 - probability);
-    // Bisection solves `I_x(ν/2, 1/2) = P` for `x = ν/(ν + t²)`, with the quantile `t`, `ν` degrees of freedom and both tails `P`.
+    // Bisection solves `I_x(ν/2, 1/2) = P` for `x = ν/(ν + t²)`.
+    // Here `t` is the quantile, `ν` is the number of degrees of freedom, and `P` is the probability of the two tails together.
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;

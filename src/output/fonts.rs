@@ -25,7 +25,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// Size at which `text` fits into the width `room` [pixels]. The size is at most `size` and at least 60 % of it.
 pub fn shrunk(text: &str, size: f64, room: f64) -> f64 {
     const SMALLEST: f64 = 0.6;
-    // The slight reduction of the size prevents that rounding makes a text of exactly the available width too long.
+    // The slight reduction of the size keeps a text of exactly the available width from becoming too long by rounding.
     const ROUNDING: f64 = 1.0 - 1e-9;
     let wanted = width(text, size);
     if wanted <= room { size } else { size * (ROUNDING * room / wanted).max(SMALLEST) }

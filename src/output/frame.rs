@@ -128,7 +128,7 @@ impl Frame {
             right: plot.right + 0.01,
             bottom: plot.bottom + 0.01,
         };
-        // A curve has a gap at an infinite value, which axes would move to the end of the axis.
+        // A curve has a gap at an infinite value. Without this check, `place` would move the value to the end of the axis.
         let place = |&(x, y): &Point| {
             let is_somewhere = x.is_finite() && y.is_finite();
             if is_somewhere { self.place(plot, (x, y)) } else { (f64::NAN, f64::NAN) }

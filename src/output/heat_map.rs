@@ -1,4 +1,4 @@
-//! Heat maps: cells in rows and columns, coloured by a number on a logarithmic scale, and hatched without a number.
+//! Heat maps: cells in rows and columns, coloured by a number on a logarithmic scale. Cells without a number are hatched.
 
 use super::{
     axis::power_of_ten,
@@ -133,7 +133,7 @@ impl HeatMap {
             *x += fonts::width(&text, TEXT) + GAP.0;
         };
         let shows = fonts::width(&self.scale.0, TEXT);
-        // The additional pixel prevents that rounding cuts off a letter.
+        // The additional pixel keeps rounding from cutting off a letter.
         write(canvas, &self.scale.0, &mut x, room - (self.key_width() - shows) + 1.0);
         write(canvas, &low, &mut x, f64::INFINITY);
         let steps = 22;

@@ -1,4 +1,4 @@
-//! Level maps: cells over two numeric axes, coloured by a number on a linear scale, and hatched without a number.
+//! Level maps: cells over two numeric axes, coloured by a number on a linear scale. Cells without a number are hatched.
 
 use super::{
     axis::{AxisScale, PlotAxis},
@@ -75,7 +75,7 @@ impl LevelAxis {
             AxisScale::Logarithmic => (a * b).sqrt(),
         };
         let beyond = |a: f64, end: f64| match scale {
-            // If the extrapolated boundary is infinite, the centre of the cell near the largest float is the boundary.
+            // If the extrapolated boundary exceeds the largest float, the outermost cell ends at its centre.
             AxisScale::Linear => Some(2.0 * a - end).filter(|far| far.is_finite()).unwrap_or(a),
             AxisScale::Logarithmic => a * a / end,
         };

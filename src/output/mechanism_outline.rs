@@ -1,4 +1,4 @@
-//! Outlines of rigid bodies, and symbols, in pictures of section results.
+//! Outlines of rigid bodies, and symbols of supports and joints, in pictures of section forces and strains.
 
 use super::{
     canvas::{Area, Canvas, Point},

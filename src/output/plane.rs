@@ -51,7 +51,8 @@ impl View {
         Self { centre: (x, y), needs: (width.max(0.05 * size), height.max(0.05 * size)) }
     }
 
-    /// Enlarges the box so that symbols around the points `about`, whose size is in pixels, are not cut off. Limits have precedence.
+    /// Enlarges the box so that symbols drawn at the points `about` are not cut off. The argument `pixels` is the size of the symbols.
+    /// Limits have precedence.
     pub fn with_room(
         self,
         about: impl Iterator<Item = Point> + Clone,

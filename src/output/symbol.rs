@@ -16,7 +16,7 @@ use super::{
 
 use crate::elementary::hypot;
 
-/// White space around a symbol that is not cut off [pixels].
+/// White space kept around the centre of a symbol so that the symbol is not cut off at the border of the picture [pixels].
 const ROOM: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Width of texts in a terminal [columns], by Unicode Standard Annex #11 (East Asian Width), as the sum of the characters.
+//! Width of a text in a terminal [columns]: sum of the widths of its characters (Unicode Standard Annex #11, East Asian Width).
 
 use unicode_width::UnicodeWidthChar;
 

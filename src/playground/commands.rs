@@ -21,7 +21,7 @@ const DEPTH: usize = 64;
 
 const HELP_WIDTH: usize = 72;
 
-/// Limits of a run in the browser, without memory and time: no thread can supervise memory, and the page ends long runs.
+/// Limits of a run in the browser. Memory and time are not limited, because no thread can supervise memory, and the page ends long runs.
 pub(super) fn limits() -> Limits {
     Limits { memory: None, depth: DEPTH, ..Limits::default() }
 }

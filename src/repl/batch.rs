@@ -7,7 +7,7 @@ use super::shell::{CommandOutcome, Shell};
 use crate::script::diagnose::Diagnostic;
 use crate::script::source::program::LARGEST_SCRIPT;
 
-/// Returns true if a line continues an input that could be complete, because it begins with a dot, `else` or `catch`.
+/// Returns true if a line begins with a dot, `else` or `catch`. Such a line continues the previous input, even if that could be complete.
 fn continues(line: &str) -> bool {
     let line = line.trim_start();
     let is_word = |word: &str| {

@@ -116,7 +116,7 @@ struct HelpTarget {
     place: Range<usize>,
     /// Start of the path that ends with the name, as in `sim.history` or `sections::pipe` [bytes].
     path: usize,
-    /// End of the value before the dot [bytes].
+    /// End of the value before the dot, as of `sim` in `sim.history` [bytes]; `None` if no dot precedes the name.
     owner: Option<usize>,
     is_key: bool,
 }

@@ -1,4 +1,4 @@
-//! Side effects of an input other than changes of variables, because of which it must not be evaluated repeatedly.
+//! Side effects of inputs, other than changes of variables. An input with such effects must not be evaluated repeatedly.
 
 use rhai::{Array, Dynamic, FnPtr, Map};
 

@@ -96,7 +96,7 @@ impl Session {
         self.context().set_inputs(Inputs::default());
     }
 
-    /// Discards a Ctrl-C that was pressed between evaluations, which would stop all evaluations.
+    /// Discards a Ctrl-C that was pressed between evaluations, because it would stop the next evaluation.
     pub fn clear_interrupt(&mut self) {
         self.context().interrupt_flag().store(false, Ordering::Relaxed);
     }

@@ -384,7 +384,7 @@ impl Shell {
         Ok(self.session.evaluate_preview(&format!("{name}.{call}")))
     }
 
-    /// End time of the next step of the last used simulation [time]; `None` if it has reached `end`.
+    /// End time of the next step of the last used simulation [time]; `None` if this simulation has reached `end` or has ended.
     pub fn next_stop(&self, end: f64) -> Option<f64> {
         let latest = self.latest()?;
         let simulation = latest.simulation();
@@ -393,7 +393,7 @@ impl Shell {
     }
 }
 
-/// Error of a command that needs a simulation if there is none.
+/// Error message for a command that needs a simulation, if the session has none.
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")

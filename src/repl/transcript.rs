@@ -1,4 +1,4 @@
-//! Transcript of all inputs of a session, by which the position of an error is assigned to the input with the error.
+//! Transcript of all inputs of a session. It finds the input in which an error occurred from the line number of the error.
 
 use std::sync::Arc;
 

@@ -1,11 +1,12 @@
 //! Sobol' indices: fractions of the variance of a result that are due to each parameter.
 
-/// Minimum number of Saltelli blocks or of independent points, whose inverse square root is about the uncertainty of an index.
+/// Minimum number `n` of Saltelli blocks or of independent points. The uncertainty of an index is about `1/√n`.
 const FEWEST: usize = 30;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VarianceShare {
-    /// First-order index: variance of the mean of the result over all other parameters, as a fraction of the total variance.
+    /// First-order index: the result is averaged over all other parameters, and the variance of this average over this parameter is computed.
+    /// The index is this variance as a fraction of the total variance.
     pub first: f64,
     /// Total index: mean variance of the result if only this parameter is unknown, as a fraction of the total variance.
     pub total: Option<f64>,

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf, absolute};
 
 use gen_lsp_types::Uri;
 
-/// File name of a URI. Without a file, the URI itself becomes a file name in the current folder.
+/// File name of a URI. A URI that does not refer to a file is itself used as the name of a file in the current folder.
 pub fn path(uri: &Uri) -> PathBuf {
     let of_file = uri.0.strip_prefix("file://").and_then(|rest| rest.get(rest.find('/')?..));
     let Some(name) = of_file.and_then(decoded) else { return uri.0.replace('/', "_").into() };

@@ -6,7 +6,8 @@ use super::span_stiffness::SpanStiffness;
 use super::{RotationIncrement, Section, SectionForces, SectionPlace};
 use crate::geometry::{Vec2, larger};
 
-/// Increment of a control point, rate of a control point, or force on it, with the components x, y and rotation [length, length, rad].
+/// Values of a control point for x, y and the rotation.
+/// The values are increments [length, length, rad], rates [length/time, length/time, rad/time] or forces [force, force, force·length].
 pub type Movement = [f64; 3];
 
 /// Fractions of a step, from start (0) to end (1), at which internal forces are evaluated.
@@ -28,7 +29,7 @@ pub struct ForceSummary {
     pub strain_mismatch: f64,
     /// Largest section force [force].
     pub force: f64,
-    /// Largest bending moment, or product of a section force and its quadrature weight [force·length].
+    /// Largest of all bending moments and of all products of a section force and its quadrature weight [force·length].
     pub moment: f64,
     /// Largest rotation increment `|Δω|` of a section [rad].
     pub rotation: f64,
@@ -80,7 +81,8 @@ pub trait BodyDynamics: Send + Sync {
     /// Adds `weight` times the internal forces, with the section force unknowns eliminated.
     /// Each function in `tangents` receives the tangent matrices of the spans of one part of a divided body, multiplied by `weight`.
     ///
-    /// A span in two parts is passed to the functions of both parts: last to the earlier part, first to the later part.
+    /// A span whose control points belong to two parts is passed to the functions of both parts.
+    /// It is the last span of the earlier part and the first span of the later part.
     /// The function of a part in `tangents` must use only the rows of control points of this part.
     fn add_linearised_forces(
         &mut self,

@@ -94,7 +94,8 @@ impl ForceDashpot {
         }
     }
 
-    /// Strain change in the step. A difference of two strains would have the rounding error of position derivatives close to one.
+    /// Strain change in the step, computed from the increments.
+    /// The difference of the strains at the end and at the start would be less accurate, because each strain is a small difference of numbers close to one.
     fn change(&self, by: Vec2, rotations: RotationIncrement, increment: f64) -> Vec2 {
         let mean = self.rotation.mixed(self.rotation.turned(rotations, increment), 0.5);
         let turned = perpendicular(self.gradient + by * 0.5) * rotations.tangent_scaled(increment);

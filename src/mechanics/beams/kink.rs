@@ -10,22 +10,23 @@ use crate::geometry::{
     PiecewisePolynomial, PositiveBand, PositiveFactors, Span, Vec2, lower_splines,
 };
 
-/// Largest magnitude of a negative kink length that is attributed to rounding, as a fraction of the length of the span.
+/// Largest magnitude of a negative kink length (see [`MissedKink`]) that is attributed to rounding, as a fraction of the length of the span.
 const ROUNDING: f64 = 1e-11;
 
-/// Part of the kink under a point force that the mesh does not represent.
+/// Part of the kink under a point force that the mesh does not represent. A kink is a jump of the tangent of the axis.
 #[derive(Debug, Clone)]
 pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length].
-    /// The kink length is the shear stiffness times the displacement per unit force that the mesh does not represent.
+    /// The kink length is the shear stiffness times the additional deflection per unit force that the mesh does not represent.
     pub length: PiecewisePolynomial,
-    /// Correction factor for the part of the kinetic energy of a moving kink that is missing on the mesh [-].
+    /// Factor that corrects the kinetic energy of a moving kink, because the mesh does not represent a part of this energy [-].
     pub inertia: f64,
 }
 
 /// Computes the part of the kink under a point force that the mesh does not represent (docs/theory.md, section 10.1).
 ///
-/// The result is `None` for a negative kink length, which may occur on meshes with fewer quadrature points than the patch rule.
+/// The result is `None` if the mesh is more compliant than the exact beam, so that the kink length is negative.
+/// This may occur on meshes with fewer quadrature points than the patch rule.
 ///
 /// # Errors
 /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

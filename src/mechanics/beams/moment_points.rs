@@ -1,6 +1,6 @@
 //! Quadrature points for the curvature in vector lanes. The bending moment is an independent unknown (docs/theory.md, section 11).
 //!
-//! In a stiff beam, the rounding error of a bending moment computed from increments would exceed the forces in the balance.
+//! In a stiff beam, the rounding error of a bending moment computed from increments would exceed the tolerance of the residual forces.
 
 use pulp::Simd;
 

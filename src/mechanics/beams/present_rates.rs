@@ -12,9 +12,9 @@ pub(super) struct DashpotRates<'a> {
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Squared errors of a rate in a step, multiplied by the damping coefficient [energy/time].
-/// The field `off` follows from the difference between the rate at the start of the step and the interpolated mean rates of two steps.
-/// The field `apart` follows from the difference between the mean rates of this step and the previous step.
+/// Squared errors of a rate in a step, multiplied by the damping coefficient `c` [energy/time].
+/// The first error is the difference of the rate at the start and the rate interpolated between two steps: `off = c (start − interpolated)²`.
+/// The second error is the change of the mean rate since the previous step: `apart = c (now − before)²`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -37,8 +37,8 @@ impl RateMismatch {
 /// Factor by which each step multiplies the squared errors that have been summed over all earlier steps.
 const KEPT: f64 = 0.8;
 
-/// Largest ratio of the errors `off` and `apart`, which are stored squared, for which the steps count as resolving the rate.
-/// For a vibration of angular frequency `ω`, the ratio of `off` to `apart` is below the limit if the step length `h` satisfies `ω h < 2`.
+/// Largest ratio `off / apart` (see [`RateMismatch`]) for which the steps count as resolving the rate.
+/// For a vibration of angular frequency `ω`, the ratio is below this limit if the step length `h` satisfies `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 #[derive(Debug, Clone, Default)]

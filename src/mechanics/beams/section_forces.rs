@@ -1,8 +1,11 @@
 //! Section forces at any position along a beam (docs/theory.md, section 13.4).
 //!
 //! Near the ends of a beam, the forces at quadrature points have an error of first order.
-//! Section forces are therefore weighted sums over the quadrature points, which satisfy the balance with exact integrals.
-//! A run is a sequence of smoothly joined spans. Two runs meet at a joint or node, where each run has its own section force.
+//! Section forces at other positions are therefore weighted sums of the forces at the quadrature points.
+//! The weights make integrals of the section forces equal to those of the quadrature, which balance loads and inertia.
+//!
+//! The spans between two joints or nodes of the beam are smoothly joined. In this file, a run is such a sequence of smoothly joined spans.
+//! At a joint or node, each of the two adjoining runs has its own section force.
 
 use super::sections::{Interpolation, Sections};
 use super::span_points::{SpanGroup, group_of};

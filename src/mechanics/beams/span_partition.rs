@@ -101,7 +101,8 @@ impl SpanPartition {
 
     /// Adds contributions of spans to control points. The parts of the beam are processed concurrently.
     ///
-    /// The callback `work` receives a value of `own`, some spans, the index of their first control point, and the sums at these points.
+    /// The callback `work` is called for groups of consecutive spans. It receives four arguments: the element of `own` for its part,
+    /// the spans, the index of their first control point, and the sums at their control points.
     /// For spans across a cut, `work` is called twice and must compute the same values both times.
     pub(super) fn sum<const N: usize, S: Sections, C: Send>(
         &self,

@@ -29,7 +29,7 @@ pub struct SpanStiffness {
     pub kinds: Vec<StrainKind>,
     /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`. The product `p qᵀ` has the unit of a stiffness.
     pub twists: Vec<f64>,
-    /// Largest relative rounding error of the section force in each pair of rows [-].
+    /// Bound of the relative rounding error of the section force that multiplies each pair of rows in `twists` [-].
     pub rounding_fractions: Vec<f64>,
 }
 

@@ -3,7 +3,8 @@
 use super::{BeamError, Mesh, Section, SectionVariation};
 use crate::geometry::{GaussRule, larger};
 
-/// Number of Gauss points between consecutive positions or knots, for accurate reference integrals.
+/// Number of Gauss points between successive knots of the mesh, or between successive positions at which a taper is given.
+/// These points serve for reference integrals.
 const POINTS: usize = 8;
 
 /// Relative errors of integrals along a beam that are computed by the quadrature of its mesh [-].

@@ -3,7 +3,8 @@
 use super::spline_rule::{lower_count, lower_splines};
 use super::{Basis, BasisValues, GaussRule, GeometryError, Span};
 
-/// Function space spanned by the derivatives of the basis functions of a run of spans, with the matrix of their scalar products.
+/// Function space spanned by the derivatives of the basis functions of a run, with the matrix of their scalar products.
+/// A run is a sequence of smoothly joined spans.
 ///
 /// For smooth functions, the projection error decreases as the span length to the power of the degree, up to the ends of the run.
 #[derive(Debug, Clone)]
@@ -75,7 +76,7 @@ impl LowerSplines {
         values
     }
 
-    /// Reproducing kernel of the space at the parameter `xi` on a span of the run.
+    /// Reproducing kernel of this function space at the parameter `xi` on the span `span`.
     pub fn at(&self, span: &Span, xi: f64) -> Result<Reproduction<'_>, GeometryError> {
         let mut here = vec![0.0; self.count];
         let values = self.basis.evaluate_in(span, xi);

@@ -1,16 +1,18 @@
-//! Gauss quadrature for splines with the smallest number of points that determine all derivatives.
+//! Gauss quadrature for the derivatives of splines.
+//!
+//! The number of quadrature points is the smallest number at which the values of such a derivative determine it uniquely.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};
 
-/// Quadrature points of each span of a run, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
+/// Quadrature points of each span in a sequence of smoothly joined spans, with their weights: `∫ f dξ ≈ Σ weight · f(point)`.
 pub type RunRule = Vec<Vec<(f64, f64)>>;
 
 /// Largest relative difference of two span lengths that count as equal.
 const EQUAL: f64 = 1e-9;
 
-/// Computes the patch rule of a run of spans, which are consecutive and joined at least C¹ (docs/theory.md, section 4).
-/// The patch rule has as many points as the basis functions have linearly independent derivatives, and integrates all derivatives exactly.
+/// Computes the patch rule of a run, a sequence of consecutive spans that are joined at least C¹ (docs/theory.md, section 4).
+/// The number of points equals the number of linearly independent derivatives of basis functions. All derivatives are integrated exactly.
 ///
 /// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
@@ -179,7 +181,7 @@ impl Polynomial {
     }
 }
 
-/// Weights for which the quadrature points integrate the derivatives of all basis functions of a run exactly; `None` if they are infinite.
+/// Weights for which the quadrature points of a run integrate the derivatives of all its basis functions exactly; `None` if they are infinite.
 /// Reference: F. Auricchio et al., Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);

@@ -7,7 +7,8 @@ use crate::newton::ResidualPart;
 /// Stage of a step: a time within the step at which forces are evaluated. Increments are relative to the start of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Start of the step. A load has the start value of a linear function of time with the mean and the change of the load in the step.
+    /// Start of the step. In each step, a load is replaced by the linear function of time with the same mean and the same change.
+    /// At this stage, the load has the value of this function at the start of the step.
     Start,
     /// Middle of the step: mean configuration, averaged section forces, mean loads.
     ///
@@ -18,7 +19,8 @@ pub enum Stage {
     /// The later strain is the mean strain plus `χ/2` times the change of the strain in the step.
     /// The value of the variant `DampedMidpoint` is the dissipation parameter `χ` [-].
     DampedMidpoint(f64),
-    /// End of the step. The load has the value of the linear function of [`Start`](Self::Start) at the end of the step.
+    /// End of the step. Each load is replaced by the same linear function of time as at the stage [`Start`](Self::Start).
+    /// At this stage, the load has the value of this function at the end of the step.
     End,
 }
 

@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_decaying_rule_has_the_phase_of_its_amplification_matrix() {
-        // The method is applied to the start values q0 = 1, v0 = 0 and q0 = 0, v0 = 1 of the vibration.
+        // The test applies the energy-decaying method to the start values q0 = 1, v0 = 0 and q0 = 0, v0 = 1 of the vibration.
         // One step satisfies q1 - q0 = v̄ and v1 - v0 = -ω² (q̄ + ½ χ (q1 - q0)) with the means q̄ and v̄.
         for [chi, angle] in [[0.1, 0.3], [1.0, 0.5], [0.5, 2.0_f64]] {
             let square = angle * angle;

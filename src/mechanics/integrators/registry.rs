@@ -42,7 +42,7 @@ pub enum EnergyClaim {
     Unclaimed,
 }
 
-/// Conservation properties of a method for nonlinear problems, where exchange with loads and supports is taken into account.
+/// Conservation properties of a method for nonlinear problems. Energy and momentum supplied by loads and supports are subtracted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Claims {
     /// Order of convergence in time.

@@ -99,9 +99,9 @@ pub enum JointKind {
 /// Object to which a joint ties its station.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Partner {
-    /// Ground, at the initial position of the station.
+    /// Point of the ground at the initial position of the station of the joint.
     Ground,
-    /// Station of a beam with the same initial position.
+    /// Station of another body, with the same initial position as the station of the joint.
     Station(Station),
 }
 
@@ -138,7 +138,8 @@ impl MotionLine {
 }
 
 impl JointKind {
-    /// Roller that is free along a direction and free to rotate; a support for a direction parallel to an axis, `None` for a zero vector.
+    /// Roller that is free to move along a direction and free to rotate; `None` for a zero vector.
+    /// If the direction is parallel to a coordinate axis, the result is a support of the other component.
     pub fn roller(along: Vec2) -> Option<Self> {
         Some(match MotionLine::along(along)? {
             MotionLine::Horizontal => Self::Support(Components::Y),

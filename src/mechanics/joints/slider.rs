@@ -54,7 +54,7 @@ impl Slider {
         }
     }
 
-    /// Returns true if the slider loses energy at its ends, by friction or when it lands on its master.
+    /// Returns true if the slider may lose energy at the ends of its master, by friction, or when it lands on its master.
     pub fn dissipates(&self) -> bool {
         self.restitution < 1.0 || self.has_friction() || self.side.is_some()
     }

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Upper limit of the squared size of a constraint row, as a multiple of the second largest squared scaled entry of the row [-].
-/// At the limit `LARGEST_RATIO`, the elimination loses at most half of the digits, which corrections with the same factors recover.
+/// Limit of the squared size of a constraint row (see `weigh_rows`), as a multiple of the second largest squared scaled entry of the row [-].
+/// With this limit, the elimination loses at most half of the digits, which corrections with the same factors recover.
 const LARGEST_RATIO: f64 = 1e8;
 
 /// Rows of a banded matrix, and data for the elimination.
@@ -108,9 +108,10 @@ impl Storage {
         }
     }
 
-    /// Sets the squared sizes of the rows to their diagonal entries, as if rows and columns were scaled to a unit diagonal.
+    /// Computes the squared sizes of the rows, by which the pivot search divides squared entries.
+    /// If rows and columns are scaled to a unit diagonal, the squared size of a row is its diagonal entry.
     /// The row of a constraint has no diagonal entry. Its size is its largest scaled entry, limited by [`LARGEST_RATIO`].
-    /// Without the limit `LARGEST_RATIO`, a column with a negligible diagonal entry would use this inaccurate entry as pivot.
+    /// Without this limit, a negligible and therefore inaccurate diagonal entry could become a pivot.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());
         let Self { size, reach, rows, sizes, .. } = self;

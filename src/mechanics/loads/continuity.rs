@@ -9,19 +9,20 @@ use crate::elementary::{rounded_to, whole_power};
 /// Smallest significant difference of two values, as a multiple of the rounding error of the values.
 const ROUNDINGS: f64 = 1e3;
 
-/// Exponents `i` of the two sampling times `8⁻ⁱ` just after the start [time].
+/// Exponents `i` of two sampling times `8⁻ⁱ` just after the start [time]. The second sampling time is an eighth of the first.
 const CLOSE: [i32; 2] = [12, 13];
 
-/// Smallest ratio of the change up to the nearer sampling time to the change up to the farther one that counts as a jump.
-/// The ratio of the changes up to the two sampling times is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
+/// Limit for a jump of a function `f` at the start: `f` jumps if `|f(t₂) − f(0)| / |f(t₁) − f(0)|` exceeds this value.
+/// The sampling times are `t₁ = 8⁻¹²` and `t₂ = 8⁻¹³`. The ratio is 1 for a jump, 0.35 for `√t`, and 0.125 for smooth functions.
 const LEFT_OF_A_JUMP_AT_START: f64 = 0.7;
 const LEFT_OF_A_POWER_AT_START: f64 = 0.16;
 
-/// Number of bisections before the first of two differences is recorded, and between the two records.
+/// Number of successive bisections of the interval with the largest difference. There are two series of bisections.
+/// After each series, the difference of the values at the ends of the interval is compared.
 const HALVINGS: usize = 15;
 
-/// Smallest ratio of the difference after the second bisections to the difference after the first bisections that counts as a jump.
-/// The ratio of the differences after the bisections is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
+/// Limit for a jump within a step: ratio of the difference after the second series of bisections to the difference after the first series.
+/// A larger ratio indicates a jump. The ratio is 1 for a jump, at most 6e-3 for `√t`, and 3e-5 for smooth functions.
 const LEFT_OF_A_JUMP: f64 = 0.5;
 
 const JUMP_RATIO: f64 = 1.05;

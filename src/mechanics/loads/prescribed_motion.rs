@@ -57,7 +57,7 @@ const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 2
 /// Largest jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
-/// Factor by which the rounding error of the values of a motion is multiplied in the bound of the rounding error of its rate.
+/// Bound of the rounding error of a rate, as a multiple of the rounding error of the values from which the rate is computed.
 const ROUNDINGS: f64 = 1e3;
 
 /// Ratio of consecutive time spans in the computation of initial derivatives. The first time span is one unit of time.

@@ -17,10 +17,11 @@ const MOST_CORRECTIONS: i32 = 5;
 const MOST_SHARED_CORRECTIONS: usize = 12;
 
 /// Residual norm at which a solution with the factorised tangent of similar equations is accepted [-].
-/// A perturbation of a parameter changes the residual norm by about 1e-5, far more than the limit `FOLLOWED`.
+/// The similar equations have other parameters, which changes the residual norm by about 1e-5. The limit must be far below this change.
 const FOLLOWED: f64 = 1e-14;
 
-/// Largest ratio of two successive residual norms at which corrections still reduce the residual [-]. Rounding causes larger ratios.
+/// Limit of the ratio of two successive residual norms [-]. If the ratio exceeds this value, the residual consists of rounding errors.
+/// Further corrections then have no effect.
 const STANDSTILL: f64 = 0.1;
 
 /// Convergence tolerances and iteration limit of Newton's method.

@@ -15,8 +15,8 @@ const SMALLEST: f64 = 1e-6;
 /// Default largest step, as a multiple of the first step. It limits the steps of a scene without motion.
 const LARGEST: f64 = 1e6;
 
-/// Longest part of a step in which functions of time of loads are sampled as one, as a multiple of the first step.
-/// Thus long steps, as in a scene at rest, do not miss a short pulse.
+/// Longest interval in which a load schedule is sampled with one set of points, as a multiple of the first step.
+/// A longer step is divided into such intervals. Otherwise, a long step, as in a scene at rest, could miss a short pulse.
 const SAMPLED_PART: f64 = 8.0;
 
 /// Smallest step, as a multiple of the rounding error of the present time.

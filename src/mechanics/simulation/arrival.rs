@@ -16,7 +16,8 @@ pub enum ArrivalKind {
     Held,
     /// The slider was released.
     Released,
-    /// The slider passed a seam of its track, or a slider in flight passed the extension of its master beyond an end without contact.
+    /// The slider passed from one beam of its track to the next.
+    /// This kind also applies if a slider in flight crosses the extension of the axis of its master beyond an end, without contact.
     Passed,
     /// The slider left the axis of its master.
     TookOff,

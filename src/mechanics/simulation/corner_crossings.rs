@@ -3,10 +3,11 @@
 use crate::geometry::larger;
 use crate::system::{Along, Branch, System};
 
-/// Branches on which springs with sharp corners in their laws are at the start, in the middle and at the end of a step.
+/// Linear segments of the laws of springs with sharp corners, at the start, in the middle and at the end of a step.
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its branch in a step, the rate difference after whole and half steps, times the duration, is added to the error.
+/// If a spring changes its segment in a step, the error estimate is increased. The increase is the step length times the difference
+/// of the velocities after the whole step and after the two half steps.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

@@ -10,7 +10,7 @@ use crate::system::{Placement, System, SystemState};
 
 /// Takes two half steps and compares their result with the result of a whole step, which is discarded.
 ///
-/// For a method of order `p`, the error of the half steps is the difference of the two results times `1/(2^p - 1)` (Richardson).
+/// For a method of order `p`, the error after the half steps is estimated as `1/(2^p - 1)` times their difference from the whole step (Richardson).
 /// The result of the half steps is not extrapolated. Extrapolation would be more accurate, but would lose the conservation properties of the method.
 #[derive(Default)]
 pub(super) struct StepDoubling {

@@ -17,12 +17,12 @@ pub struct Sample {
     pub newton_iterations: usize,
     /// Number of failed attempts at the step.
     pub retries: usize,
-    /// Energy that dampers returned in the backward substep [energy]. The returned energy is not stored in files.
+    /// Energy that dampers returned in the backward substep of the fourth-order method [energy]. This energy is not stored in files.
     #[serde(skip)]
     pub returned: f64,
 }
 
-/// Quantity that is constant if the exchange with loads and supports is included.
+/// Quantity that is constant if the energy, momentum or angular momentum supplied by loads and supports is subtracted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
     /// Energy `E` of the scene minus the work `W` of the loads plus the dissipated energy `D` [energy].
@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Properties of a scene that determine lower bounds of the scales by which drifts of invariants are divided.
+/// Properties of a scene from which the smallest reference values of energy and momenta are computed. Drifts are given as fractions of them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].

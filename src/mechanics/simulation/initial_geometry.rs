@@ -24,7 +24,7 @@ impl InitialGeometry {
         Ok(self.outlines.get_or_init(|| outlines))
     }
 
-    /// Lowest period of vibration in the initial configuration [time]; `None` without vibration.
+    /// Period of the lowest natural mode in the initial configuration [time]; `None` without vibration.
     pub(super) fn lowest_period(&self, find: impl FnOnce() -> Option<f64>) -> Option<f64> {
         *self.lowest_period.get_or_init(find)
     }

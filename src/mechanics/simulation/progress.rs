@@ -40,7 +40,7 @@ pub(super) struct StepTaken {
     pub(super) dt: f64,
     pub(super) newton_iterations: usize,
     pub(super) retries: usize,
-    /// Energy that dampers returned in the backward substep of the last step [energy].
+    /// Energy that dampers returned in the last step, in the backward substep of the fourth-order method [energy].
     pub(super) returned: f64,
 }
 

@@ -7,7 +7,8 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed difference between the two results of the second half step, as a multiple of the length scale times a power of the tolerance.
+/// Allowed difference of the second half step, computed with controller values sampled at the start and in the middle of the step.
+/// The difference is given as a multiple of the length scale times a power of the tolerance.
 /// The multiple 4 makes the accumulated sampling error about half the tolerance (docs/theory.md, section 13.1).
 const SHARE: f64 = 4.0;
 
@@ -15,9 +16,9 @@ const SHARE: f64 = 4.0;
 ///
 /// The error of the integration method is the difference between a whole step and two half steps with the same controller values.
 /// The second half step is repeated with controller values that are sampled in the middle of the step.
-/// The difference between the two results of the second half step is the error due to sampling.
+/// The error due to sampling is the difference between the original and the repeated second half step.
 pub(super) struct Resampling {
-    /// Exponent of the step size to which the difference between the two results of a half step is proportional [-].
+    /// Order in the step length of the difference between the original and the repeated second half step [-].
     order: i32,
     allowed: f64,
     length: f64,

@@ -60,7 +60,7 @@ impl TimeSeries {
         pairs.map(|(times, values)| (times[1] - times[0], values[0], values[1]))
     }
 
-    /// Time derivative at every row, of second order also for uneven spacing.
+    /// First derivative with respect to time at every row, accurate to second order also for uneven spacing.
     /// The derivative at a row is the slope of the parabola through the row and its neighbours.
     /// In the first and the last row, the derivative is a one-sided difference quotient.
     /// A jump consists of two rows of equal time. Each row of a jump uses the difference quotient on its side of the jump.

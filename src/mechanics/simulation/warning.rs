@@ -52,7 +52,7 @@ pub enum Warning {
         unresolved_fraction: f64,
         /// Mean period of the motion, weighted by accelerations [time].
         period: f64,
-        /// Lowest period of the initial configuration [time]; `None` if unknown.
+        /// Period of the lowest natural mode of the initial configuration [time]; `None` if unknown.
         lowest: Option<f64>,
         /// Possible causes other than vibration.
         causes: Vec<RateChangeCause>,
@@ -113,7 +113,7 @@ pub enum Warning {
         method: Option<&'static str>,
         /// Time in which the scene moves by its own length [time].
         travel_time: f64,
-        /// Ratio of the step size that resolves the motion of the whole scene to the mean step size [-].
+        /// Factor by which the mean step is shorter than a step that resolves the motion of the whole scene [-].
         times: f64,
     },
     /// Large rotation of sections in a step.
@@ -162,22 +162,22 @@ pub enum Warning {
         /// Name and stiffness of the stiffest spring; `None` without springs.
         stiffest: Option<(String, f64)>,
     },
-    /// Step in which dampers returned more energy in the backward substep than they dissipated in the whole step.
+    /// Step of the fourth-order method in whose backward substep dampers returned more energy than they dissipated in the whole step.
     EnergyGain {
         /// Time at the end of the step [time].
         time: f64,
         /// Length of the step [time].
         dt: f64,
-        /// Energy returned in the backward substep [energy].
+        /// Energy returned in the backward substep of the fourth-order method [energy].
         returned: f64,
         /// Energy dissipated in the whole step [energy]; negative if dampers added energy.
         dissipated: f64,
     },
-    /// Prescribed motion with a kink within a step.
+    /// Prescribed motion whose rate jumps within a step.
     Bend {
         /// Name of the drive.
         drive: String,
-        /// Time of the step with the kink, and the rates before and after the kink.
+        /// Time of the step with the jump of the rate, and the rates before and after the jump.
         curvature: MotionCurvature,
     },
     /// Script function of time that changes too fast for the step size.

@@ -8,7 +8,7 @@ use crate::system::{StaticForces, System, UnknownKind};
 
 pub(super) struct Balance<'a> {
     pub(super) model: &'a mut System,
-    /// Length by which moments are divided for the scale of forces, if the loads consist of moments only [length].
+    /// Length by which moments are divided for comparison with forces. It determines the force scale if all loads are moments [length].
     pub(super) length: f64,
     pub(super) goes_on: &'a mut dyn FnMut() -> bool,
 }
@@ -81,7 +81,8 @@ impl Equations for UnderLoad<'_> {
 pub(super) struct AlongPath<'a, 'b> {
     pub(super) balance: &'a mut Balance<'b>,
     pub(super) normal: &'a [f64],
-    /// Distance of the plane from the last equilibrium, in the norm of displacements and rotations.
+    /// Distance from the last equilibrium to the plane on which the next equilibrium is sought, in the norm of displacements and rotations.
+    /// The vector `normal` is perpendicular to this plane.
     pub(super) distance: f64,
     pub(super) forces: &'a mut [f64],
 }

@@ -33,7 +33,8 @@ const ENDLESS_MOVEMENT: f64 = 30.0;
 const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
-    /// Finds an equilibrium under a fraction of the loads, which the unloaded scene approaches under viscous damping.
+    /// Finds an equilibrium under a fraction of the loads by dynamic relaxation.
+    /// The scene starts without load and approaches the equilibrium under viscous damping.
     /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     pub(super) fn find_equilibrium(

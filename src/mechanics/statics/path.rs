@@ -62,7 +62,8 @@ impl EquilibriumPath {
 }
 
 pub(super) struct LoadTurningPoint {
-    /// Distance of the extremum from the first equilibrium, in the norm of displacements and rotations.
+    /// Distance from the first of three equilibria to the extremum of the parabola through their load factors,
+    /// in the norm of displacements and rotations.
     pub(super) distance: f64,
     pub(super) load_factor: f64,
 }

@@ -110,7 +110,7 @@ impl System {
         &self.bodies
     }
 
-    /// Sets the longest part of a step in which functions of time of loads are sampled as one [time].
+    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. Longer steps are divided.
     pub(crate) fn sample_loads_in_parts(&mut self, longest: f64) {
         self.elements.sample_in_parts(longest);
     }
@@ -144,12 +144,12 @@ impl System {
         self.motion.time
     }
 
-    /// Energy that dampers returned in the last step [energy]. The returned energy is zero for methods without backward substeps.
+    /// Energy that dampers returned in the last step [energy]. It is zero for methods without substeps backwards in time.
     pub fn returned(&self) -> f64 {
         self.step.returned
     }
 
-    /// Data from which warnings determine whether the steps so far resolve the motion.
+    /// Measures of the temporal resolution in the steps so far. They are used for warnings about too large steps.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }
@@ -204,7 +204,7 @@ impl System {
     }
 
     /// Returns true if the present velocity of a slider at a limit points beyond the limit.
-    /// The velocity of a slider that has just left a stop is zero within rounding, so the sign of the velocity has no meaning.
+    /// The function returns false for a slider that has just left a stop, because its velocity is zero within rounding and has no definite sign.
     pub(crate) fn leads_beyond(&self, limit: MasterLimit) -> bool {
         let slider = &self.sliders[limit.slider];
         let rate = slider.rate(&self.bodies, &self.motion.rates);

@@ -1,7 +1,7 @@
-//! Stiffness of a configuration in factored form: derivatives of strains with respect to displacements, and stiffnesses of the strains.
+//! Stiffness matrix of a configuration in factored form: derivatives of strains with respect to displacements, and section stiffnesses.
 //!
-//! Section forces are unknowns in addition to the displacements. The stiffness multiplies only strain residuals.
-//! With section forces as unknowns, the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
+//! Section forces are unknowns in addition to the displacements. Section stiffnesses multiply only the residuals of the strains.
+//! Therefore the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -15,7 +15,7 @@ pub(super) type FourVectors = [f64; STRIP_WIDTH];
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
     unknowns: Vec<u32>,
-    /// Rows of strains of each span, followed by its pairs of rows `p` and `q` of the geometric stiffness.
+    /// Rows of strains of each span, followed by the pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
     rounding_fractions: Vec<f64>,

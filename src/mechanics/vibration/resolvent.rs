@@ -1,7 +1,8 @@
-//! Damped vibrations with a shift: eigenvalues of the quadratic problem near the shift (docs/theory.md, section 15).
+//! Eigenvalues of the quadratic eigenvalue problem of damped vibrations near a given shift (docs/theory.md, section 15).
 //!
-//! For a positive shift, the shifted inverse is bounded for damping of any strength (Lumer & Phillips 1961).
-//! One-sided rotations decompose the damping into dashpots along orthogonal directions. An infinitely strong dashpot fixes its direction.
+//! For a positive shift, the inverse of the shifted problem is bounded for damping of any strength (Lumer & Phillips 1961).
+//! One-sided Jacobi rotations decompose the damping matrix into dashpots along orthogonal directions.
+//! An infinitely strong dashpot permits no motion along its direction.
 //! Each reported eigenvalue is corrected by inverse iteration with the Rayleigh quotient of the quadratic problem.
 //! The forces of strong dashpots are unknowns of the iteration (Tisseur & Meerbergen 2001, sections 2 and 3.4).
 

@@ -20,7 +20,8 @@ const LETTER_SPACING: usize = 16;
 impl LineChart {
     /// Text of the chart for a terminal, at most as wide and as high as `style` allows.
     ///
-    /// Without colours, letters distinguish several curves: on the curves in Braille, instead of the dots in ASCII.
+    /// Without colours, several curves are distinguished by letters. Braille curves carry letters at intervals.
+    /// ASCII curves are drawn with letters instead of dots.
     pub fn text(&self, style: &TerminalStyle) -> String {
         let layout = Layout::new(self, style);
         let mut sheet = CharacterGrid::new(style);
@@ -187,7 +188,7 @@ impl Layout {
         let mut dots = Dots::new(self.columns, self.rows);
         let (right, bottom) = dots.last();
         for index in series {
-            // A curve has a gap at an infinite value, which axes would move to the end of the axis.
+            // A curve has a gap at an infinite value. Without this check, `place` would move the value to the end of the axis.
             let seen = |&(a, b): &(f64, f64)| match a.is_finite() && b.is_finite() {
                 true => (x.place(a) * right, (1.0 - y.place(b)) * bottom),
                 false => (f64::NAN, f64::NAN),

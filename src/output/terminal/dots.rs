@@ -1,4 +1,4 @@
-//! Raster of dots for curves in a terminal, two by four in each character, which makes them about square.
+//! Raster of dots for curves in a terminal. Each character has two by four dots, so that the spacing of dots is about equal in both directions.
 
 use super::Glyphs;
 use super::character_grid::TerminalColour;

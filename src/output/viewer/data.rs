@@ -43,8 +43,9 @@ pub struct BodyShape {
     pub points: Vec<(String, PointCombination)>,
     /// Outline of the body, closed if it ends at its start, otherwise a line; empty for a body without points.
     pub outline: Vec<PointCombination>,
-    /// Corners of the polygon of the body, if it has one, relative to the line `outline` from the centre to a point of the body.
-    /// The coordinates of a corner are along the line and to its left, in units of its length. The last corner repeats the first.
+    /// Corners of the polygon of the body, if it has one. The last corner repeats the first.
+    /// The coordinates of a corner are its components along the line `outline`, from the centre to a point of the body, and to the left of this line.
+    /// Both components are divided by the length of the line.
     pub corners: Vec<(f64, f64)>,
 }
 

@@ -2,7 +2,8 @@
 
 const MOST_ROWS: usize = 3000;
 
-/// Indices of the rows that are kept: of many rows, those with the extreme values of every column in each piece of the history.
+/// Indices of the rows that are kept. A short history is kept completely.
+/// A long history is divided into pieces. Of each piece, the first row and the rows with the smallest and largest value of every column are kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -87,7 +87,7 @@ pub struct CallHint {
     pub label: String,
     /// Parameter at the cursor, as a part of the label [bytes].
     pub current: Option<Range<usize>>,
-    /// Description of this parameter; may be empty.
+    /// Description of the parameter at the cursor; may be empty.
     pub about: String,
 }
 

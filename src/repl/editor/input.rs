@@ -67,7 +67,7 @@ impl<'t> Input<'t> {
         self.tokens.len() - usize::from(!self.name().1.is_empty())
     }
 
-    /// Brackets that are open at the cursor, from the outside to the inside; of many brackets, only the innermost.
+    /// Brackets that are open at the cursor, from the outside to the inside. If there are more than `MOST_LEVELS`, only the innermost are returned.
     pub fn levels(&self) -> Vec<OpenBracket<'t>> {
         let first = self.open.len().saturating_sub(MOST_LEVELS);
         self.open[first..].iter().map(|opener| self.level(*opener)).collect()

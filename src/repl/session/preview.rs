@@ -1,4 +1,4 @@
-//! Evaluation of an expression, once or repeatedly, whose changes of variables are undone.
+//! Evaluation of an expression, once or repeatedly. Its changes of variables are undone afterwards.
 
 use rhai::{AST, Dynamic};
 

@@ -73,7 +73,7 @@ mod terminal {
 
 #[cfg(not(unix))]
 mod terminal {
-    //! On systems other than Unix, keys are events that are not lost between prompts, so that the mode is not changed.
+    //! On systems other than Unix, the terminal delivers keys as events, which are not lost between prompts. Therefore the mode is not changed.
 
     pub fn set_raw_mode() {}
 

@@ -9,7 +9,7 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns once about each branch of a function on an expression with its argument and a variable that depends on a parameter.
+/// Warns once about each branch whose condition contains the argument of the function and a variable that depends on a parameter.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

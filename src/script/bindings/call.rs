@@ -107,7 +107,8 @@ impl<'c, 'r> Call<'c, 'r> {
         body_of(self.native, function)
     }
 
-    /// Script function with this name and number of parameters, including captured variables, whose values are missing.
+    /// Script function with this name and number of parameters. Captured variables count as parameters.
+    /// The returned pointer does not contain the values of captured variables.
     pub fn function_named(&self, name: &str, parameters: usize) -> Option<FnPtr> {
         let libraries = &self.native.global_runtime_state().lib;
         let found = libraries.iter().find_map(|of| of.get_script_fn(name, parameters).cloned());

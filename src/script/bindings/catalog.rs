@@ -1,4 +1,4 @@
-//! Catalog of the script language, in which messages, help and completion search names.
+//! Catalog of the script language. Messages, help and completion look up names in it.
 
 use super::built_in::{BuiltIn, BuiltInTable, FunctionForm};
 use super::builtins;

@@ -1,4 +1,4 @@
-//! Option maps with alternative sets of keys, such as a section by stiffness and inertia, or by a material and a shape.
+//! Option maps with alternative sets of keys. For example, a section is given either by stiffness and inertia, or by a material and a shape.
 
 use super::options::Options;
 use crate::script::messages::error::{CallPart, ScriptError};
@@ -22,7 +22,7 @@ pub struct KeySet<T> {
 }
 
 impl<T: Copy> KeySets<T> {
-    /// Returns the value of the only key set that `options` gives.
+    /// Returns the value that identifies the key set whose keys are present in `options`.
     ///
     /// # Errors
     /// Fails if a key of the set is missing, or a key of another set is given.

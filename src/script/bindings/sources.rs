@@ -16,7 +16,7 @@ use crate::script::source::syntax::TokenReader;
 pub const FOLDER: &str = "std/";
 
 /// Source files of all compiled script functions and closures, and the script line that called the library.
-/// The engine holds the sources as the default tag of calls.
+/// The engine stores this object as its default tag (`Engine::set_default_tag`), so that native functions can access it.
 #[derive(Clone, Default)]
 pub struct Sources {
     functions: Rc<RefCell<HashMap<String, HashSet<String>>>>,
@@ -66,7 +66,7 @@ impl Sources {
         self.reader.begin();
     }
 
-    /// Calls `work`, in which parsing cannot be stopped. `work` must parse only texts that have been parsed before.
+    /// Calls `work` with the interruption of parsing disabled. `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         self.reader.undisturbed(work)
     }
@@ -111,7 +111,7 @@ impl Sources {
         self.inputs.borrow().in_imports.contains(name)
     }
 
-    /// File that contains the function `name`, of several files preferably `claimed`; `None` for a native function.
+    /// File that contains the function `name`; `None` for a native function. If several files contain the function, `claimed` is preferred.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {

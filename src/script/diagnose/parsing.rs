@@ -1,4 +1,4 @@
-//! Messages for syntax errors in plain language.
+//! Plain-language messages for syntax errors of the parser.
 
 use rhai::{Engine, LexError, ParseErrorType};
 

@@ -2,10 +2,10 @@
 //!
 //! Comparisons follow IEEE 754, also between integers and floats. Division never truncates, and integer overflow is an error.
 //! A power of integers with a non-negative exponent is an integer.
-//! Order comparisons of values of different types are errors; otherwise, other types keep the operators of the engine.
+//! Comparing the order of values of different types is an error. For values other than numbers, all remaining operators are those of the engine.
 //!
 //! A remaining restriction of the engine is that `switch` distinguishes number types, so that `3.0` does not match `case 3`.
-//! Another restriction is the precedence of a minus sign over a power, because of which `-x^2` is an error.
+//! Another restriction is that a minus sign has precedence over a power. Therefore `-x^2` is an error.
 
 use std::any::TypeId;
 use std::cmp::Ordering;
@@ -63,7 +63,7 @@ pub fn written(operator: &str) -> &str {
 
 /// Registers a comparison of numbers. `holds` receives `None` for a comparison with NaN.
 fn register_comparison(engine: &mut Engine, symbol: &str, holds: fn(Option<Ordering>) -> bool) {
-    // Arrays compare and search elements by the engine's name of the comparison, so it is registered too.
+    // The comparison is also registered under the engine's own operator name, because arrays use this name to compare and search elements.
     for name in [symbol.to_owned(), format!("{OWN}{symbol}")] {
         engine.register_fn(&name, move |x: f64, y: f64| holds(x.partial_cmp(&y)));
         engine.register_fn(&name, move |m: INT, n: INT| holds(Some(m.cmp(&n))));

@@ -42,7 +42,7 @@ pub struct EngineConfig {
 
 impl EngineConfig {
     /// Collects the data for worker engines; `None` without a complete script, as at the prompt, or with too little address space.
-    /// `refusal` is the error message of functions that write files.
+    /// In workers, functions that write files always fail with the error message `refusal`.
     pub fn of(engine: &Engine, context: &Context, refusal: &'static str) -> Option<Self> {
         let catalog = Sources::of(engine).catalog()?;
         // Workers have no limits of time and memory, which the run enforces for the whole process.

@@ -1,4 +1,4 @@
-//! Errors, numbers, nouns, suggestions, checks, and reasons for a stop, for messages of all language modules.
+//! Building blocks of messages for all language modules: errors, numbers, nouns, suggestions, checks, and reasons for a stop.
 
 pub mod advice;
 pub(crate) mod brief;

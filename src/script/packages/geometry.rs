@@ -30,7 +30,7 @@ const TIMES: Parameter =
 /// Largest component of a vector that counts as rounding error and is printed as 0, as a fraction of the length of the vector.
 const ROUNDING: f64 = 1e-14;
 
-/// Derivatives of all functions of `basis` at the parameter `xi`, of the order `order`, both arguments of `call`.
+/// Derivatives of all functions of `basis`. Their order `order` and the parameter `xi` are arguments of `call`.
 pub fn all_functions(basis: &Basis, call: &Call) -> Result<Dynamic, ScriptError> {
     let local = at_argument(0, basis.evaluate(call.number("xi")?))?;
     let mut row = vec![0.0; basis.functions()];

@@ -62,7 +62,7 @@ fn input(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let varied = call.context().varied(&declaration.name);
     let value = call.context().inputs().declare(declaration.clone())?;
     let Some(varied) = varied else { return Ok(value.to_dynamic()) };
-    // The result keeps the derivatives of a value that depends on a parameter of a fit.
+    // In a fit, the value may depend on parameters and contain derivatives. It is checked without derivatives, and returned with them.
     let plain = VariantValue::project(&varied, 0);
     match declaration.default.convert(&plain).filter(|value| declaration.allows(value)) {
         Some(_) if varied.is::<VariantValue>() => Ok(varied),

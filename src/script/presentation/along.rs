@@ -1,4 +1,4 @@
-//! Pictures of section results along beams, as strips, charts and colours.
+//! Pictures of section forces and strains along beams, as strips beside the axis, charts, or colours of the axis.
 
 use super::motion::Visibility;
 use super::quantities::BeamQuantity;

@@ -218,7 +218,7 @@ fn trails(
     stations.iter().map(trail).collect()
 }
 
-/// Stations whose paths are drawn by default: point masses, and ends of beams without support, of joined ends only one.
+/// Stations whose paths are drawn by default: point masses, and ends of beams without a support. If ends are joined, only one of them is included.
 /// No paths are drawn for more than `MOST_FREE_ENDS` stations.
 fn free_ends(simulation: &Simulation) -> Vec<Station> {
     let scene = simulation.scene();

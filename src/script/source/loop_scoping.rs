@@ -9,9 +9,9 @@ use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// Private-use character that stands for the inserted statement in a loop with one variable.
+/// Private-use character in the text of a script. It stands for the inserted declaration if the loop has one variable, as in `for x in xs`.
 pub const ONE: char = '\u{E003}';
-/// Private-use character that stands for the inserted statement in a loop with a counter.
+/// Private-use character in the text of a script. It stands for the inserted declaration if the loop has a counter, as in `for (x, i) in xs`.
 pub const TWO: char = '\u{E004}';
 
 pub const ONE_NAME: &str = "\u{E003}";

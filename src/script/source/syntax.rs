@@ -72,7 +72,7 @@ impl TokenReader {
         self.stopped.set(None);
     }
 
-    /// Calls `work`, in which parsing cannot be stopped. `work` must parse only texts that have been parsed before.
+    /// Calls `work` with the interruption of parsing disabled. `work` must parse only texts that have been parsed before.
     pub fn undisturbed<T>(&self, work: impl FnOnce() -> T) -> T {
         let was_undisturbed = self.is_undisturbed.replace(true);
         let result = work();

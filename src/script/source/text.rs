@@ -21,7 +21,7 @@ struct SourceData {
 }
 
 impl Source {
-    /// Tokens of the text without comments, after a lexical error as far as possible.
+    /// Tokens of the text without comments. After a lexical error, tokens are included as far as they can be recognised.
     pub fn tokens(&self) -> &[Lexeme] {
         &self.lexed().tokens
     }

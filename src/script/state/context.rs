@@ -187,7 +187,7 @@ impl Context {
         }
     }
 
-    /// Reason why a loop was stopped, a limit or an interrupt, or otherwise an internal error that names `what`.
+    /// Error for a loop that was stopped: the exceeded limit or the interrupt if there is one, otherwise an internal error that names `what`.
     pub fn why_stopped(&self, what: &str) -> ScriptError {
         match self.proceed() {
             Err(stopped) => stopped,

@@ -21,7 +21,8 @@ pub const DEFAULT_DEPTH: usize = 400;
 pub const DEEPEST: usize = 1000;
 /// Address space of the stack for [`DEEPEST`] nested calls [bytes]. It uses memory only as it grows.
 pub const LEAST_STACK: usize = 256 << 20;
-/// Largest memory limit up to which the stack size increases with it [bytes], as needed to drop nested values.
+/// Memory limit above which the stack size no longer increases with the memory limit [bytes].
+/// It increases because dropping deeply nested values needs stack in proportion to their memory.
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.
@@ -47,7 +48,8 @@ pub type HardAbort = Arc<dyn Fn(Stop) + Send + Sync>;
 impl Limits {
     /// Address space of a stack that is sufficient for every script within these limits [bytes].
     ///
-    /// Twice the memory limit is sufficient to drop nested closures recursively, which needs less stack than twice their memory.
+    /// Nested closures are dropped recursively, which needs stack of up to twice their memory.
+    /// Therefore the stack contains twice the memory limit in addition to the space for nested calls.
     pub fn stack(&self) -> usize {
         let for_values = 2 * self.memory_or_default().min(LARGEST_FOR_VALUES);
         LEAST_STACK.saturating_add(usize::try_from(for_values).unwrap_or(usize::MAX))

@@ -17,7 +17,7 @@ use crate::script::source::program::Program;
 pub enum RunMode {
     /// Full execution.
     Run,
-    /// Dry run: scenes are built and checked, but nothing is stepped, printed, judged or written.
+    /// Dry run: scenes are built and checked, but no step is computed, no check of the script is evaluated, and nothing is printed or written.
     DryRun,
 }
 

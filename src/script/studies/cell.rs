@@ -1,4 +1,4 @@
-//! Result of the script function of a stability study for a cell.
+//! Result that the script function of a stability map returns for one cell, that is, for one combination of parameter values.
 
 use rhai::{Dynamic, EvalAltResult, Map};
 

@@ -79,7 +79,7 @@ impl QuantityError {
         [&self.in_time, &self.in_space].into_iter().flatten().map(read).sum()
     }
 
-    /// Verdict in words. An error without convergence does not count if it is smaller than the other, converged one.
+    /// Verdict in words. If only one of the errors in time and in space has converged, the other error is ignored if it is smaller.
     pub fn verdict(&self) -> String {
         let both = [("in time", &self.in_time), ("in space", &self.in_space)];
         let known = both.into_iter().filter_map(|(of, error)| Some((of, error.as_ref()?)));
@@ -485,7 +485,7 @@ impl Scales {
         let all = || quantities.iter().zip(traces);
         let range = all().filter(|(quantity, _)| is_position(quantity)).map(|(_, of)| of.range());
         let length = scene.size().unwrap_or_else(|| range.fold(0.0, larger));
-        // The momenta of a scene that is at rest as a whole are zero except for rounding.
+        // The scale of momenta is computed from the kinetic energy, because the momenta of a scene that does not move as a whole are zero within rounding.
         let kinetic = largest(simulation.history(), "kinetic");
         let momentum = (2.0 * simulation.model().total_mass() * kinetic).sqrt();
         let mut by_dimension =

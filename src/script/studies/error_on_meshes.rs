@@ -12,7 +12,7 @@ pub struct MeshResult {
     pub name: String,
     pub dimension: &'static str,
     pub value: Vec2,
-    /// Size with which the error is compared; zero for the size of the scene.
+    /// Value by which the error is divided to obtain a relative error. If it is zero, the size of the scene is used instead.
     pub scale: f64,
 }
 

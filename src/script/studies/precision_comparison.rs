@@ -66,7 +66,8 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
     format!("{}{measured}{confirmed}", table.to_string().trim_end())
 }
 
-/// Note with the fastest confirmed combination; `None` if it is the fastest of all.
+/// Note on the fastest combination whose error is also met with smaller steps on the same mesh.
+/// The result is `None` if this combination is the fastest of all.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let message = match study.cheapest_confirmed(error) {

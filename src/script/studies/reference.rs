@@ -102,7 +102,8 @@ pub fn expect_finer_than_all_meshes(
 }
 
 /// Rejects a reference with fixed steps that are not smaller than those of the compared runs.
-/// Equal steps are allowed on another mesh (`is_of_a_mesh` is false), or with an integrator of higher order.
+/// The flag `is_of_a_mesh` is true if the reference has the mesh of a compared run.
+/// Equal steps are allowed if it has another mesh, or if its integrator has a higher order.
 fn expect_finer_steps(
     call: &Call,
     plan: &ErrorStudyPlan,

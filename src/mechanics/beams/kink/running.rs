@@ -8,7 +8,8 @@ use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines}
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Correction factor for the kinetic energy of a moving kink that is missing on the mesh (docs/theory.md, section 10.1) [-].
+    /// Factor that corrects the kinetic energy of a moving kink, a jump of the tangent of the axis [-].
+    /// The mesh does not represent a part of this energy (docs/theory.md, section 10.1).
     pub fn inertia(
         &self,
         mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! Sliding rule that conserves energy, linear and angular momentum, and the closed gap.
+//! Sliding rule that conserves energy, linear and angular momentum, and keeps the gap closed.
 
 use super::contact::{AXES, PathVector};
 use super::{CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, SlidingLaw, Unit};

@@ -11,7 +11,8 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; the force `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Couple on the master, divided by a length [force]. It balances the moment of the contact forces, so that angular momentum is conserved.
+    /// Factor `μ` of additional forces on the control points of the master [force]. The sum of these forces is zero.
+    /// Their moment balances the moment of the contact forces, so that angular momentum is conserved.
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
@@ -52,10 +53,11 @@ pub struct PathVector {
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master under the contact force, which the mesh does not represent (docs/theory.md, section 10.1).
+/// Kink of the axis of a master: jump of its tangent under the contact force. The mesh does not represent it (docs/theory.md, section 10.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length of the master, as a function along the path of the slave [length].
+    /// The kink length is the shear stiffness times the additional deflection per unit force that the mesh does not represent.
     pub along: FunctionOnPath,
     /// Compliance of the master in shear: inverse of its shear stiffness [1/force].
     pub compliance: f64,

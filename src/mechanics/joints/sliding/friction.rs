@@ -1,6 +1,7 @@
 //! Coulomb friction of a sliding contact in a step (docs/theory.md, section 10.4).
 //!
-//! The friction limit excludes the contact force that reverses velocity errors of the slave across the master in every step.
+//! The velocity of the slave across the master has an error that changes its sign in every step.
+//! The normal force in the friction limit does not contain the part of the contact force that causes these changes.
 
 use super::{Contact, Equation};
 use crate::geometry::{Vec2, cross, perpendicular};
@@ -31,16 +32,17 @@ pub struct Friction<'a> {
     pub inertia_across: f64,
     /// Duration of the step [time].
     pub duration: f64,
-    /// Force along the master that replaces the law of slip [force]; `None` if the law of slip applies.
+    /// Prescribed force along the master [force]. It replaces the friction limit, the coefficient of friction times the normal force.
+    /// The value is `None` if the friction limit applies.
     pub fixed_force: Option<f64>,
 }
 
 /// Forces and velocities of a contact with friction in an iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionForces {
-    /// Contact force along the master, times the length of the mean tangent [force·length].
+    /// Contact force along the master [force], multiplied by `tangent` [length].
     pub along: f64,
-    /// Normal force in the friction limit, times the length of the mean tangent [force·length].
+    /// Normal force from which the friction limit is computed [force], multiplied by `tangent` [length].
     pub across: f64,
     /// Length of the mean tangent [length].
     pub tangent: f64,

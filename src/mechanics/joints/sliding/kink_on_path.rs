@@ -1,4 +1,5 @@
 //! Kink on the path of a slider: equations shared by the sliding laws for masters with a kink.
+//! A kink is a jump of the tangent of the axis under the contact force.
 
 use super::dual::{ALL_SLOPES, ContactDuals, path_dual};
 use super::{CONTACT_UNKNOWNS, Contact, Equation, Kink, Unit};

@@ -1,11 +1,11 @@
-//! Sliding rule that conserves energy, linear and angular momentum and the closed gap to a kinked axis.
+//! Sliding rule that conserves energy, linear and angular momentum, and keeps the gap to a kinked axis closed.
 
 use super::dual::{ContactDuals, NO_SLOPES};
 use super::kink_on_path::{KinkOnPath, UNITS, vanish};
 use super::{CONTACT_UNKNOWNS, Conserving, Contact, Equation, Kink, KinkState, SlidingLaw, Unit};
 use crate::geometry::{Dual, DualVector};
 
-/// Conserving sliding law for an axis with a kink at the slave.
+/// Conserving sliding law for an axis with a kink, a jump of its tangent, at the slave.
 /// The gap is closed at the end of every step, and energy, linear and angular momentum are conserved for any step size.
 ///
 /// The kinked law adds the energy of the kink, which the mesh does not contain.

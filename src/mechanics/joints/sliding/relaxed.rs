@@ -1,9 +1,10 @@
-//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz, which conserves energy and momenta, but not the closed gap.
+//! Sliding rule of equations 11 to 14 of Sibileau & Muñoz, which conserves energy and momenta, but does not keep the gap closed.
 
 use super::contact::AXES;
 use super::{CONTACT_UNKNOWNS, Contact, Equation, SlidingLaw, Unit};
 
-/// Largest gap that is attributed to rounding, as a fraction of the master length per parameter. The direction of such a gap is not used.
+/// Largest gap that is attributed to rounding, as a fraction of the change of the position on the master per unit of its parameter.
+/// The direction of such a gap is undefined. The equations therefore do not use it.
 const ROUNDING: f64 = 1e-13;
 
 /// Relaxed sliding law: the mean of the gap over each step is zero. The gap at the end of a step need not be zero.

@@ -32,7 +32,7 @@ const PROBES: i32 = 12;
 /// If this number of impacts at the same end occurs within the same number of steps, the stop holds the slider.
 const CHATTER: usize = 3;
 
-/// Largest number of arrivals within one step of the grid. More arrivals are an error.
+/// Largest number of arrivals within one step of the regular time grid. More arrivals are an error.
 pub(super) const MOST_ARRIVALS: usize = 10_000;
 
 pub(super) struct EventStep {
@@ -76,7 +76,7 @@ struct TimeBracket {
     shortest: f64,
     /// Longest duration of an attempted step [time].
     longest: f64,
-    /// Difference between the two durations at which the search ends [time].
+    /// Difference between the durations `before` and `after` at which the search ends [time].
     resolution: f64,
 }
 
@@ -303,7 +303,7 @@ impl Simulation {
     }
 
     /// Returns true if the arrival of a slider at a limit may be an impact.
-    /// At a stop, an impact requires that the part of the slider velocity that the steps resolve points beyond the limit.
+    /// At a stop, an impact requires a velocity beyond the limit. Only the part of the velocity that the time steps resolve is considered.
     fn has_impact(&mut self, limit: MasterLimit) -> bool {
         let dt = self.dt();
         !self.model.end_action(limit.slider).has_stop()
@@ -400,9 +400,9 @@ impl Simulation {
         Ok(())
     }
 
-    /// Starts the kinks under sliders at ends of their masters with the present contact forces.
-    /// If the previous arrival at an end was less than a step ago, the kinks start without load.
-    /// Contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
+    /// Initialises the kinks under sliders at ends of their masters. The present contact forces determine the jumps of the tangents.
+    /// If the previous arrival at an end was less than a step ago, the kinks start without load,
+    /// because contact forces between two arrivals within a step contain vibrations that the steps do not resolve.
     fn restart_kinks(&mut self) -> Result<(), SimulationError> {
         let last = self.progress.arrivals.iter().rev().find(|arrival| arrival.end.is_some());
         if last.is_some_and(|last| self.time() - last.time < self.dt() - self.slack()) {
@@ -413,7 +413,7 @@ impl Simulation {
 
     /// Returns true if a stop holds a slider at a limit instead of letting it bounce.
     /// The stop holds the slider after repeated impacts within few steps, and if the steps resolve the elastic contact with the stop.
-    /// A slider that was at the limit already is held if its velocity does not point beyond the limit.
+    /// A slider that is at the limit when the step starts is held if its velocity does not point beyond the limit.
     fn stays_held(
         &mut self,
         limit: MasterLimit,

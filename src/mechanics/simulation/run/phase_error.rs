@@ -11,7 +11,7 @@ use crate::simulation::{StepSize, Warning};
 /// Largest error of positions without a warning, as a fraction of the amplitude of the motion [-].
 const LARGEST_ERROR: f64 = 0.02;
 
-/// Error of positions that the step size recommended in the warning would have, as a fraction of the amplitude of the motion [-].
+/// Error of positions for which the warning recommends a step size, as a fraction of the amplitude of the motion [-].
 const ADVISED_ERROR: f64 = 0.007;
 
 /// Largest fraction of the kinetic energy in the vibration for which no warning is given [-].
@@ -65,8 +65,8 @@ impl Simulation {
 
     /// Sums the phase errors of a vibration over the rows of the history.
     ///
-    /// Energy that dampers have dissipated does not contribute to the phase error.
-    /// The largest phase error is weighted by the present amplitude relative to the largest amplitude.
+    /// If dampers dissipate energy, the sum decreases in proportion to this energy as a fraction of the largest kinetic energy.
+    /// The result is the largest value of the sum multiplied by the ratio of the amplitude at the row to the largest amplitude.
     fn phase_sum(&self, frequency: f64) -> PhaseSum {
         let rows = self.history().samples();
         let largest = rows.iter().map(|row| row.measures.energy.kinetic).fold(0.0, larger);

@@ -15,7 +15,7 @@ impl Monitor for PauseTime<'_> {
 }
 
 impl Simulation {
-    /// Step numbers and times of the stored states, limited to the last steps without a missing state.
+    /// Step numbers and times of the stored states, from the step after the last missing state to the present step.
     pub fn stored_states(&self) -> Vec<(usize, f64)> {
         let steps = self.progress.counts.steps;
         let from = self.snapshots.unbroken_from(steps).unwrap_or(steps);
@@ -23,7 +23,7 @@ impl Simulation {
         kept.chain([(steps, self.time())]).collect()
     }
 
-    /// Restores the state of the original simulation after a number of steps in this copy. Returns false if the state is not stored.
+    /// Restores in this copy the state of the original simulation `of` after `steps` steps. Returns false if the state is not stored.
     ///
     /// # Errors
     /// Fails if the scene cannot be built again, although it was built before.
@@ -63,7 +63,7 @@ impl Simulation {
         Ok(copy)
     }
 
-    /// Repeats the original run up to a row of its history in this copy.
+    /// Repeats in this copy the run of the original simulation `of`, up to the time of the given row of its history.
     /// The returned flag is true if the row exists, and if energies, momenta, work and impulses agree bit for bit with the original run.
     /// The repeated run may differ from the original run if script functions were called during the original run.
     ///

@@ -20,10 +20,10 @@ use crate::vibration::{Modes, VibrationError};
 /// A single vibration with 3.5 steps per period has an unresolved fraction of 0.2. Its computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Largest unresolved fraction of the kinetic energy without a warning if the phase per step exceeds [`HIDDEN_TURN`] [-].
+/// Largest unresolved fraction of the kinetic energy without a warning [-]. It replaces [`LARGEST_SHARE`] if a step contains several periods.
 const HIDDEN_SHARE: f64 = 0.05;
 
-/// Smallest phase of a vibration per step for which the smaller limit [`HIDDEN_SHARE`] applies [rad].
+/// Phase of the vibration per step above which [`HIDDEN_SHARE`] replaces [`LARGEST_SHARE`] [rad].
 const HIDDEN_TURN: f64 = 2.0 * TAU;
 
 /// Smallest kinetic energy of the damped beams that are checked, as a fraction of the total kinetic energy.
@@ -59,8 +59,8 @@ const MOST_TURNS: usize = 20;
 /// Smallest number of adaptive steps that can cause a warning.
 const MANY_STEPS: usize = 5000;
 
-/// Largest ratio, without a warning, of the step size that resolves the motion of the scene to the mean step size [-].
-/// Steps at the limit `MUCH_SHORTER` resolve a vibration whose amplitude is below a thousandth of the length of the scene.
+/// Largest factor, without a warning, by which the mean step is shorter than a step that resolves the motion of the whole scene [-].
+/// Steps that are shorter by this factor resolve a vibration whose amplitude is below a thousandth of the length of the scene.
 const MUCH_SHORTER: f64 = 50.0;
 
 const SLIDERS: usize = 6;
@@ -200,7 +200,8 @@ impl Simulation {
             || (unresolved_fraction > HIDDEN_SHARE && turn > HIDDEN_TURN)
     }
 
-    /// Warnings about damped beams whose motion the steps of size `dt` [time] do not resolve, unlike the motion of the scene.
+    /// Warnings about damped beams whose motion is not resolved by steps of the length `dt` [time].
+    /// These warnings are needed because the motion of the whole scene may be resolved nevertheless.
     fn unresolved_beams(&self, dt: f64) -> impl Iterator<Item = Warning> {
         let least = NOTHING * self.model.resolution().kinetic();
         let beams = self.model.resolution_by_beam();
@@ -356,7 +357,8 @@ impl Simulation {
         dampers.into_iter().chain(controllers.take(1)).collect()
     }
 
-    /// Lowest period of the initial configuration [time]; `None` for scenes with sliders, without vibration, or with many unknowns.
+    /// Period of the lowest natural mode of the initial configuration [time].
+    /// The period is `None` for scenes with sliders, without vibration, or with many unknowns.
     fn lowest_period(&self) -> Option<f64> {
         self.initial_geometry.lowest_period(|| {
             let slides = self.model.slider_names().next().is_some();

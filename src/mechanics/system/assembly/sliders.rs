@@ -102,7 +102,7 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C0 mesh represents kinks at its nodes without missing compliance, but a kink cannot pass a node.
+        // A C⁰ mesh represents a kink at a node exactly, but a kink cannot move past a node.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -175,7 +175,7 @@ impl System {
     }
 
     /// Checks the start velocity of the slave across the master.
-    /// A slider that only pushes starts in flight if its slave moves away from the axis to the side on which it can fly.
+    /// A slider with a unilateral contact starts in flight if its slave moves away from the axis to the side on which it can fly.
     fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);
         if speed.abs() <= negligible || self.slider(slider).is_separated() {

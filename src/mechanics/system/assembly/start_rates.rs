@@ -171,8 +171,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.requested.get(at).copied().flatten() {
-                    // A node of a beam may have a separate velocity.
-                    // Separate velocities are rejected for rigid bodies, and for a moving beam joined to a particle with a different velocity.
+                    // A start velocity given for this station replaces the velocity of its beam.
+                    // It is an error for rigid bodies, and for a moving beam joined to a particle with a different velocity.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();

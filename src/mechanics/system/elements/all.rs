@@ -95,7 +95,7 @@ impl Elements {
         })
     }
 
-    /// Sets the longest part of a step in which functions of time of loads are sampled as one [time].
+    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. Longer steps are divided.
     pub fn sample_in_parts(&mut self, longest: f64) {
         self.forces.iter_mut().for_each(|force| force.sample_in_parts(longest));
     }

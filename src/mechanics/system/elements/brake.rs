@@ -59,14 +59,14 @@ pub struct Brake {
     elongation: Elongation,
     law: BrakeLaw,
     friction: PointFriction<1>,
-    /// Slope and secant of the elongation in the last linearisation [-].
+    /// Slope and secant of the elongation (see [`Elongation`]) in the last linearisation [-].
     slope: Vec<f64>,
     secant: Vec<f64>,
     tangent: Vec<f64>,
     /// Mean friction limit of the step [force·length].
     limit: f64,
     duration: f64,
-    /// Weight of the friction moment in the mean friction moment of the step [-].
+    /// Weight of the friction moment of this stage in the mean friction moment of the step [-].
     share: f64,
     rotations: RotationIncrement,
     dissipated: f64,
@@ -77,7 +77,7 @@ impl Brake {
     pub fn new(name: String, elongation: Elongation, law: BrakeLaw) -> Self {
         let coordinates = elongation.secant.len();
         let mut friction = PointFriction::new(1.0);
-        // Modes of the scene as drawn use the limit at the start. A schedule without a value fails in the first step.
+        // Natural modes of the initial configuration use the friction limit at the start. A schedule without a value fails in the first step.
         let limit = law.limit.value(0.0, LimitSide::After).unwrap_or_default();
         let stiffness = limit.max(0.0) / law.deflection;
         friction.set_scales(stiffness.max(f64::MIN_POSITIVE), f64::INFINITY, DAMPING_FACTOR);

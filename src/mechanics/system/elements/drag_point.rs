@@ -1,7 +1,7 @@
 //! Drag at a point of a body in a step.
 //!
 //! The drag force is an independent unknown, in components across and along the line.
-//! Under strong drag or wind, the rounding error of a force computed from velocities exceeds the forces in the balance.
+//! Under strong drag or wind, the rounding error of a force computed from velocities would exceed the tolerance of the residual forces.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};
 use crate::beams::{BodyPoint, RateCollocation};

@@ -64,7 +64,7 @@ pub struct Elongation {
     corrected: Vec<f64>,
     pub change: f64,
     settled: (f64, f64),
-    /// Secant [-]: vector whose scalar product with the coordinates equals the elongation change.
+    /// Secant [-]: vector whose scalar product with the increments of the ends in the step equals the elongation change.
     /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end of the step.
     pub secant: Vec<f64>,
     /// Derivative of the elongation change with respect to the coordinates [-].

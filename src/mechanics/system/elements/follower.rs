@@ -7,7 +7,7 @@ use crate::integrators::Stage;
 use crate::linalg::BandedMatrix;
 use crate::system::bodies::{Body, Tracker};
 
-/// Force that rotates with a section. In each iterate, the rotation of the section at the stage of the step is used.
+/// Force that rotates with a section. In each iterate, the rotation of the section at the current stage of the integrator is used.
 #[derive(Debug, Clone)]
 pub struct Follower {
     tracker: Tracker,

@@ -20,7 +20,7 @@ pub struct OutsideLaw {
     /// Argument that left the range.
     pub argument: LawArgument,
     /// Smallest and largest argument in the table of the law [length or rad; for rates length/time or rad/time].
-    /// A limit of the range of a law is infinite if the force is constant at this limit of the table.
+    /// If the force is constant at an end of the table, arguments beyond this end count as inside, and the limit is infinite.
     pub range: [f64; 2],
     /// Value of the argument that was farthest outside the range [length or rad; for rates length/time or rad/time].
     pub reached: f64,

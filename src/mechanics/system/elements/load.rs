@@ -120,7 +120,7 @@ struct AppliedLoad {
     name: String,
     schedule: Schedule,
     check: Option<ScheduleCheck>,
-    /// Longest part of a step that is sampled as one [time].
+    /// Longest interval in which the schedule is sampled with one set of points [time]. Longer steps are divided.
     longest_part: f64,
     action: Action,
     factors: StageFactors,

@@ -19,11 +19,12 @@ struct IterationState {
     at: (f64, f64),
 }
 
-/// Factor by which the elongation is multiplied in the scale of force differences, for laws with corners [-].
-/// The scale of force differences is the larger of the force and the stiffness times the elongation.
+/// Accuracy of forces for laws with corners [-]. The difference between a force and its target is divided by the larger of two values:
+/// the force, and this factor times stiffness times elongation.
 pub const CORNER_TOLERANCE: f64 = 2e-4;
 
-/// Number of linearisations after which the impedance is estimated from secants. Smooth laws usually converge earlier.
+/// Number of linearisations after which the stiffness of all other objects, as seen by this element, is estimated from the last iterates.
+/// Smooth laws usually converge earlier.
 const PLAIN_LINEARISATIONS: u32 = 4;
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -74,7 +75,7 @@ impl MixedForce {
     }
 }
 
-/// Largest number of bisections, after which the intersection is accurate to rounding.
+/// Largest number of bisections in the search for the intersection of a force law with a falling line. The result is accurate to rounding.
 const MOST_TRIES: usize = 120;
 
 impl ForceTarget {

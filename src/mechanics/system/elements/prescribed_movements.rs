@@ -31,7 +31,7 @@ struct Driven {
 struct PresentMotion {
     /// Prescribed acceleration at the end of the last step [length/time², 1/time²].
     acceleration: f64,
-    /// Largest kink of the motion in the steps before the present step. The kink in the present step is stored in `step_curvature`.
+    /// Largest jump of the prescribed rate in the steps before the present step. The jump in the present step is stored in `step_curvature`.
     curvature: MotionCurvature,
     step_curvature: MotionCurvature,
     /// Check of the mean of the prescribed rate in each step; `None` if the mean is computed exactly.

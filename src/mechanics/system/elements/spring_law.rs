@@ -92,8 +92,8 @@ impl SpringLaw {
     }
 
     /// Range of elongations in which the law is given. Outside the range, the law is extrapolated linearly.
-    /// A limit of the range of a law is infinite if the force is constant at this limit of the table.
-    /// The range is `None` for a law that is defined everywhere: a straight line, or a straight line that ends in a slack segment.
+    /// If the force is constant at an end of the table, the limit at this end is infinite.
+    /// The range is `None` for laws that hold everywhere: linear laws, linear laws with zero force on one side, and tables that are constant at both ends.
     pub fn range(&self) -> Option<[f64; 2]> {
         match self {
             Self::Linear { .. } => None,

@@ -63,7 +63,7 @@ impl Supports {
 
     /// Impulse of the fixed supports in the step whose increments are stored in the bodies.
     ///
-    /// The reaction is applied at the mean position of the support in the step, because a roller moves in its free direction.
+    /// The reaction acts at the mean position of the support in the step. This position matters because a roller moves along its free direction.
     pub fn exchange(&self, bodies: &[Body], residual: &[f64], duration: f64) -> WorkAndImpulse {
         self.impulse(residual, duration, |body, point| {
             let [x, y, _] = bodies[body].moved()[point];
@@ -91,8 +91,8 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] and moment [force·length] on nodes and on angles of the rigid bodies `turning`; `None` without supports.
-    /// Each node is a pair of body and control point.
+    /// Reaction force [force] on the given nodes, and reaction moment [force·length] on the rotations of the rigid bodies `turning`.
+    /// The result is `None` without supports. Each node is a pair of body and control point.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

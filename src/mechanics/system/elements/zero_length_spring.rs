@@ -41,7 +41,7 @@ impl ZeroLengthSpring {
         Self::beside(name, along, terminals, at, grounds, damping)
     }
 
-    /// Creates a spring with a law for the length, and a damper, between two terminals with given initial positions [length].
+    /// Creates a spring between two terminals with given initial positions [length], and a damper in parallel. The spring force follows a law of the length.
     pub fn of_law(
         name: &str,
         terminals: [ElongationEnd; 2],

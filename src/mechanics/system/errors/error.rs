@@ -122,7 +122,7 @@ pub enum SystemError {
     Beam { beam: String, source: BeamError },
 }
 
-/// Object that requires the rotation of a particle, although particles have no rotation.
+/// Definition that needs a rotation, but was given for a particle, which has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Turning {
     /// Rigid joint.

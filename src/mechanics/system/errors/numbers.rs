@@ -17,7 +17,7 @@ pub fn written(at: Vec2) -> String {
     format!("({}, {})", rounded(at.x), rounded(at.y))
 }
 
-/// Formats the first times of a list as text; `None` if the list is empty.
+/// Formats a list of times as text. Of a long list, only the first and the last time are written. The result is `None` if the list is empty.
 pub fn in_words(times: &[f64]) -> Option<String> {
     match times {
         [] => None,

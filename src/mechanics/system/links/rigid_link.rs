@@ -203,7 +203,7 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// Constraint violation of the link in a residual, as a fraction of increments and arm [-].
+    /// Constraint violation of the link in a residual, divided by the length of its arm plus its largest increment [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }

@@ -1,4 +1,4 @@
-//! Friction of sliders: inertia across their masters, and the end of slip.
+//! Friction of sliders: effective masses across their masters, and transitions from slip to stick.
 
 use super::impact::{ImpactDirection, ImpactLaw};
 use super::rigidity::Deformation;
@@ -28,8 +28,8 @@ impl System {
         }
     }
 
-    /// Computes the inertia of every slider with friction for impulses across its master.
-    /// The inertia is zero if an impulse causes no relative velocity of slave and master.
+    /// For every slider with friction, computes the effective mass across its master.
+    /// The effective mass is the inverse of the relative velocity that a unit impulse causes. It is zero if this velocity is zero.
     pub(super) fn measure_inertia_across(&mut self) {
         let Ok(mut solver) = self.take_inertia_solver() else { return };
         let Self { sliders, bodies, .. } = self;
@@ -45,7 +45,8 @@ impl System {
         self.step.inertia_solver = Some(solver);
     }
 
-    /// Takes the solver with the factors of the present inertia out of the model. The caller must put the solver back after use.
+    /// Removes the inertia solver from the model and returns it, factorised for the present inertia matrix.
+    /// The caller must put the solver back after use.
     pub(super) fn take_inertia_solver(&mut self) -> Result<Box<InertiaSolver>, LinearError> {
         let mut solver = self.step.inertia_solver.take().unwrap_or_else(|| {
             let (unknowns, half_bandwidth) = (self.unknowns(), self.half_bandwidth());

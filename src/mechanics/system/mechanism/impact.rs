@@ -1,8 +1,8 @@
 //! Impulses at sliders: consistent start velocities, and impacts at the ends of masters. Simultaneous impacts are solved together.
 //!
 //! An impulse at a closed contact conserves linear and angular momentum.
-//! With the relaxed sliding rule, an impulse across a gap changes the angular momentum.
-//! In an impact, relative velocities contain only the motion that the steps resolve ([`Rigidity`]).
+//! The relaxed sliding rule does not keep the gap closed. An impulse across a gap changes the angular momentum.
+//! In an impact, relative velocities do not contain vibrations that are too fast for the time step ([`Rigidity`]).
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
@@ -16,8 +16,8 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Largest ratio of two velocity responses to an impulse for which the bodies count as rigid in the direction of the impulse [-].
-/// The ratio compares the response with only the included deformations to the response with all deformations.
+/// Bodies count as rigid in the direction of an impulse if a ratio of velocity responses is at most this value [-].
+/// The ratio is the response with only the included deformations, divided by the response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
 pub(super) struct ImpulseResponse {
@@ -49,15 +49,15 @@ impl ImpulseResponse {
 /// Impact law: condition on the impulse of a contact, and on its velocities before and after the impact.
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
-/// The law of a stop uses the mean of the velocities before and after the same impact without impulses of stops.
-/// The mean velocity in the law of a stop does not contain velocities across masters, whose signs alternate from step to step.
+/// For the law of a stop, the impact is also solved without impulses of stops. The law uses the mean of the velocities
+/// before and after this second impact. Velocities across masters are excluded from the mean, because their signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
     Ends,
     /// Law of a contact whose impulse does no work, because the mean relative velocity is zero. The impulse may have either sign.
     Elastic,
-    /// Law of a slider in contact that only pushes: a compressive impulse without work, or separation.
+    /// Law of a unilateral contact: either a compressive impulse that does no work, or separation without impulse.
     Unilateral,
     /// Law of a slider held at a stop: a compressive impulse without rebound.
     Held,

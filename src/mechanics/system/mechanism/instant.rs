@@ -1,7 +1,7 @@
 //! Solution of the equations of motion at the present time: accelerations, and forces of supports, joints and contacts.
 //!
-//! For every method, accelerations and forces are accurate to second order, and depend on the present state only.
-//! Unlike means over two consecutive steps, instantaneous forces contain vibrations that the steps do not resolve.
+//! With every time integration method, these accelerations and forces are accurate to second order and depend on the present state only.
+//! Unlike forces averaged over two steps, they contain vibrations that the time steps do not resolve.
 
 use super::impact::ImpactDirection;
 use super::{Reactions, System};
@@ -223,7 +223,7 @@ impl System {
         });
     }
 
-    /// Adds the friction that a force across the master causes at a slipping slider to the response to this force.
+    /// Adds the friction of slipping sliders to `present`: a unit force across a master then also causes a friction force along the master.
     /// The direction of friction depends on the sign of the force across the master in the solution without friction.
     /// The returned flag is true if a slider slips.
     fn add_slip_friction(&self, inertia: &BandedLu<'_>, present: &mut PresentForces) -> bool {

@@ -13,9 +13,11 @@ use crate::system::SystemError;
 use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
-    /// Starts all kinks of a scene in its initial configuration, with the contact forces of rigid contacts.
-    /// Moves slaves and masters apart by the displacement of their kinks.
-    /// Rotates the relative velocity of a slider at an end of its master from the smooth axis onto the kinked axis.
+    /// Initialises all kinks of a scene in its initial configuration. A kink is a jump of the tangent of a master under the force of a slider.
+    /// The contact forces are those of rigid contacts.
+    ///
+    /// Each slave and its master are moved apart by the deflection that the kink adds at the contact point.
+    /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
     /// If the contact forces cannot be computed, all kinks start without load, and the first step reports this failure.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
@@ -77,8 +79,9 @@ impl System {
         Ok(())
     }
 
-    /// Moves slaves and masters apart by the offsets of their kinks, with the smallest displacement in the norm of the inertia.
-    /// The result is `None` if contacts cannot be opened independently, or if points of rigid bodies would follow nonlinear constraints.
+    /// Moves each slave and its master apart by the deflection of the kink at the contact point.
+    /// The displacement is the smallest in the norm of the inertia matrix.
+    /// The result is `None` if the constraints of the contacts are linearly dependent, or if rigid links would make them nonlinear.
     fn open_gaps(&mut self) -> Option<()> {
         if !self.sliders.iter().any(|slider| slider.is_compliant()) {
             return Some(());

@@ -20,7 +20,7 @@ impl Reactions {
         self.nodes[body][point]
     }
 
-    /// Residual of the balance at each degree of freedom, which is the support force [force, force·length].
+    /// Support force at each degree of freedom: residual of its balance without supports [force, force·length].
     pub(super) fn residual(&self) -> &[f64] {
         &self.residual
     }

@@ -34,7 +34,8 @@ impl System {
         self.sliders.predict_unchanged(&mut unknowns[self.unknowns.count()..]);
     }
 
-    /// Adds the internal forces for the present section forces, minus `load_factor` times the loads, and the contact equations.
+    /// Adds to `out` the internal forces of the present section forces and the residuals of the contact equations.
+    /// Subtracts `load_factor` times the loads.
     /// The argument `unknowns` contains displacements, followed by contact unknowns.
     pub fn add_static_forces(
         &mut self,
@@ -104,8 +105,8 @@ impl System {
         self.subtract_loads(Stage::End, movements, load_factor, out)
     }
 
-    /// Accepts a static solution.
-    /// The solution contains displacements and rotations [length, rad], contact unknowns, and the prescribed positions for a fraction of the load.
+    /// Accepts a static solution: moves the model by the displacements and rotations in `unknowns` [length, rad].
+    /// The contact unknowns are stored, and prescribed positions are set to their values at `load_factor`.
     pub(crate) fn move_by(&mut self, unknowns: &[f64], load_factor: f64) {
         let (movements, contacts) = unknowns.split_at(self.unknowns.count());
         let movements = self.supports.prescribed().at_rest(movements, load_factor);

@@ -1,6 +1,7 @@
 //! Response of beams to an impulse, with only selected deformations (docs/theory.md, section 10.2).
 //!
-//! The impulses of section forces are separate unknowns, whose sum over a beam is zero, so their rounding does not affect the momenta.
+//! The impulses of section forces are separate unknowns. The impulses of a section force on the control points of its beam have the sum zero.
+//! Therefore the rounding errors of section forces do not affect the momenta.
 //! Springs and dampers are ignored: their forces are bounded, so their impulse during an impact is zero.
 
 use super::System;
@@ -10,7 +11,8 @@ use crate::geometry::larger;
 use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
-/// Largest ratio of the stiffness with which a deformation is suppressed to the inertia of a degree of freedom [-].
+/// Deformations are suppressed by a term that is added to the inertia matrix: their stiffness times the square of a time.
+/// This value is the largest ratio of the added term to the inertia of a degree of freedom [-].
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;

@@ -1,9 +1,9 @@
 //! Impacts of sliders at corners of a track, where they pass from beam to beam (docs/theory.md, section 10.3).
 //!
 //! A corner of a track is the limit of a rounded corner: the contact impulses are normal to the rotating tangent and do no work.
-//! The relative velocity of the slave rotates with the tangent, in a metric that depends on the masses.
-//! The velocity rotates by the rotation of the section direction and by the difference of the shear angles.
-//! For vibrations that the steps do not resolve, only the difference of the shear angles is applied.
+//! The relative velocity of the slave rotates with the tangent. Angles are measured in a metric that depends on the masses.
+//! The rotation of the tangent is the change of the section angle plus the change of the shear angle from the first beam to the second.
+//! If the steps do not resolve the resulting vibrations, only the change of the shear angle is applied.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};
@@ -16,8 +16,8 @@ use crate::system::sliders::{MasterEnd, MasterLimit, Seam};
 /// Largest angle between two tangents that count as parallel [rad].
 const STRAIGHT: f64 = 1e-13;
 
-/// Largest determinant of the velocity response that counts as zero, as a fraction of its squared trace.
-/// If the determinant of the velocity response is zero, impulses change the velocity in one direction only, and it is not rotated.
+/// Limit of the determinant of the velocity response, as a fraction of its squared trace.
+/// Below this limit, impulses can change the velocity in one direction only, and the velocity is not rotated.
 const ONE_WAY: f64 = 1e-20;
 
 /// Largest number of iterations for the rotation angles of coupled sliders that pass corners simultaneously.
@@ -26,7 +26,7 @@ const CORRECTIONS: usize = 40;
 /// Largest error of the rotation angle at a corner at which the iteration ends [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Range of accepted estimates of the derivative of the rotation angle with respect to its parameter.
+/// Range of accepted estimates of the derivative of the rotation angle of the velocity with respect to the field `angle` of the search.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner of a track that a slider passes, with the directions before and after the corner [-].

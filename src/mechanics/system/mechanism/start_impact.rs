@@ -3,7 +3,7 @@
 use super::System;
 use crate::joints::Component;
 
-/// Drive that starts with a speed at a beam whose other points are at rest.
+/// Drive with a nonzero initial rate that acts on a beam whose other points are initially at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StartImpact {
     /// Index of the drive.

@@ -5,7 +5,8 @@ use crate::geometry::Vec2;
 use crate::integrators::Stage;
 use crate::system::elements::{InternalForce, Penetration, TrialState};
 
-/// Largest ratio of the contact force on a body to its other forces for which the penetration counts as caused by the other forces [-].
+/// Limit of the contact force as a multiple of the resultant of the other forces on the body [-].
+/// Below this limit, the penetration is attributed to the other forces.
 const EXPLAINED: f64 = 2.0;
 
 /// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest body coordinate [-].
@@ -22,7 +23,7 @@ impl System {
         })
     }
 
-    /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy.
+    /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy stored in the contact.
     /// Penetrations due to weight, loads and springs are left out.
     pub(crate) fn start_penetrations(&mut self) -> Vec<(String, Penetration)> {
         let bodies = &self.bodies;

@@ -3,13 +3,14 @@
 use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
-/// Order of the unknowns in static and modal matrices. Without sliders and contact between bodies, it is the order in time steps.
-/// Positions of sliders are additional unknowns. With sliders or contact between bodies, all unknowns are reordered for a small bandwidth.
+/// Order of the unknowns in static and modal matrices.
+/// Without sliders and contact between bodies, it equals the order of the unknowns in the time integration.
+/// Otherwise, all unknowns are reordered for a small bandwidth. Positions of sliders are additional unknowns.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {
     count: usize,
     half_bandwidth: usize,
-    /// Position of each unknown in the static order; `None` if the order is that of time steps.
+    /// Index of each unknown in the static order; `None` if it equals the order of the unknowns in the time integration.
     position: Option<Vec<usize>>,
 }
 

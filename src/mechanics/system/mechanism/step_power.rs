@@ -4,7 +4,8 @@ use super::System;
 use crate::system::elements::ExternalForce;
 
 pub struct StepPower {
-    /// Work in the step divided by its duration [energy/time]. Before the first step, the value is the present power of a drive.
+    /// Work in the last step divided by its duration [energy/time].
+    /// Before the first step, the value is the instantaneous power for a drive, and zero for a load.
     pub power: f64,
     /// Work since the start of the run, at the end of the step [energy].
     pub work: f64,

@@ -68,8 +68,8 @@ impl System {
     }
 
     /// Returns true if the velocity of a slider at an end of its master points beyond the end.
-    /// The velocity contains only deformations that an impact with steps of length `dt` [time] includes.
-    /// Velocities across masters are excluded, because their signs change from step to step.
+    /// The velocity contains only the deformations that are included in an impact solved with the step length `dt` [time].
+    /// It contains no component across the master, because that component changes its sign from step to step.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
@@ -87,7 +87,7 @@ impl System {
     }
 
     /// Returns true if steps of length `dt` [time] resolve the impact of a slider at a limit.
-    /// The impact duration follows from wave speeds if at least one of the bodies is deformable and light enough.
+    /// The impact duration follows from the wave speeds of the deformable bodies. Bodies that the impulse hardly moves are ignored.
     /// The function also records the ratio of step length to impact duration.
     pub(crate) fn resolves_impact(
         &mut self,
@@ -112,9 +112,10 @@ impl System {
         Ok(self.sliders[limit.slider].impact_duration(&self.bodies, AxialImpact { slave, master }))
     }
 
-    /// Selects the deformations that may change their velocities in an impact at the given limits, for steps of length `dt` [time].
-    /// In an impact with a coefficient of restitution, axial waves and vibrations faster than the impact are suppressed.
-    /// In an elastic contact, vibrations that the steps do not resolve are suppressed.
+    /// Selects the deformations whose rates may change in an impact at the given limits, for steps of length `dt` [time].
+    /// The rates of all other deformations remain constant.
+    /// In an impact with a coefficient of restitution, axial waves and vibrations faster than the impact are excluded.
+    /// In an elastic contact, vibrations that the steps do not resolve are excluded.
     fn deformation_at(&self, limits: &[MasterLimit], dt: f64) -> Result<Deformation, LinearError> {
         let mut longest = None;
         for limit in limits.iter().filter(|at| self.end_action(at.slider) != EndAction::Contact) {
@@ -177,8 +178,8 @@ impl System {
             });
             self.apply_impulses(&hits, corners, [Deformation::Resolved(RIGID * dt), at_stops])?;
         }
-        // The first impact suppresses some deformations of the struck body.
-        // A second impact with all deformations stops the sliders that come to rest.
+        // The impulses applied so far suppress some deformations of the struck body.
+        // Additional impulses with all deformations stop the sliders that come to rest.
         let resting = [&arriving.plastic[..], &arriving.held].concat();
         if !resting.is_empty() {
             let hits = self
@@ -191,7 +192,7 @@ impl System {
 
     /// Applies impulses at several contacts simultaneously.
     /// The impulses rotate the velocity of a slider that passes a corner. All other contacts follow their impact laws.
-    /// A slider that only pushes takes off if the impulses move it away from its master.
+    /// A slider with a unilateral contact takes off if the impulses move it away from its master.
     pub(super) fn apply_impulses(
         &mut self,
         hits: &[ImpactContact],
@@ -258,9 +259,9 @@ impl System {
     }
 
     /// Returns the stored energy of stops to the sliders that leave the stops.
-    /// The speeds of the leaving sliders are proportional to the square roots of the energies stored in their stops.
     ///
-    /// The speeds of the sliders have a common factor, whose square is proportional to the energy that the stops return.
+    /// The speed of each leaving slider is proportional to the square root of the energy stored in its stop.
+    /// A common factor of all speeds makes the kinetic energy increase by the returned energy.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -24,7 +24,7 @@ pub struct BeamSample {
     pub position: Vec2,
     /// Velocity of the sampled point [length/time].
     pub velocity: Vec2,
-    /// Section angle [rad] with whole turns, counted from the tracked angle at the start of the beam.
+    /// Section angle [rad], continuous along the beam and not reduced to one turn. It starts from the tracked angle at the start of the beam.
     pub angle: f64,
     /// Section forces at the position, including the forces of material damping.
     pub forces: SectionForces,

@@ -13,7 +13,7 @@ impl System {
         self.supports().prescribed().first_displaced_drive(load_factor, time)
     }
 
-    /// Names of the drives whose motion has a kink within a step, with the largest kink of each drive.
+    /// Names of the drives whose prescribed motion has a jump of its rate within a step, with the largest jump of each drive.
     pub fn bends(&self) -> impl Iterator<Item = (&str, MotionCurvature)> {
         self.supports().prescribed().bends()
     }

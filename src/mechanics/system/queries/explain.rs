@@ -35,7 +35,7 @@ impl SystemFeature {
         Self { name: name.into(), usage: Usage::Used(how.into()) }
     }
 
-    /// Creates the feature of the time steps: their size, and the times at which steps must end.
+    /// Describes the time steps as a feature: their size, and the times at which steps must end.
     pub fn steps(size: &str, cuts: &[f64]) -> Self {
         let cut = in_words(cuts).map(|times| format!("steps will end at t = {times}"));
         Self::used(

@@ -99,7 +99,7 @@ impl System {
     }
 }
 
-/// Nodes that are connected to the node `from` by chains of pairs without the ground.
+/// Nodes that the pairs connect to the node `from`, directly or through other nodes, but not through the ground.
 fn connected_nodes(from: Node, pairs: &[(Node, Node)]) -> Vec<Node> {
     let mut found = vec![from];
     let mut next = 0;

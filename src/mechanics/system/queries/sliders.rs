@@ -31,7 +31,7 @@ impl System {
         self.slider(slider).most_spans
     }
 
-    /// Largest ratio of step length to impact duration at a bounce of a slider; zero for rigid impacts [-].
+    /// Largest step length at a bounce of a slider, divided by the impact duration [-]; zero for rigid impacts.
     pub fn steps_per_impact(&self, slider: usize) -> f64 {
         self.slider(slider).steps_per_impact
     }

@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-14;
 /// State of a spring or a damper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringState {
-    /// Length of the spring [length], or angle of a torsion spring [rad].
+    /// Length of the spring, not its change [length]; for a torsion spring, its angle [rad].
     pub elongation: f64,
     /// Mean force (positive in tension) or mean moment in the last step [force, force·length].
     /// For integrators with forces at the ends of steps, the field contains the force at the end of the step.

@@ -1,4 +1,4 @@
-//! Sensors in the columns of every history of a scene.
+//! Sensors that are recorded in every history of a scene without a request.
 
 use super::Scene;
 use crate::geometry::Vec2;

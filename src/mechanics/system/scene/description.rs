@@ -58,7 +58,7 @@ impl Scene {
     }
 
     /// Returns the scene with about `ratio` times as many spans in each beam.
-    /// At least one span remains between two breaks of reduced continuity.
+    /// At least one span remains between two neighbouring knots at which the mesh is less smooth than elsewhere.
     ///
     /// # Errors
     /// Fails if a beam would have too many or too short spans.

@@ -10,8 +10,8 @@ use crate::system::elements::{Drive, SceneChecks};
 /// Largest initial value of a prescribed displacement that counts as zero [rad], or as a fraction of the length of the body.
 const CLOSED_AT_START: f64 = 1e-12;
 
-/// Largest jump of a prescribed displacement at a declared break that counts as zero.
-/// The jump is a fraction of the displacement plus the length of the body (plus 1 rad for rotations).
+/// Largest jump of a prescribed displacement that counts as zero. Jumps are checked at the breaks that the schedule declares.
+/// The value is a fraction of the displacement plus the length of the body (plus 1 rad for rotations).
 const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {

@@ -16,7 +16,7 @@ const TOLERANCE: f64 = 1e-9;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Scene {
-    /// Returns true if all objects of both scenes are equal and have the same order. Only elements of different types may change their order.
+    /// Returns true if all objects of both scenes are equal and have the same order. The order of elements of different types is ignored.
     /// The comparison of scenes ignores names, observed stations and outlines of rigid bodies.
     /// Scenes that contain script functions are never equal, because script functions cannot be compared.
     pub fn is_like(&self, other: &Self) -> bool {

@@ -128,7 +128,7 @@ impl Scene {
         Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
     }
 
-    /// Returns true if a slider that only pushes starts in flight, at a distance from its master.
+    /// Returns true if a slider with a unilateral contact is initially at a distance from its master (in flight).
     pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
         if slider.side.is_none() {
             return Ok(false);
@@ -145,7 +145,7 @@ impl Scene {
         Ok(StartGap { from, to, gap, tolerance })
     }
 
-    /// First slider of the scene that only pushes.
+    /// First slider of the scene with a unilateral contact.
     pub fn slider_with_side(&self) -> Option<&Slider> {
         self.sliders.iter().find(|slider| slider.side.is_some())
     }

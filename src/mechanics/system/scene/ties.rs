@@ -176,7 +176,7 @@ impl Scene {
         })
     }
 
-    /// Stations whose given component (x, y or angle) joints tie to that of a station, including the station itself.
+    /// Stations that joints connect to `station` in the given component (x, y or angle), including `station`.
     /// The returned flag is true if the ground fixes the component. The search for joined stations ends at the ground.
     fn held_with(&self, station: &Station, component: Component) -> (Vec<Station>, bool) {
         let mut places = vec![*station];

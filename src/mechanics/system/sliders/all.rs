@@ -113,7 +113,7 @@ impl Sliders {
         self.iter().for_each(|slider| slider.predict_unchanged(unknowns));
     }
 
-    /// Holds sliders that the displacement moves beyond stops, and releases sliders whose stop force is tensile.
+    /// Holds sliders that the present iterate of a static solution moves beyond stops. Releases sliders whose stop force is tensile.
     /// The returned flag is true if the state of a slider has changed.
     /// If a slider would leave its master, the error contains the slider and the end of the master.
     pub fn update_stop_contacts(
@@ -246,7 +246,7 @@ impl Sliders {
         self.target
     }
 
-    /// Shortest chord of the path of a slider, as a fraction of the length of the path [-].
+    /// Smallest ratio, over all sliders, of the chord of the path of a slider in the step to the length of this path [-].
     pub fn shortest_chord(&self) -> f64 {
         self.iter().map(SliderContact::chord).fold(f64::INFINITY, f64::min)
     }

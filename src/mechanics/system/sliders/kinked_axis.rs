@@ -1,4 +1,4 @@
-//! Kink of the axis of a master at its slider. The mesh of the master does not represent the kink.
+//! Kink of the axis of a master at its slider: jump of the tangent under the contact force. The mesh of the master does not represent the kink.
 
 use std::sync::Arc;
 
@@ -7,28 +7,30 @@ use crate::geometry::{ContactPath, PiecewisePolynomial, Vec2};
 use crate::joints::{Kink, KinkMotion, KinkState};
 
 /// Largest kink length at which the axis counts as rigid at the slider, as a fraction of the length of the master.
+/// The kink length is the displacement of the axis at the slider, divided by the ratio of contact force to shear stiffness.
 const RIGID: f64 = 1e-14;
 
 /// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
-/// Near the speed of shear waves, the stiffness of a moving kink is nearly zero. Above `FASTEST`, the kink is kept constant.
+/// Above this limit, the kink is kept constant. Near the speed of shear waves, the stiffness of a moving kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
 /// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
-/// The stiffness of a kink is zero at the critical speed: the shear wave speed divided by the square root of the kinetic energy factor.
+/// At the critical speed, the stiffness of the kink is zero. It is the shear wave speed divided by the square root of [`MasterKink::inertia`].
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Smallest kink length at which a kink varies with the contact force, as a fraction of the largest kink length in the middle of the master.
-/// Near the ends of a master, kinks are shorter than `BESIDE_END` and are therefore kept constant.
+/// Near the ends of a master, the kink length is smaller, and kinks are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
-/// Largest speed at which a kink starts with a load at an end of the master, as a fraction of the largest speed at which a kink varies.
+/// Limit of the speed of a slider at an end of the master, as a fraction of the largest speed at which a kink varies.
+/// At larger speeds, a new kink starts without load. Below the limit, it starts with the jump that the contact force causes.
 const SLOW: f64 = 0.25;
 
-/// Smallest kink length at which a loaded kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
-/// At kink lengths below `FROM_END`, rounding errors of positions would determine the kink.
+/// Smallest kink length at which a kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
+/// Below this kink length, rounding errors of positions would determine the kink, which is therefore kept constant.
 const FROM_END: f64 = 0.01;
 
-/// Largest contact force with which a kink starts, as a fraction of `GA` [-]. Larger forces belong to vibrations that the steps do not resolve.
+/// Largest contact force that determines a new kink, as a fraction of `GA` [-]. Larger forces are due to vibrations that the steps do not resolve.
 const LARGEST_START: f64 = 0.02;
 
 #[derive(Debug, Clone)]
@@ -39,8 +41,8 @@ pub struct MasterKink {
     pub inertia: f64,
 }
 
-/// Kink of the axis of a master due to the contact force. The kink displaces the axis at the slider.
-/// The kink length is the displacement per unit of the ratio of the contact force to the shear stiffness.
+/// Kink of the axis of a master: jump of its tangent under the contact force. The kink displaces the axis at the slider.
+/// The kink length is this displacement, divided by the ratio of contact force to shear stiffness.
 #[derive(Debug, Clone)]
 pub struct KinkedAxis {
     length: Arc<PiecewisePolynomial>,
@@ -49,9 +51,9 @@ pub struct KinkedAxis {
     inverse_square_speed: f64,
     /// Largest speed at which the kink varies with the contact force [length/time].
     fastest: f64,
-    /// Largest kink length at which the axis counts as rigid [length].
+    /// Kink length up to which the axis counts as rigid [length].
     none: f64,
-    /// Smallest kink length at which the kink varies with the contact force [length].
+    /// Kink length below which the kink is kept constant instead of varying with the contact force [length].
     least: f64,
     is_frozen: bool,
     compliance_derivatives: [f64; 3],
@@ -102,8 +104,8 @@ impl KinkedAxis {
         self.is_frozen || length < least || self.speed.abs() > self.fastest
     }
 
-    /// Returns true if a new kink may start with a load at the given speed along the master [length/time].
-    /// At larger speeds of the slider, waves near the end that the steps do not resolve would determine the load of a new kink.
+    /// Returns true if a new kink may be initialised with the contact force at the given speed along the master [length/time].
+    /// For faster sliders, the contact force is due to waves that the time steps do not resolve.
     pub fn is_slow(&self, speed: f64) -> bool {
         speed.abs() < SLOW * self.fastest
     }
@@ -185,8 +187,8 @@ impl KinkedAxis {
         }
     }
 
-    /// Starts the kink with the component of a contact force [force] across the tangent [length] of the axis.
-    /// A contact force that is too large for a new kink is ignored: the kink then starts without load.
+    /// Initialises the kink with the jump that the component of `force` [force] normal to `tangent` [length] causes.
+    /// If the force is too large, the kink starts without load.
     pub fn load(&mut self, force: Vec2, tangent: Vec2) {
         let is_small = force.norm() * self.compliance < LARGEST_START;
         self.jump = if is_small { force } else { Vec2::zeros() };

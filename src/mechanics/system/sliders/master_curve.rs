@@ -49,7 +49,7 @@ pub enum SliderState {
     Sliding,
     /// The slider is held by a stop at an end of its master.
     Held(MasterEnd),
-    /// The slider is in flight: it only pushes, has left its master, and can land on the master again.
+    /// The slider is in flight: its contact is unilateral and open. The slider can land on the master again.
     Separated,
     /// Released from its master.
     Released,
@@ -100,7 +100,7 @@ pub enum SliderEvent {
     SlipStart(usize),
     /// The slider in flight with this index reaches the axis of its master.
     Landing(usize),
-    /// The contact force of the slider with this index, which only pushes, becomes tensile.
+    /// The force of the unilateral contact of the slider with this index becomes tensile.
     TakeOff(usize),
 }
 

@@ -57,7 +57,7 @@ pub struct SliderContact {
     pub steps_per_impact: f64,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Box<SliderFriction>>,
-    /// Contact state of a slider that only pushes; `None` for a slider that never leaves its master.
+    /// State of a unilateral contact; `None` for a slider that never leaves its master.
     pub unilateral: Option<Box<UnilateralContact>>,
     master: MasterCurve,
     /// Path of the slider along its track; `None` for a slider on a single beam.
@@ -178,7 +178,7 @@ impl SliderContact {
         std::mem::replace(&mut self.kinked_axis, axis)
     }
 
-    /// Returns true if the slider loses energy at its ends, by friction or when it lands on its master.
+    /// Returns true if the slider may lose energy at the ends of its master, by friction, or when it lands on its master.
     pub fn dissipates(&self) -> bool {
         self.restitution < 1.0 || self.friction.is_some() || self.unilateral.is_some()
     }

@@ -63,7 +63,8 @@ impl IncrementPrediction {
         self.mean_rates.iter_mut().zip(change).for_each(|(rate, change)| *rate += change);
     }
 
-    /// Errors of both predictions at the given degrees of freedom. Must be called before `update`, which overwrites the mean rates.
+    /// Errors of the two predictions of the increments, from the rates at the start and from the mean rates, at the given degrees of freedom.
+    /// This function must be called before `update`, which overwrites the mean rates.
     pub fn prediction_errors(
         &self,
         movements: &[usize],

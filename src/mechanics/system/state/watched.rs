@@ -1,4 +1,5 @@
-//! Resolution measures of single bodies. In the measures of a whole scene, the unresolved motion of a small body is negligible.
+//! Measures of the temporal resolution for single bodies.
+//! They are needed because the unresolved motion of a small body hardly changes the measures of the whole scene.
 
 use super::Resolution;
 use super::forecast::IncrementPrediction;

@@ -84,7 +84,7 @@ mod of_system {
                     Pressed::Byte(byte) => rest.push(byte),
                     _ => break,
                 }
-                // A letter or a tilde ends an escape sequence, unless it is its first byte.
+                // A letter or a tilde ends an escape sequence, except as the first byte of the sequence.
                 let is_end = rest.len() > 1
                     && rest.last().is_some_and(|last| last.is_ascii_alphabetic() || *last == b'~');
                 if is_end {

@@ -23,7 +23,7 @@ const DEEPEST: usize = 8;
 /// Maximum number of functions that are searched, because functions may be recursive.
 const MOST: usize = 100;
 
-/// Position at which a function branches on an expression with its argument and a variable that depends on a parameter.
+/// Position of a branch whose condition contains the argument of its function and a variable that depends on a parameter.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,

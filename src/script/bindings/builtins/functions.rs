@@ -1,4 +1,4 @@
-//! Operations on functions that are values.
+//! Methods of function values: function pointers and closures.
 
 use crate::script::bindings::built_in::{BuiltInTable, built_in};
 use crate::script::bindings::returns::Returns;

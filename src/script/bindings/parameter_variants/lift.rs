@@ -20,7 +20,7 @@ const BESIDE: &str = "derivatives are computed from values on both sides of a pa
 
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
-/// Evaluates a binding for each variant of its receiver and arguments, by the rule of its domain.
+/// Evaluates a binding for each variant of its receiver and arguments. `lifting` is the rule for the domain of the binding.
 ///
 /// # Errors
 /// Fails if the call fails, if derivatives would be lost, or if parameters of two scenes are combined.

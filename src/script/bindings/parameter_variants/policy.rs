@@ -78,6 +78,6 @@ pub fn lifting_of(table: &BindingTable, row: &FunctionBinding) -> Lifting {
     }
 }
 
-/// Names of domains in these rules, whose existence a test checks.
+/// Names of all domains in the constants of this file. A test checks that the domains exist.
 #[cfg(test)]
 pub const NAMED: [&[&str]; 3] = [EACH, AT_VALUES, REFUSED];

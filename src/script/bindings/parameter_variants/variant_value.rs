@@ -26,7 +26,7 @@ impl VariantValue {
         Self { family: Rc::clone(family), values: values.into(), lost }
     }
 
-    /// Value in the given variant, also of elements of arrays and maps, and of captured values.
+    /// Value in the given variant. Elements of arrays and maps, and values captured by closures, are also replaced by their values in this variant.
     pub fn project(value: &Dynamic, variant: usize) -> Dynamic {
         project(value, variant)
     }

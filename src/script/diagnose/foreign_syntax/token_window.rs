@@ -92,7 +92,8 @@ impl<'s> TokenWindow<'s> {
         self.word(from_here).starts_with(['"', '`', '\''])
     }
 
-    /// First word in `sought` in the statement, up to two tokens after the error, with its offset from the error.
+    /// Searches the statement, from its start to two tokens after the error, for the first token that is one of the words `sought`.
+    /// Returns the offset of this token from the error, and the word.
     pub fn find_word(&self, sought: &[&str]) -> Option<(isize, &str)> {
         let last = (self.here + 3).min(self.words.len());
         let mut words = self.words.get(self.first..last)?.iter().enumerate();

@@ -1,4 +1,6 @@
-//! Outputs of the controllers of a simulation, which it restores before it is used, because simulations share their cells in the scene.
+//! Outputs of the controllers of a simulation.
+//!
+//! Simulations of one scene share the variables that contain the outputs. Therefore each simulation restores its own outputs before it is used.
 
 use std::cell::RefCell;
 

@@ -16,7 +16,7 @@ pub enum Visited {
 
 impl SimulationHandle {
     /// Calls `look` with the states at the given times of the history. Stored states are visited from the last to the first.
-    /// If a state is not stored, the run is repeated in a copy, which counts steps, and states are visited in the order of time.
+    /// If a state is not stored, the run is repeated in a copy, and states are visited in the order of time. The repeated steps count towards the step limit.
     /// Energies and momenta of the repeated run must equal those of the original bit by bit.
     pub fn for_each_state(
         &self,

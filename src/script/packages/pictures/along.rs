@@ -1,4 +1,4 @@
-//! Pictures of section results along beams.
+//! Pictures of section forces and strains along beams.
 
 use rhai::{Array, Dynamic};
 

@@ -45,7 +45,7 @@ pub struct FitRequest<'o> {
 pub enum Derivatives {
     /// Derivatives from the runs, or finite differences for runs without derivatives.
     Known,
-    /// Finite differences of runs, or a search without derivatives.
+    /// Derivatives of the runs are not used: finite differences, or a search without derivatives.
     Unknown,
 }
 

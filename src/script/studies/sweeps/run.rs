@@ -191,7 +191,8 @@ impl SweepRequest<'_> {
 }
 
 /// Sends a limited number of unknown rows at a time to the workers, until all rows are known or the run is stopped.
-/// Results are processed in the order of the rows until one has defined the names of the results, which are thus deterministic.
+/// The first successful row defines the names of the results. Until then, results are processed in the order of the rows.
+/// Therefore the names do not depend on the timing of the workers.
 fn drive(
     pool: &WorkerPool<usize, CallWork<RowOutcome>>,
     context: &Context,

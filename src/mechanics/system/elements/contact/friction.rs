@@ -25,7 +25,7 @@ struct FrictionLaw {
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
+    /// Weight of this force in the mean force of the step [-]; 1 unless the force is evaluated at the end of the step.
     share: f64,
 }
 
@@ -123,7 +123,7 @@ pub struct PointFriction<const N: usize> {
     mass: f64,
     /// Elastic deflection along the surface at the start of the step [length].
     deflection: f64,
-    /// Friction force, as an internal force along the turned normal [force].
+    /// Friction force, as an internal force along the normal rotated by +90° [force].
     force: MixedForce,
     by_normal: f64,
     trial: SlipTrial<N>,
@@ -135,7 +135,7 @@ pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub force: f64,
     pub duration: f64,
-    /// Weight of the force at the end of the step in the mean force of the step [-]; 1 at the other stages.
+    /// Weight of this force in the mean force of the step [-]; 1 unless the force is evaluated at the end of the step.
     pub share: f64,
 }
 
@@ -294,7 +294,7 @@ impl<const N: usize> PointFriction<N> {
     }
 
     /// Generalised internal force of friction at the start of the step.
-    /// `rates` is the slip for the rates of the local coordinates, which is the slip rate because the slip is linear in the local coordinates.
+    /// `rates` is the slip trial for the rates of the local coordinates. Since the slip is linear in these coordinates, it contains the slip rate.
     pub fn at_start(&self, rates: &SlipTrial<N>, normal_force: f64, damping: f64) -> [f64; N] {
         let limit = self.coefficient * normal_force.max(0.0);
         let force = self.stiffness * self.deflection + damping * rates.slip;

@@ -31,14 +31,14 @@ pub struct ContactTime {
 }
 
 impl ContactTime {
-    /// Creates the contact time of a stage and its weight. In a static increment, damping is not evaluated.
+    /// Creates the time integration data of a contact for a stage with the given weight. In a static increment, damping is not evaluated.
     pub fn new(rate_history: &RateHistory, (stage, weight): (Stage, f64)) -> Self {
         let duration = rate_history.duration();
         let rates = rate_history.at(stage, weight).filter(|_| duration.is_finite());
         Self { stage, weight, rates, duration }
     }
 
-    /// Weight of the force at the end of a step in the mean force of the step [-]; 1 at the other stages.
+    /// Weight of the contact force in the mean force of the step [-]. It differs from 1 only at the stage [`Stage::End`].
     /// The damping force is divided by the weight, because it is evaluated only at the end of the step.
     pub fn share(&self) -> f64 {
         if self.stage == Stage::End { self.weight } else { 1.0 }

@@ -1,4 +1,5 @@
-//! Derivatives of the coordinates of an elongation with respect to the degrees of freedom: basis functions at the terminals.
+//! Derivatives of the increments on which an elongation depends, with respect to the degrees of freedom.
+//! The derivatives are the basis functions at the end points of the spring.
 
 use super::{Elongation, ElongationEnd};
 use crate::linalg::BandRows;

@@ -11,7 +11,8 @@ impl SpringDamper {
         self.law.as_ref().map_or(0.0, |law| law.force(self.elongation.grown()))
     }
 
-    /// Returns true if the force is zero in a segment of the law, also after a release, because the size of saved states depends on it.
+    /// Returns true if the law has a segment with zero force. The result determines the size of saved states.
+    /// Therefore it must not change if the spring is released.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)
@@ -49,7 +50,7 @@ impl SpringDamper {
     }
 
     /// Target force of the spring for a linearisation.
-    /// After several iterations, the spring is linearised at the intersection of its law with the response line of all other objects.
+    /// After several iterations, the spring is linearised at the force that satisfies its law and the linearised response of all other objects.
     pub(super) fn spring_target(&mut self, stage: Stage) -> ForceTarget {
         let (asked, change) = (self.restoring(stage), self.elongation.change);
         let impedance = self.spring.impedance(change);

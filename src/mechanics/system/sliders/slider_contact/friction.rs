@@ -22,8 +22,8 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// The friction force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Smallest number of recent transitions between slip and stick that prevents the shortening of a step to the end of the slip.
-/// Each transition between slip and stick increases the number of transitions by one, and each accepted step or substep reduces it by one.
+/// Number of recent transitions between slip and stick from which steps are no longer shortened to end where the slip ends.
+/// Each transition increases this number by one, and each accepted step or substep reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition between slip and stick at the end of an attempted step.
@@ -264,7 +264,8 @@ impl SliderContact {
         (reversed.abs() > negligible).then_some(reversed)
     }
 
-    /// Friction limit minus the force along the master, if an attempted step misses the start of a slip at which it has to end [force].
+    /// Friction limit minus the force along the master at the end of a step that was to end at the start of a slip [force].
+    /// The result is `None` if the step ends at the start of the slip with sufficient accuracy.
     pub fn missed_slip_start(&self) -> Option<f64> {
         let (of, step) = self.friction_in_step()?.sticking()?;
         of.missed(step)

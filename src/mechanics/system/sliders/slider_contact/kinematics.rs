@@ -49,7 +49,7 @@ impl SliderContact {
         self.is_sliding() && self.kinked_axis.is_some()
     }
 
-    /// Returns true if the slider is so slow that its kink may start with a load.
+    /// Returns true if the slider is slow enough that the contact force may determine a new kink.
     pub fn is_slow(&self, bodies: &[Body], rates: &[f64]) -> bool {
         let rate = self.rate(bodies, rates);
         self.kinked_axis.as_ref().is_some_and(|axis| axis.is_slow(axis.speed_of(rate)))
@@ -63,7 +63,7 @@ impl SliderContact {
         })
     }
 
-    /// Starts the kink of the master with a contact force as its load [force].
+    /// Initialises the kink of the master with the jump that a contact force causes [force].
     pub fn load_kink(&mut self, bodies: &[Body], force: Vec2) {
         let tangent = self.tangent(bodies);
         self.unknowns.force = force;

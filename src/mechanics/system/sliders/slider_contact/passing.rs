@@ -14,7 +14,7 @@ pub trait Passing {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]);
 
-    /// Contact, with the values and units of its equations. The derivatives of the equations are not computed.
+    /// Evaluates the contact: kinematics, and the residuals and units of its equations. The derivatives of the equations are not computed.
     fn iterate_values<'s>(
         slider: &'s mut SliderContact,
         bodies: &[Body],

@@ -1,6 +1,6 @@
 //! Static friction of a slider: the force along the master at which a sticking slider starts to slip.
 //!
-//! The force on a sticking slider drops at the start of the slip, so this time must be accurate to second order.
+//! The force on the slider drops at the start of a slip. The time of this start must therefore be accurate to second order.
 //! The contact forces of a step are means. They are extrapolated linearly to the end of the step:
 //!
 //! ```text
@@ -9,9 +9,9 @@
 //! ```
 //!
 //! In the second step after a slip, `F_end` is extrapolated from `F₀` and `F₁`, and in the first step it is `F₀`.
-//! The force `F₀` itself must not exceed the limit, so that a slip starts at a jump of a load.
+//! The force `F₀` itself must not exceed the limit either. Otherwise, a jump of a load would not start a slip at once.
 //!
-//! The averages remove forces whose impulses change sign from step to step, because the steps do not resolve such vibrations.
+//! Vibrations faster than the steps add impulses that change sign from step to step. The means over two steps remove these impulses.
 
 /// Largest difference between the force along the master and its limit at the start of a slip, as a fraction of the force.
 const AT_LIMIT: f64 = 1e-9;
@@ -21,7 +21,7 @@ const AT_LIMIT: f64 = 1e-9;
 pub struct StickingForces {
     /// Force along the master [force].
     pub along: f64,
-    /// Normal force in the friction limit [force].
+    /// Normal force from which the friction limit is computed [force].
     pub across: f64,
     /// Duration of the step [time]; zero if the forces are unknown.
     pub duration: f64,
@@ -122,7 +122,8 @@ impl StaticFriction {
 mod tests {
     use super::*;
 
-    /// A force that grows linearly is exact at the end of a step, at any step lengths and with an impulse that changes sign from step to step.
+    /// The extrapolation to the end of a step is exact for forces that grow linearly, for any step lengths.
+    /// Impulses that change sign from step to step do not affect the result.
     #[test]
     fn linear_forces_are_extrapolated_without_alternating_impulses() {
         let mut friction = StaticFriction::new(0.5);

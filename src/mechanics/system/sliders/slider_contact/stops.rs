@@ -10,8 +10,8 @@ impl SliderContact {
         self.state = SliderState::Held(end);
     }
 
-    /// Subtracts the work that an impact does on the bodies from the energy stored in the stop.
-    /// If the impact loses energy or the slider only pushes, the work is subtracted from the lost energy of the slider instead.
+    /// Books the work that an impact does on the bodies: the energy stored in the stop decreases by this work.
+    /// If the impact loses energy or the contact is unilateral, the lost energy of the slider decreases instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 || self.unilateral.is_some() {
             true => self.lost_energy -= work,

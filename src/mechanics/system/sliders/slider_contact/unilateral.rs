@@ -1,4 +1,4 @@
-//! Contact of a slider that only pushes: flight, landing and take-off.
+//! Unilateral contact of a slider, which can leave its master: flight, landing and take-off.
 
 use super::SliderContact;
 use crate::geometry::{Vec2, cross};
@@ -21,7 +21,7 @@ const SMALLEST_CURVATURE: f64 = 0.5;
 /// Largest cosine of the angle between the axis and the vector to the slave for a slave that is not beyond an end of the master.
 const BEYOND: f64 = 1e-9;
 
-/// Event in which the contact state of a slider that only pushes changes.
+/// Event in which the state of a unilateral contact of a slider changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactChange {
     /// The slider left its master.
@@ -30,11 +30,11 @@ pub enum ContactChange {
     Landing,
     /// The slider struck its master and rebounded.
     Bounce,
-    /// The slider passed the axis of its master beyond an end of the master.
+    /// The slider crossed the extension of the axis of its master beyond an end, without contact.
     Passage,
 }
 
-/// State of a slider that only pushes: its side of the master, the nearest point of the master, and recent events.
+/// State of a unilateral contact of a slider: its side of the master, the nearest point of the master, and recent events.
 #[derive(Debug, Clone)]
 pub struct UnilateralContact {
     /// Side of the master on which the slider can fly: 1 for the left side of the axis, -1 for the right side.
@@ -77,7 +77,7 @@ impl SliderContact {
         self.state == SliderState::Separated
     }
 
-    /// Returns true if the slider only pushes and is in contact with its master.
+    /// Returns true if the contact of the slider is unilateral and closed.
     pub fn may_take_off(&self) -> bool {
         self.is_sliding() && self.unilateral.is_some()
     }

@@ -174,8 +174,9 @@ fn shape(site: &dyn AssemblyContext, member: &ContactMember) -> Result<Shape, Sy
 }
 
 /// Parts of the axis of a beam that each contact point of the same beam can touch.
-/// A contact point cannot touch parts of the axis within an arc length of half the circumference of a circle with twice the radius.
-/// Parts of the axis near the contact point are excluded, because a bent beam would touch itself there.
+/// Parts of the axis within the arc length `2π r` of the contact point are excluded, where `r` is the contact radius.
+/// Otherwise, a bent beam would touch itself beside the contact point.
+/// The arc length `2π r` is half the circumference of a circle with the radius `2r`.
 fn allowed_parts(
     basis: &Basis,
     controls: &[Vec2],

@@ -168,7 +168,8 @@ impl PairForces {
         self.pairs.iter().for_each(|pair| self.shapes[pair.index.target].prepare_search());
     }
 
-    /// Foot of a contact point that touches a body in the present iterate and did not touch this body before.
+    /// Nearest point (foot of the perpendicular) on the axis of a body that a contact point touches in the present iterate.
+    /// The result is `None` if the contact point touched this body before.
     fn touched_foot(&self, index: PairIndex) -> Option<Foot> {
         let PairIndex { shape, site, target } = index;
         let (own, other) = (&self.shapes[shape], &self.shapes[target]);
@@ -367,7 +368,7 @@ impl InternalForce for PairForces {
         all.filter(|one| one.depth > 0.0).collect()
     }
 
-    /// Returns false without a search if the configuration `start` is older than the step: no bodies came near each other in such a step.
+    /// Returns false without a search if the configuration `start` was not updated in this step: no bodies are then near each other.
     fn crosses(&self, bodies: &[Body], increments: &[f64]) -> bool {
         if !self.is_current || self.is_clear_with(bodies, increments) {
             return false;

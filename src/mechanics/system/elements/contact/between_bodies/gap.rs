@@ -93,8 +93,8 @@ impl GapTrial {
         Self { secant: [normal, -normal, Vec2::zeros()], arm, ..Self::NONE }
     }
 
-    /// Computes the change of the gap and the directions of the contact forces.
-    /// With `TangentScaled`, the work of the contact forces is the internal force in the gap times the change of the gap.
+    /// With the rotation increments `TangentScaled`, the work of the contact forces is exactly the normal force times the change of the gap.
+    /// With the rotation increments `Angle`, the contact force has the direction of the gap at the end of the step.
     /// With `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,

@@ -129,7 +129,7 @@ impl ContactPair {
         self.index.place(shapes)
     }
 
-    /// Sets the foot to that at the end of the last accepted step, so that the gap is continuous.
+    /// Sets the contact position on the axis to its value at the end of the last accepted step, so that the gap is continuous.
     pub(super) fn begin_configuration(&mut self, shapes: &[Shape]) {
         self.use_foot(shapes, self.start.foot);
     }

@@ -218,7 +218,7 @@ impl Shape {
     }
 
     /// Inverse of the effective mass at a combination of control points [1/mass].
-    /// At a point of a rigid body without mass of the point, the inverse mass of the whole body is returned.
+    /// At a point of a rigid body that has no point mass, the inverse mass of the whole body is returned.
     pub(super) fn mobility(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
         let sum: f64 = weights.map(|(at, share)| square(share) / self.masses[at]).sum();
         if sum.is_finite() { sum } else { 1.0 / self.masses.iter().sum::<f64>() }
@@ -371,7 +371,7 @@ impl Shape {
         let (Some(before), Some(after)) = (before, after) else { return false };
         let distance = (from - before.combine(0, &self.start.points)).norm()
             + (to - after.combine(0, &self.end.points)).norm();
-        // A position that passes through the axis moves by at least the sum of its distances at the start and at the end.
+        // A point that passes through the axis moves by at least the sum of its distances from the axis at the start and at the end.
         let moves = near.clone().flat_map(|(_, span)| {
             (span.first..=span.first + basis.degree()).map(|at| self.movements[at])
         });

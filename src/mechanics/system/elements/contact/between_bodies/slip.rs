@@ -1,8 +1,14 @@
 //! Slip of a contact point along the axis of another body, and the directions of the friction force.
 //!
 //! ```text
-//! force nₖ on the contact point from c(ξₖ) for a unit normal force, turn J by a right angle, shares ρ and ρ' of the arm
-//! slip Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω') with A = Σₖ nₖ·dₖ and the mean vector dₖ from c(ξₖ) to the point
+//! slip Δs = Σₖ J nₖ·(Δx - Δc(ξₖ)) - A (ρ Δω + ρ' Δω')    with A = Σₖ nₖ·dₖ
+//! c(ξₖ)    point of the axis of the other body
+//! nₖ       force of this point on the contact point for a unit normal force
+//! J        rotation by 90°
+//! dₖ       mean vector from c(ξₖ) to the contact point
+//! Δx, Δc   increments of the contact point and of the points of the axis
+//! Δω, Δω'  rotation increments of the body of the contact point and of the other body
+//! ρ, ρ'    fractions of the friction moment that act on these two bodies
 //! ```
 //!
 //! The friction force acts along `J nₖ`, and the moments `A ρ` and `A ρ'` of a unit friction force act on the two bodies.

@@ -6,7 +6,7 @@ use super::shape::{Bounds, Configuration, NearestSearch, Shape};
 use crate::elementary::square;
 use crate::system::bodies::Body;
 
-/// Relative accuracy of the smallest gap between open bodies. Contact points that would reduce the gap by less are not evaluated.
+/// Relative accuracy of the smallest gap of bodies that are not in contact. Contact points that would reduce the gap by less are not evaluated.
 const ACCURACY: f64 = 1e-3;
 
 pub(super) struct GapSearch<'s> {
@@ -25,8 +25,8 @@ impl<'s> GapSearch<'s> {
         Self { shapes, configurations, gap: all.map_or(0.0, |all| all.diagonal()) }
     }
 
-    /// Smallest gap of the candidate pairs [length]. `closed` contains the gaps of closed contacts.
-    /// If no gap is smaller, the diagonal of the box around all bodies is returned.
+    /// Smallest gap of the candidate pairs and of the closed contacts, whose gaps are given by `closed` [length].
+    /// The result is at most the diagonal of the box around all bodies.
     pub(super) fn smallest(
         mut self,
         candidates: &[CandidatePair],

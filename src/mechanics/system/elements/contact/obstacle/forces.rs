@@ -2,7 +2,8 @@
 //!
 //! `docs/theory.md`, section 9.7, derives the forces.
 //! The tension of each contact point is an independent unknown.
-//! Each iteration intersects the contact law with the line that represents the impedance of the mass at the point.
+//! Each iteration determines the force and the gap of a contact point from two equations: the contact law,
+//! and the linear relation between force and gap that follows from the inertia of the body at this point.
 
 use super::definition::ObstacleShape;
 use super::point::{ClosedContact, ContactPoint, Surface};
