@@ -33,7 +33,7 @@ const LARGEST_DECORRELATION: f64 = 8.0;
 /// Absolute tolerance of the order `p` and of the exponent `k`.
 const ACCURACY: f64 = 1e-3;
 
-/// Order and correlation exponent that are assumed for the lower bound of the error if the runs do not determine them.
+/// Order and correlation exponent that are assumed for the smallest estimate of the error if the runs do not determine them.
 const FIRST_ORDER: Convergence = Convergence { order: 1.0, decorrelation: 0.0 };
 
 /// Largest error at which a run may count as converged, as a fraction of the scale of the compared quantity.
@@ -52,7 +52,7 @@ pub enum ErrorVerdict {
     /// The error is small, the differences of neighbouring levels are correlated, and the observed order is high enough.
     /// The order must be at least 0.7 times the expected order.
     Converged,
-    /// The runs do not converge yet, so that the error estimate is only a lower bound.
+    /// The runs do not converge as expected. The error may differ from the estimate by more than a factor of 3.
     PreAsymptotic,
     /// The motion is chaotic: initially close runs separate. Results are meaningful only until the time `until`.
     Chaotic {

@@ -7,7 +7,7 @@ use crate::common::{run, settings};
 use withy::beams::{Mesh, Section};
 use withy::geometry::{Basis, KnotVector};
 use withy::integrators::Method;
-use withy::joints::SlidingRule;
+use withy::joints::{JointKind, Partner, SlidingRule};
 use withy::simulation::Simulation;
 use withy::system::System;
 use withy::vibration::Modes;
@@ -163,4 +163,16 @@ fn sliding_masses_agree_with_references_on_every_mesh() {
             "degree {degree}, C{continuity}, {lengths:?}: {errors:?}"
         );
     }
+}
+
+#[test]
+fn the_expected_order_depends_on_the_degree_and_on_forces_inside_beams() {
+    let of = |degree| spaghetti(&Mesh::bspline(8, degree, degree - 1).unwrap(), 1e4);
+    assert_eq!([1, 2, 3, 4, 5].map(|degree| of(degree).mesh_order()), [2.0, 2.0, 4.0, 4.0, 6.0]);
+    let sliding = |rule| sliding_particle(&Mesh::bspline(8, 3, 2).unwrap(), 0.3, rule).mesh_order();
+    assert_eq!((sliding(SlidingRule::Conserving), sliding(SlidingRule::Kinked)), (1.0, 3.0));
+    let mut held = of(3);
+    let middle = held.station(0, 5.0).unwrap();
+    held.join(JointKind::Hinge, middle, Partner::Ground).unwrap();
+    assert_eq!(held.mesh_order(), 1.0);
 }

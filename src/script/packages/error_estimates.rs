@@ -43,8 +43,9 @@ pub const TABLE: BindingTable = BindingTable {
                 controllers, conditions and events again, and use all cores if there are no \
                 such functions. Their cost is about that of the run itself. Verdicts: \
                 'converged' if the observed order in time is near that of the integrator, in \
-                space at least 0.7, and the differences of the runs are similar functions of \
-                time; 'pre-asymptotic' if not, then the estimate is a lower bound; 'chaotic' if nearby runs converge up to a time and separate afterwards; \
+                space near that of the mesh, and the differences of the runs are similar functions of \
+                time; 'pre-asymptotic' if not, then the error may differ from the estimate by more than a factor of 3 and is \
+                usually smaller; 'chaotic' if nearby runs converge up to a time and separate afterwards; \
                 'exact' if the runs agree to rounding. Meshes of one to three spans are compared \
                 with finer meshes. A function that changes variables of the script cannot be \
                 repeated; the printed estimate then states the reason. Errors of the model \
