@@ -128,7 +128,8 @@ impl JudgingContext {
                 continue;
             };
             let value = value.flatten_clone();
-            // The headers of judges call the types of strings and functions "text" and "function". The script engine has other names for them.
+            // In the header of a judge's script, the type of a string is written "text", and the type of a function is written "function".
+            // The script engine has other names for these types.
             let found = match value.type_id() {
                 _ if value.is_string() => "text",
                 function if function == TypeId::of::<FnPtr>() => "function",

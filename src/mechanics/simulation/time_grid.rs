@@ -97,7 +97,8 @@ impl TimeGrid {
         let cut = self.cuts[self.cuts.partition_point(|cut| self.has_reached(now, *cut))..].first();
         let slack = self.slack(now);
         let beat = self.clocks.iter().map(|beat| beat.next(now, slack)).min_by(f64::total_cmp);
-        // If a cut and a grid time are equal, the cut is used, because a schedule must be evaluated exactly at the time of its jump.
+        // If a cut and a grid time are equal within `slack`, the step ends exactly at the cut.
+        // The cut may be the jump of a schedule, and the schedule must be evaluated exactly at the time of its jump.
         [Some(limit), beat, cut.copied()].into_iter().flatten().fold(grid, |end, candidate| {
             if candidate > now && self.has_reached(end, candidate) { candidate } else { end }
         })

@@ -84,7 +84,7 @@ impl Equilibrium {
         &self.loading
     }
 
-    /// Model in equilibrium, as a mechanism.
+    /// Model in the equilibrium configuration, or in the initial configuration after a [`dry_run`](Self::dry_run).
     pub fn model(&self) -> &System {
         &self.model
     }

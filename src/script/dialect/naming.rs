@@ -1,5 +1,8 @@
-//! Check for misleading names before a script runs: functions named like functions of the language,
-//! and constants of the language in functions of a file that has a variable of the same name.
+//! Check for misleading names before a script runs.
+//!
+//! A function must not have the name and the number of arguments of a function of the language.
+//! If a file has a variable with the name of a constant of the language, functions in the file must not use this name.
+//! Functions cannot see the variable, and the name would mean the constant.
 
 use rhai::{Engine, EvalAltResult, Position, Token};
 

@@ -119,7 +119,7 @@ impl ScriptEngine {
         &self.context
     }
 
-    /// Engine, which prints values and parses texts.
+    /// Underlying Rhai engine, for example for parsing texts and for the names of types.
     pub fn engine(&self) -> &Engine {
         &self.engine
     }

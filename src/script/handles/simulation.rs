@@ -56,7 +56,8 @@ pub enum RunTarget {
 
 struct ProgressMonitor<'a> {
     context: &'a Context,
-    /// End of the run [time], at which the limit of steps cannot stop the run, because no further step is needed.
+    /// End of the run minus the tolerance for equal times [time]. A run that has reached it is complete, even if the limit of steps is used up.
+    /// `f64::NEG_INFINITY` disables the limit of steps.
     end: f64,
     /// True if the run must stop after every step to call script functions.
     pauses: bool,

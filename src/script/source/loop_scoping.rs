@@ -41,7 +41,8 @@ fn declare_again(context: &mut EvalContext, variables: usize) {
     }
 }
 
-/// Positions of the loop bodies in which a declaration is inserted, with the character for this declaration.
+/// Positions of the opening braces of the loop bodies in which a declaration is inserted.
+/// Each position has the private-use character [`ONE`] or [`TWO`], which stands for the declaration in the rewritten text.
 pub fn bodies(tokens: &[Lexeme]) -> Vec<(Position, char)> {
     let loops = tokens.iter().enumerate().filter(|(_, (token, _))| matches!(token, Token::For));
     loops.filter_map(|(start, _)| body(tokens, start)).collect()

@@ -41,7 +41,9 @@ pub const LONGEST_CHAIN: u8 = 16;
 
 const POWER_PRECEDENCE: u8 = 190;
 
-/// Private-use characters for the operators of `/=`, `^=`, `<<=` and `>>=`, and for the second token, which wraps the operand.
+/// Private-use characters in the rewritten text of a script. In `x /= y`, for example, the operator is replaced by two tokens.
+/// `DIVIDE_HALF` stands for the operator, and `OPERAND_HALF` encloses the operand `y` in a [`DivisionOperand`].
+/// `^=` and `**=` are replaced by `POWER_HALF` and `OPERAND_HALF`, `<<=` by `UP_HALF` and `OPERAND_HALF`, and `>>=` by `DOWN_HALF` and `OPERAND_HALF`.
 const DIVIDE_HALF: char = '\u{E000}';
 const POWER_HALF: char = '\u{E001}';
 const OPERAND_HALF: char = '\u{E002}';

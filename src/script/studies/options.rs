@@ -26,10 +26,10 @@ option_set! {
             of_any_type("maps").doc("a name and its values, with one map for each").optional(),
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
-        /// Default step size of the cells [time].
+        /// Step size in a cell of the stability map, unless the values of the cell or the result of `scene` contain `dt` [time].
         dt: Option<f64> =
             number("dt").positive().unit("time").doc("step size of all cells").optional(),
-        /// Default end of the runs [time].
+        /// End time in a cell of the stability map, unless the values of the cell or the result of `scene` contain `end` [time].
         end: Option<f64> =
             number("end").positive().unit("time").doc("end time of all runs").optional(),
         /// Quantity that colours the cells.

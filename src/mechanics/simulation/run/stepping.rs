@@ -123,8 +123,8 @@ impl Simulation {
         stepped
     }
 
-    /// Keeps the kinks under contact forces and the friction forces of slipping sliders constant after a failed step.
-    /// The returned flag is true if the equations of the step change.
+    /// Holds the friction forces of slipping sliders and the kinks that contact forces cause constant after a failed step.
+    /// Returns true if this changes the equations of the step.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
             StepError::Overshoot { .. } | StepError::Load { .. } => false,

@@ -39,9 +39,9 @@ struct PresentMotion {
     /// Reaction of the drive [force, force·length]. A reaction moment is conjugate to the angle of the section.
     reaction: StepMean<f64>,
     impact_momentum: f64,
-    /// Static displacement of the drive from the initial position under the full load [length, rad].
+    /// Prescribed displacement of the drive from its initial position in a static analysis, at load factor 1 [length, rad].
     goal: f64,
-    /// Part of the displacement to `goal` that has already been applied [length, rad].
+    /// Displacement of the drive in the last accepted step of a static analysis: load factor times `goal` [length, rad].
     placed: f64,
     momentum: Vec2,
 }

@@ -126,7 +126,8 @@ impl InclinedRoller {
         bodies[body].dynamics.control_points()[point]
     }
 
-    /// Mean position of the point in the step whose increments are stored in the bodies [length].
+    /// Mean of the positions of the point at the start and the end of the present step [length].
+    /// The increments of the step are taken from `bodies`.
     pub fn mean_place(&self, bodies: &Bodies) -> Vec2 {
         let (body, point) = self.node;
         let [x, y, _] = bodies[body].moved()[point];

@@ -23,7 +23,7 @@ const ONE_WAY: f64 = 1e-20;
 /// Largest number of iterations for the rotation angles of coupled sliders that pass corners simultaneously.
 const CORRECTIONS: usize = 40;
 
-/// Largest error of the rotation angle at a corner at which the iteration ends [rad].
+/// Tolerance of the iteration for the rotation angle at a corner [rad].
 const RIGHT: f64 = 1e-12;
 
 /// Range of accepted estimates of the derivative of the rotation angle of the velocity with respect to the field `angle` of the search.

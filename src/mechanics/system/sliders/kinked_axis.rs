@@ -10,11 +10,11 @@ use crate::joints::{Kink, KinkMotion, KinkState};
 /// The kink length is the displacement of the axis at the slider, divided by the ratio of contact force to shear stiffness.
 const RIGID: f64 = 1e-14;
 
-/// First upper limit of the speed at which a kink varies with the contact force, as a fraction of the speed of shear waves.
+/// First upper limit of the speed of a slider whose kink follows the contact force, as a fraction of the speed of shear waves.
 /// Above this limit, the kink is kept constant. Near the speed of shear waves, the stiffness of a moving kink is nearly zero.
 const FASTEST: f64 = 0.8;
 
-/// Second upper limit of the speed at which a kink varies with the contact force, as a fraction of the critical speed of the kink.
+/// Second upper limit of the speed of a slider whose kink follows the contact force, as a fraction of the critical speed of the kink.
 /// At the critical speed, the stiffness of the kink is zero. It is the shear wave speed divided by the square root of [`MasterKink::inertia`].
 const FASTEST_ON_MESH: f64 = 0.9;
 
@@ -22,8 +22,9 @@ const FASTEST_ON_MESH: f64 = 0.9;
 /// Near the ends of a master, the kink length is smaller, and kinks are therefore kept constant.
 const BESIDE_END: f64 = 0.1;
 
-/// Limit of the speed of a slider at an end of the master, as a fraction of the largest speed at which a kink varies.
-/// At larger speeds, a new kink starts without load. Below the limit, it starts with the jump that the contact force causes.
+/// Upper limit of the speed of a slider whose new kink starts with the jump that the contact force causes.
+/// It is a fraction of the smaller of the two limits set by [`FASTEST`] and [`FASTEST_ON_MESH`].
+/// At and above this limit, a new kink starts without a jump.
 const SLOW: f64 = 0.25;
 
 /// Smallest kink length at which a kink that moves away from an end varies, as a fraction of the limit set by [`BESIDE_END`].
@@ -49,7 +50,7 @@ pub struct KinkedAxis {
     arc: Arc<PiecewisePolynomial>,
     compliance: f64,
     inverse_square_speed: f64,
-    /// Largest speed at which the kink varies with the contact force [length/time].
+    /// Upper limit of the slider speed [length/time]. Above this limit, the kink is kept constant instead of varying with the contact force.
     fastest: f64,
     /// Kink length up to which the axis counts as rigid [length].
     none: f64,

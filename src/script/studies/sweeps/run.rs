@@ -144,10 +144,10 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// Runs a row in the engine of the script.
+    /// Calls the function of the sweep with the parameters of a row, in the engine of the script instead of a worker.
     ///
     /// # Errors
-    /// Returns the error of the function with its position.
+    /// Fails with the error of the function and its position, or if the function changes a captured variable.
     pub fn invoked(&self, call: &Call, row: usize) -> Result<Dynamic, ScriptError> {
         let values = self.plan.values(row, &|name, count| call.function_named(name, count));
         RunFunction::read(call, "run", self.function)?.call_here(call, "run", values)

@@ -122,8 +122,8 @@ impl NormalForce {
         ForceTarget { force, stiffness }
     }
 
-    /// Largest tension in an iterate for which the mean tension of the step is not positive [force].
-    /// For methods with forces at both ends of the step, the largest tension depends on the tension at the start.
+    /// Upper limit of the tension in an iterate [force]. At or below this limit, the mean tension of the step is not positive.
+    /// For methods with forces at both ends of the step, the limit depends on the tension at the start.
     fn largest_tension(&self, law: &NormalLaw, time: ContactTime) -> f64 {
         let share = time.share();
         (1.0 - 1.0 / share) * self.elastic(law, Stage::Start, 0.0).force
