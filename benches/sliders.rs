@@ -9,7 +9,9 @@ use std::time::{Duration, Instant};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Interval, Mechanism, Method};
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{
+    EndAction, JointKind, Partner, Restraint, Slider, SlidingRule, StartVelocities,
+};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
 use withy::system::{BeamDefinition, ParticleDefinition, Scene, StartMotion, System};
@@ -52,7 +54,7 @@ fn slide(scene: &mut Scene, slave: Station, master: usize, arc_length: f64) {
         restitution: 1.0,
         friction: 0.0,
         static_friction: None,
-        side: None,
+        restraint: Restraint::Place,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

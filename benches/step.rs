@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Forces, INTEGRATORS, Inertia, Interval, Mechanism, Method, Stage};
-use withy::joints::{EndAction, Slider, SlidingRule, StartVelocities};
+use withy::joints::{EndAction, Restraint, Slider, SlidingRule, StartVelocities};
 use withy::linalg::{BorderShape, BorderedMatrix};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
@@ -81,7 +81,7 @@ fn beaded_beam(spans: usize, beads: usize) -> System {
             restitution: 1.0,
             friction: 0.0,
             static_friction: None,
-            side: None,
+            restraint: Restraint::Place,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

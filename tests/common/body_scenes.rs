@@ -6,7 +6,9 @@ use super::at;
 use super::scenes::{add_beam, end_of, line, spaghetti_section, spring, start_of};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{
+    EndAction, JointKind, Partner, Restraint, Slider, SlidingRule, StartVelocities,
+};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{
     Anchor, PointMass, RigidBodyDefinition, Scene, SpringKind, SpringLaw, StartMotion,
@@ -144,7 +146,7 @@ pub fn carriage(mesh: &Mesh, rule: SlidingRule) -> Scene {
             restitution: 1.0,
             friction: 0.0,
             static_friction: None,
-            side: None,
+            restraint: Restraint::Place,
             velocities: StartVelocities::Check,
         };
         scene.add_slider(slider).unwrap();

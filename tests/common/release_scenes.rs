@@ -5,7 +5,7 @@ use super::body_scenes::{add_body, hinge, point};
 use super::scenes::{add_beam, drive, end_of, line, rod, spring, start_of};
 use withy::beams::Mesh;
 use withy::joints::{
-    Component, EndAction, JointKind, Partner, Releasable, Release, Slider, SlidingRule,
+    Component, EndAction, JointKind, Partner, Releasable, Release, Restraint, Slider, SlidingRule,
     StartVelocities, Trigger,
 };
 use withy::loads::{PrescribedMotion, Schedule};
@@ -82,7 +82,7 @@ pub fn bead(mesh: &Mesh) -> Scene {
         restitution: 1.0,
         friction: 0.0,
         static_friction: None,
-        side: None,
+        restraint: Restraint::Place,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

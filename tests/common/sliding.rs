@@ -4,7 +4,9 @@ use super::at;
 use super::scenes::{add_beam, end_of, line};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Vec2, perpendicular};
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{
+    EndAction, JointKind, Partner, Restraint, Slider, SlidingRule, StartVelocities,
+};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::system::{ParticleDefinition, PointMass, Scene, StartMotion, StationVelocity};
 
@@ -38,7 +40,7 @@ pub fn slider(slave: Station, master: usize, arc_length: f64, rule: SlidingRule)
         restitution: 1.0,
         friction: 0.0,
         static_friction: None,
-        side: None,
+        restraint: Restraint::Place,
         velocities: StartVelocities::Check,
     }
 }

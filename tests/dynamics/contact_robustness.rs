@@ -8,7 +8,7 @@ use crate::common::{Random, at, settings};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Vec2, perpendicular, unit};
 use withy::integrators::Method;
-use withy::joints::{JointKind, Partner, Side, Slider};
+use withy::joints::{JointKind, Partner, Restraint, Side, Slider};
 use withy::simulation::{Invariant, NoMonitor, Simulation, SimulationError};
 use withy::system::{
     ContactTarget, Obstacle, ObstacleShape, RigidBodyDefinition, Scene, StartMotion,
@@ -220,7 +220,9 @@ fn unilateral_sliders(draw: &mut Draw) -> Scene {
         let side = if draw.mirror > 0.0 { Side::Left } else { Side::Right };
         let restitution = draw.one_of(&[0.0, 0.5, 0.9]);
         let slider = Slider::new(scene.free_name("slider"), station, rod, x + 1.0);
-        scene.add_slider(Slider { side: Some(side), restitution, ..slider }).unwrap();
+        scene
+            .add_slider(Slider { restraint: Restraint::OneSided(side), restitution, ..slider })
+            .unwrap();
     }
     scene
 }

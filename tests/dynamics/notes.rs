@@ -6,7 +6,9 @@ use crate::common::scenes::{end_of, line, spring};
 use crate::common::{at, run, settings, simulate};
 use withy::beams::{Mesh, Section, Station};
 use withy::integrators::Method;
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{
+    EndAction, JointKind, Partner, Restraint, Slider, SlidingRule, StartVelocities,
+};
 use withy::script::engine::runner::{self, Ending, RunOutcome};
 use withy::script::packages::language;
 use withy::script::source::program::Program;
@@ -216,7 +218,7 @@ fn ring(stiffness: f64, mass: f64, speed: f64) -> Scene {
         restitution: 1.0,
         friction: 0.0,
         static_friction: None,
-        side: None,
+        restraint: Restraint::Place,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

@@ -7,7 +7,9 @@ use std::rc::Rc;
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::integrators::{Constraints, INTEGRATORS, Mechanism};
-use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule, StartVelocities};
+use withy::joints::{
+    EndAction, JointKind, Partner, Restraint, Slider, SlidingRule, StartVelocities,
+};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::newton::Tolerance;
 use withy::simulation::{NoMonitor, Simulation, SimulationSettings};
@@ -58,7 +60,7 @@ fn with_bead() -> Scene {
         restitution: 1.0,
         friction: 0.0,
         static_friction: None,
-        side: None,
+        restraint: Restraint::Place,
         velocities: StartVelocities::Check,
     };
     scene.add_slider(slider).unwrap();

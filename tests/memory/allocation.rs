@@ -6,7 +6,7 @@ use std::cell::Cell;
 
 use crate::common::{at, body_scenes, meshes, run, scenes, settings, sliding, sliding_scenes};
 use withy::integrators::{INTEGRATORS, Method};
-use withy::joints::{JointKind, Partner, SLIDING_RULES, Side, Slider};
+use withy::joints::{JointKind, Partner, Restraint, SLIDING_RULES, Side, Slider};
 use withy::simulation::{NoMonitor, Recording, Simulation, StepControl};
 use withy::system::Scene;
 
@@ -142,7 +142,7 @@ fn steps_with_unilateral_sliders_take_no_allocations() {
     for (x, y) in [(-0.5, 0.0), (0.3, 1.0)] {
         let bead = sliding::moving_particle(&mut scene, at(x, y), at(0.1, 0.0), 0.2);
         let slider = Slider::new(scene.free_name("slider"), bead, rod, x + 1.0);
-        scene.add_slider(Slider { side: Some(Side::Left), ..slider }).unwrap();
+        scene.add_slider(Slider { restraint: Restraint::OneSided(Side::Left), ..slider }).unwrap();
     }
     assert_bounded("pushing", scene, Method::EnergyMomentum, 4);
 }

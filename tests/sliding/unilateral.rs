@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2, perpendicular, unit};
 use withy::integrators::Method;
-use withy::joints::{JointKind, Partner, Side, Slider, StartVelocities};
+use withy::joints::{JointKind, Partner, Restraint, Side, Slider, StartVelocities};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::simulation::{
     Arrival, ArrivalKind, Invariant, NoMonitor, Simulation, StepControl, StepSize, Variation,
@@ -32,7 +32,9 @@ const HEAVY: Section = Section {
 
 fn add_slider(scene: &mut Scene, bead: Station, beam: usize, along: f64, restitution: f64) {
     let slider = Slider::new(scene.free_name("slider"), bead, beam, along);
-    scene.add_slider(Slider { side: Some(Side::Left), restitution, ..slider }).unwrap();
+    scene
+        .add_slider(Slider { restraint: Restraint::OneSided(Side::Left), restitution, ..slider })
+        .unwrap();
 }
 
 fn fix(scene: &mut Scene, beam: usize, count: usize) {
@@ -55,8 +57,8 @@ fn sphere(q: f64) -> Scene {
     let along = (SPHERE_START - 90.0).to_radians();
     let slider = Slider::new("slider1", top, rod, along);
     let velocities = StartVelocities::Project;
-    let side = Some(Side::Left);
-    scene.add_slider(Slider { side, velocities, restitution: 0.0, ..slider }).unwrap();
+    let restraint = Restraint::OneSided(Side::Left);
+    scene.add_slider(Slider { restraint, velocities, restitution: 0.0, ..slider }).unwrap();
     scene
 }
 
@@ -187,7 +189,9 @@ fn cantilever(turn: f64, side: Side, restitution: f64) -> Scene {
     scene.gravity = place(0.0, -1.0);
     let ball = moving_particle(&mut scene, place(1.5, 0.3), place(0.1, 0.0), 0.2);
     let slider = Slider::new("slider1", ball, rod, 1.5);
-    scene.add_slider(Slider { side: Some(side), restitution, ..slider }).unwrap();
+    scene
+        .add_slider(Slider { restraint: Restraint::OneSided(side), restitution, ..slider })
+        .unwrap();
     scene
 }
 

@@ -10,6 +10,7 @@ mod equilibria;
 mod modes;
 mod obstacles;
 mod section_forces;
+mod sleeves;
 mod sliders;
 mod springs;
 mod stiff_modes;

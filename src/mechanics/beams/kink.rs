@@ -4,6 +4,9 @@
 //! Derivation: docs/theory.md, section 10.1.
 
 mod running;
+mod straight;
+
+pub use straight::StraightBeam;
 
 use super::{BeamError, Mesh};
 use crate::geometry::{

@@ -41,6 +41,27 @@ impl PiecewisePolynomial {
         }
     }
 
+    /// Creates the polynomials that interpolate a function at the Gauss points of consecutive spans.
+    /// The arguments of the function are the index of the span, the span and the parameter. It is called at increasing parameters.
+    pub fn interpolation(
+        spans: &[Span],
+        points: usize,
+        mut function: impl FnMut(usize, &Span, f64) -> f64,
+    ) -> Self {
+        let places: Vec<f64> =
+            GaussRule::legendre(points).iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
+        let power = |row: usize, k: usize| std::iter::repeat_n(places[row], k).product();
+        let powers = DMatrix::from_fn(points, points, power).lu();
+        let rows = spans.iter().enumerate().map(|(at, span)| {
+            let half = 0.5 * (span.end - span.start);
+            let value = |t: &f64| function(at, span, span.start + half * (1.0 + t));
+            let values = DVector::from_iterator(points, places.iter().map(value));
+            powers.solve(&values).unwrap_or(values).iter().copied().collect()
+        });
+        let rows: Vec<Vec<f64>> = rows.collect();
+        Self::new(spans, &rows)
+    }
+
     /// Creates the integral of a function over consecutive spans, starting at the first span.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
         let rule = GaussRule::legendre(points);

@@ -8,11 +8,11 @@ mod track;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Releasable, Release, Trigger};
-pub use slider::{EndAction, Side, Slider, StartVelocities};
+pub use slider::{EndAction, Restraint, Side, Slider, StartVelocities};
 pub use sliding::{
     AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
     FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,
-    PathVector, Relaxed, Released, Resting, RuleClaims, RuleEntry, SLIDING_RULES, SlidingLaw,
-    SlidingRule, Unit,
+    MasterAngle, PathVector, Relaxed, Released, Resting, RestingSleeve, RotationSlopes, RuleClaims,
+    RuleEntry, SLIDING_RULES, SleeveOffset, SlidingLaw, SlidingRule, Unit,
 };
 pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};

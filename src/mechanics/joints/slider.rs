@@ -6,7 +6,7 @@ use super::SlidingRule;
 use crate::beams::Station;
 
 /// Point that stays on the axis of a beam and slides along the axis, with or without friction.
-/// A slider with a given side can only push its master, and may leave the axis of the master on that side.
+/// A one-sided slider can only push its master, and may leave the axis of the master on its side. A sleeve also restrains the direction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name of the slider in messages and columns.
@@ -29,8 +29,8 @@ pub struct Slider {
     pub friction: f64,
     /// Coefficient of friction while the slider sticks, at least `friction` [-]; `None` if it equals `friction`.
     pub static_friction: Option<f64>,
-    /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves the axis.
-    pub side: Option<Side>,
+    /// Movements of the slave that the slider restrains.
+    pub restraint: Restraint,
     /// Treatment of velocities of the slave across the master at the start.
     pub velocities: StartVelocities,
 }
@@ -49,20 +49,45 @@ impl Slider {
             restitution: 1.0,
             friction: 0.0,
             static_friction: None,
-            side: None,
+            restraint: Restraint::default(),
             velocities: StartVelocities::default(),
         }
     }
 
     /// Returns true if the slider may lose energy at the ends of its master, by friction, or when it lands on its master.
     pub fn dissipates(&self) -> bool {
-        self.restitution < 1.0 || self.has_friction() || self.side.is_some()
+        self.restitution < 1.0 || self.has_friction() || self.side().is_some()
     }
 
     /// Returns true if a coefficient of friction of the slider is not zero.
     pub fn has_friction(&self) -> bool {
         self.friction > 0.0 || self.static_friction.is_some_and(|coefficient| coefficient > 0.0)
     }
+
+    /// Side of the master on which the slave may leave the axis; `None` for a slider that never leaves the axis.
+    pub fn side(&self) -> Option<Side> {
+        match self.restraint {
+            Restraint::OneSided(side) => Some(side),
+            Restraint::Place | Restraint::PlaceAndDirection => None,
+        }
+    }
+
+    /// Returns true if the slider is a sleeve, which also restrains the direction of its master.
+    pub fn is_sleeve(&self) -> bool {
+        self.restraint == Restraint::PlaceAndDirection
+    }
+}
+
+/// Movements of the slave relative to the master that a slider restrains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Restraint {
+    /// The slave stays on the axis of the master.
+    #[default]
+    Place,
+    /// The slave may leave the axis on one side.
+    OneSided(Side),
+    /// Sleeve without length: the slave stays on the axis, and its angle to the section of the master is constant.
+    PlaceAndDirection,
 }
 
 /// Side of a beam, for an observer who looks along the beam from its start to its end.

@@ -38,6 +38,7 @@ mod schedules;
 mod sections;
 mod sensors;
 mod simulations;
+mod sleeves;
 mod sliding;
 mod spring_laws;
 mod springs;
@@ -91,6 +92,7 @@ pub const TABLES: &[&BindingTable] = &[
     &time_travel::TABLE,
     &saving::TABLE,
     &sliding::TABLE,
+    &sleeves::TABLE,
     &tracks::TABLE,
     &releases::TABLE,
     &histories::TABLE,

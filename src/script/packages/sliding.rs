@@ -6,7 +6,7 @@ use super::scenes::{BEAM, SCENE, STATION};
 use super::simulations::SIMULATION;
 use super::tracks::{SliderGuide, TRACK};
 use super::vectors::VECTOR;
-use crate::joints::{EndAction, Side, Slider, SlidingRule, StartVelocities};
+use crate::joints::{EndAction, Restraint, Side, Slider, SlidingRule, StartVelocities};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::{Details, Kind, Scripted, Type};
@@ -312,13 +312,13 @@ impl Scripted for SliderHandle {
         let scene = self.scene.scene().borrow();
         let slider = &scene.sliders[self.index];
         let (guide, part) = details::guide_of(&scene, slider);
-        format!(
-            "slider '{}': {} on {guide} at {} of its length, {} rule",
-            slider.name,
-            scene.describe(&slider.slave),
-            significant(part, 7),
-            slider.rule.entry().name
-        )
+        let (name, slave) = (&slider.name, scene.describe(&slider.slave));
+        let part = significant(part, 7);
+        if slider.is_sleeve() {
+            return format!("sleeve '{name}': {guide} at {part} of its length in {slave}");
+        }
+        let rule = slider.rule.entry().name;
+        format!("slider '{name}': {slave} on {guide} at {part} of its length, {rule} rule")
     }
 
     fn details(&self) -> Details {
@@ -385,7 +385,7 @@ fn slider(call: &mut Call) -> Result<Dynamic, ScriptError> {
         restitution,
         friction: options.optional_number("friction").unwrap_or(0.0),
         static_friction: options.optional_number("static_friction"),
-        side,
+        restraint: side.map_or(Restraint::Place, Restraint::OneSided),
         velocities: meant(&VELOCITIES, &options.text("velocities")?),
     };
     let added = scene.borrow_mut().add_slider(definition);
@@ -421,7 +421,7 @@ pub(super) fn meant<T: Copy + Default>(words: &[(&str, T)], word: &str) -> T {
     found.map(|(_, meaning)| *meaning).unwrap_or_default()
 }
 
-fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
+pub(super) fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
     let place = match &error {
         SystemError::Unnamed { .. } | SystemError::DuplicateName { .. } => {
             CallPart::Key("name".into())

@@ -18,6 +18,7 @@ mod relaxed;
 mod released;
 mod resting;
 mod rule;
+mod sleeve;
 
 pub use conserving::Conserving;
 pub use contact::{
@@ -34,3 +35,4 @@ pub use relaxed::Relaxed;
 pub use released::Released;
 pub use resting::{AtStop, Resting};
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
+pub use sleeve::{MasterAngle, RestingSleeve, RotationSlopes, SleeveOffset};

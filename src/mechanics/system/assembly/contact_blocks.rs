@@ -57,6 +57,9 @@ impl Numbering {
 
     fn unknowns_of_free_slave(&self, slider: &SliderContact) -> Vec<usize> {
         let body = slider.connection.slave.0;
+        if slider.couples_rotations() {
+            return Vec::new();
+        }
         let points = &self.degrees_of_freedom[body];
         let is_free = points.iter().all(|[x, y, _]| [x, y].iter().all(|at| **at < self.unknowns));
         if !is_free || points.len() > MOST_POINTS {

@@ -4,13 +4,14 @@ use super::{Assembly, Numbering};
 use std::sync::Arc;
 
 use crate::beams::{MissedKink, Station, unresolved_kink};
+use crate::elementary::atan2;
 use crate::geometry::{ContactPath, PiecewisePolynomial, Span};
 use crate::joints::{Slider, SlidingRule, StartVelocities, Track, TrackBeam};
 use crate::system::elements::AssemblyContext;
 use crate::system::errors::SliderError;
 use crate::system::sliders::{
-    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterKink, SliderContact, SliderState,
-    TrackPath, TrackPathSegment,
+    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterKink, Sleeve, SleevedMaster,
+    SliderContact, SliderState, TrackPath, TrackPathSegment,
 };
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
@@ -22,6 +23,7 @@ impl Assembly<'_> {
     pub fn sliders(&self, numbering: &Numbering) -> Result<Vec<SliderContact>, SystemError> {
         let mut sliders: Vec<SliderContact> = Vec::new();
         let mut kink_lengths = vec![None; self.scene.beams.len()];
+        let mut sleeved = vec![None; self.scene.beams.len()];
         let mut passages: Vec<Option<ContactPath>> = vec![None; self.scene.beams.len()];
         let mut routes: Vec<Option<Arc<[TrackPathSegment]>>> = vec![None; self.scene.tracks.len()];
         for (index, slider) in self.scene.sliders.iter().enumerate() {
@@ -59,6 +61,10 @@ impl Assembly<'_> {
                     route.get_or_insert_with(|| self.track_path(legs, &mut passages)).clone();
                 let own = legs.iter().position(|leg| leg.beam == slider.master).unwrap_or(0);
                 new.set_track(TrackPath::new(route, *course, own));
+            }
+            if slider.is_sleeve() {
+                let sleeve = self.sleeve(slider, new.start_path(), &mut sleeved)?;
+                new.set_sleeve(sleeve);
             }
             if self.scene.starts_apart(slider)? {
                 new.state = SliderState::Separated;
@@ -124,6 +130,27 @@ impl Assembly<'_> {
         }
         let axis = |kink| KinkedAxis::new(kink, beam.axis.length(), &beam.section.mean());
         Ok(found[master].clone().flatten().map(axis))
+    }
+
+    fn sleeve(
+        &self,
+        slider: &Slider,
+        path: &ContactPath,
+        found: &mut [Option<Arc<SleevedMaster>>],
+    ) -> Result<Sleeve, SystemError> {
+        let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
+        let sleeved = match &found[master] {
+            Some(sleeved) => sleeved.clone(),
+            None => {
+                let points = self.bodies[master].control_points();
+                let wrap = |source| SystemError::Beam { beam: beam.name.clone(), source };
+                let section = &beam.section.mean();
+                let new = SleevedMaster::new(self.mesh(master), points, section).map_err(wrap)?;
+                found[master].insert(Arc::new(new)).clone()
+            }
+        };
+        let along = self.scene.drawn_tangent(master, slider.arc_length)?;
+        Ok(Sleeve::new(sleeved, path, atan2(along.y, along.x)))
     }
 
     pub fn slider_parameter(&self, slider: &Slider) -> Result<f64, SystemError> {

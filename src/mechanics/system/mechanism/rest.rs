@@ -49,6 +49,7 @@ impl System {
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
         let contact = self.sliders.add::<AtRest>(&self.bodies, count, movements, contacts, out);
+        self.sliders.add_static_moments(&self.bodies, contacts, out);
         StaticForces {
             force: larger(larger(summary.force, load_factor.abs() * force), contact),
             moment: larger(summary.moment, load_factor.abs() * moment),
@@ -73,6 +74,8 @@ impl System {
         let Self { sliders, bodies, .. } = self;
         let border = tangent.border_mut();
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
+        sliders.add_static_moments(bodies, contacts, out);
+        sliders.add_static_rotations(bodies, (movements, count), contacts, border);
     }
 
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
@@ -116,7 +119,7 @@ impl System {
         self.supports.prescribed_mut().accept_positions(load_factor);
         self.elements.advance(&self.bodies, RotationIncrement::Angle);
         self.bodies.advance(RotationIncrement::Angle);
-        self.sliders.accept_static_positions(contacts);
+        self.sliders.accept_static_positions(&self.bodies, &movements, contacts);
         self.motion.rates.fill(0.0);
     }
 

@@ -220,10 +220,13 @@ impl System {
             return SystemFeature::omitted("sliders", saved);
         }
         let used = SLIDING_RULES.iter().filter_map(|entry| {
-            let count = scene.sliders.iter().filter(|slider| slider.rule == entry.rule).count();
+            let is_own = |slider: &&Slider| slider.rule == entry.rule && !slider.is_sleeve();
+            let count = scene.sliders.iter().filter(is_own).count();
             (count > 0).then(|| format!("{count} {}", entry.name))
         });
-        let rules = used.collect::<Vec<_>>().join(", ");
+        let sleeves = scene.sliders.iter().filter(|slider| slider.is_sleeve()).count();
+        let sleeves = (sleeves > 0).then(|| format!("{sleeves} sleeves, in equilibria only"));
+        let rules = used.chain(sleeves).collect::<Vec<_>>().join(", ");
         let solved = match self.constraint_blocks() {
             None => format!("a border of {width} columns"),
             Some(blocks) => {
@@ -234,13 +237,14 @@ impl System {
         };
         let on_tracks = scene.sliders.iter().any(|slider| slider.track.is_some());
         let seams = if on_tracks { ", steps end at seams of tracks" } else { "" };
-        let leaves = scene.sliders.iter().any(|slider| slider.side.is_some());
+        let leaves = scene.sliders.iter().any(|slider| slider.side().is_some());
         let flights =
             if leaves { ", steps end where sliders leave beams and land on them" } else { "" };
         let may_kink = |slider: &Slider| {
             let basis = self.meshes()[slider.master].basis();
             let is_smooth = basis.breaks().len() == 2 || basis.continuity() > 0;
-            slider.rule == SlidingRule::Conserving && slider.track.is_none() && is_smooth
+            let is_plain = slider.track.is_none() && !slider.is_sleeve();
+            slider.rule == SlidingRule::Conserving && is_plain && is_smooth
         };
         let choice = match scene.sliders.iter().any(may_kink) {
             true => {

@@ -53,6 +53,11 @@ impl System {
         self.slider(slider).contact_force()
     }
 
+    /// Couple of a sleeve on its master [force·length], counter-clockwise; zero for other sliders.
+    pub fn sleeve_couple(&self, slider: usize) -> f64 {
+        self.slider(slider).couple()
+    }
+
     /// Present contact force of a slider [force], determined from the kink of its master, if the kink varies with the contact force.
     /// Without a kink, or with a constant kink, the function returns the [`contact_force`](Self::contact_force) of the slider.
     pub fn kink_force(&self, slider: usize) -> Vec2 {

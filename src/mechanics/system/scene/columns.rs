@@ -16,7 +16,7 @@ impl Scene {
         let (mut all, mut others, mut winds) = (Vec::new(), Vec::new(), Vec::new());
         for (at, slider) in self.sliders.iter().enumerate() {
             let friction = (slider.has_friction()).then_some(&SLIDER_FRICTION);
-            let gap = slider.side.map(|_| &FLIGHT_GAP);
+            let gap = slider.side().map(|_| &FLIGHT_GAP);
             let own = COLUMNS_OF_SLIDERS.iter().chain(friction).chain(gap);
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
         }

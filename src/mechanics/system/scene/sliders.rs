@@ -1,10 +1,10 @@
 //! Validation of sliders.
 
-use super::Scene;
 use super::ties::same_place;
+use super::{RigidBodyDefinition, Scene, StartMotion};
 use crate::beams::Station;
 use crate::geometry::{Vec2, cross, nearest};
-use crate::joints::{Slider, SlidingRule};
+use crate::joints::{JointKind, Partner, Slider, SlidingRule};
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
 use crate::system::{BeamDefinition, SystemError};
 
@@ -31,7 +31,47 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     }
 }
 
+fn check_sleeve(slider: &Slider) -> Result<(), SystemError> {
+    let refused = [
+        (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
+        (slider.track.is_some(), "on a track", "choose a single beam"),
+        (slider.has_friction(), "with friction", "remove the friction"),
+        (
+            slider.rule != SlidingRule::Conserving,
+            "with a rule other than conserving",
+            "use the conserving rule",
+        ),
+    ];
+    match refused.into_iter().find(|(is_given, ..)| slider.is_sleeve() && *is_given) {
+        Some((_, what, remedy)) => {
+            Err(SliderError::SleeveWith { slider: slider.name.clone(), what, remedy }.into())
+        }
+        None => Ok(()),
+    }
+}
+
 impl Scene {
+    /// Rejects sleeves, which are available in equilibria only.
+    pub(in crate::system) fn check_in_motion(&self) -> Result<(), SystemError> {
+        match self.sliders.iter().find(|slider| slider.is_sleeve()) {
+            Some(slider) => Err(SliderError::SleeveInMotion { slider: slider.name.clone() }.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Adds a rigid body without mass that is fixed to the ground, and returns its station.
+    ///
+    /// # Errors
+    /// Fails if the name is taken, empty or not printable, or if the position is not finite.
+    pub fn add_fixed_body(&mut self, name: String, position: Vec2) -> Result<Station, SystemError> {
+        let motion = StartMotion::default();
+        let (points, outline) = (Vec::new(), Vec::new());
+        let body = RigidBodyDefinition { name, position, angle: 0.0, points, outline, motion };
+        let station = Station::on_rigid_body(self.add_rigid_body(body, 0.0, 1.0)?, 0);
+        self.join(JointKind::Rigid, station, Partner::Ground)?;
+        Ok(station)
+    }
+
     /// Initial arc length of the point of a beam that is nearest to a station [length].
     ///
     /// # Errors
@@ -91,6 +131,7 @@ impl Scene {
             return Err(SliderError::FrictionRule { slider, rule }.into());
         }
         self.check_side(slider)?;
+        check_sleeve(slider)?;
         let is_same = |other: &Slider| {
             let is_on = self.masters(other).iter().any(|master| masters.contains(master));
             is_on && same_place(&other.slave, &slider.slave, self)
@@ -105,7 +146,7 @@ impl Scene {
         let length = self.beams[slider.master].axis.length();
         let (master, best) = self.nearest_of(masters.into_iter(), &slider.slave)?;
         let distance = (from - self.drawn_at(&Station::on_beam(master, best))?).norm();
-        if let Some(side) = slider.side
+        if let Some(side) = slider.side()
             && gap <= distance + tolerance
         {
             let along = self.drawn_tangent(slider.master, slider.arc_length)?;
@@ -130,7 +171,7 @@ impl Scene {
 
     /// Returns true if a slider with a unilateral contact is initially at a distance from its master (in flight).
     pub(in crate::system) fn starts_apart(&self, slider: &Slider) -> Result<bool, SystemError> {
-        if slider.side.is_none() {
+        if slider.side().is_none() {
             return Ok(false);
         }
         let StartGap { gap, tolerance, .. } = self.start_gap(slider)?;
@@ -147,7 +188,7 @@ impl Scene {
 
     /// First slider of the scene with a unilateral contact.
     pub fn slider_with_side(&self) -> Option<&Slider> {
-        self.sliders.iter().find(|slider| slider.side.is_some())
+        self.sliders.iter().find(|slider| slider.side().is_some())
     }
 
     /// Unit tangent of a beam at an arc length [-].
@@ -161,7 +202,7 @@ impl Scene {
     }
 
     fn check_side(&self, slider: &Slider) -> Result<(), SystemError> {
-        if slider.side.is_none() {
+        if slider.side().is_none() {
             return Ok(());
         }
         let refused = [

@@ -140,8 +140,36 @@ impl Sliders {
         Ok(changed)
     }
 
-    pub fn accept_static_positions(&mut self, unknowns: &[f64]) {
-        self.iter_mut().for_each(|slider| slider.accept_static_position(unknowns));
+    pub fn accept_static_positions(
+        &mut self,
+        bodies: &[Body],
+        movements: &[f64],
+        unknowns: &[f64],
+    ) {
+        for slider in self.iter_mut() {
+            slider.turn_sleeve(bodies, movements);
+            slider.accept_static_position(unknowns);
+        }
+    }
+
+    /// Adds the moments of sleeves on masters and slaves.
+    pub fn add_static_moments(&mut self, bodies: &[Body], unknowns: &[f64], out: &mut [f64]) {
+        for slider in self.iter_mut() {
+            slider.add_static_moments(bodies, unknowns, out);
+        }
+    }
+
+    /// Adds the derivatives of the moments and equations of sleeves that belong to rotations.
+    pub fn add_static_rotations(
+        &mut self,
+        bodies: &[Body],
+        (movements, count): (&[f64], usize),
+        unknowns: &[f64],
+        border: &mut Border,
+    ) {
+        for slider in self.iter_mut() {
+            slider.add_static_rotations(bodies, (movements, count), unknowns, border);
+        }
     }
 
     pub fn movements_held(&self) -> usize {

@@ -5,6 +5,8 @@ mod axial_impact;
 mod connection;
 mod kinked_axis;
 mod master_curve;
+mod missed_compliance;
+mod sleeve;
 mod slider_contact;
 mod track_path;
 
@@ -15,5 +17,6 @@ pub use kinked_axis::{KinkedAxis, MasterKink};
 pub use master_curve::{
     END_TOLERANCE, MasterCurve, MasterEnd, MasterLimit, SliderEvent, SliderState,
 };
+pub use sleeve::{Sleeve, SleevedMaster};
 pub use slider_contact::{AtRest, ContactChange, InStep, Passing, SliderContact};
 pub use track_path::{Seam, TrackPath, TrackPathSegment};

@@ -1,6 +1,8 @@
 //! Sliders of a model: their positions, and their contributions to the equations of a step.
 
-use super::{Connection, ImpactBar, KinkedAxis, MasterCurve, MasterEnd, SliderState, TrackPath};
+use super::{
+    Connection, ImpactBar, KinkedAxis, MasterCurve, MasterEnd, Sleeve, SliderState, TrackPath,
+};
 use crate::geometry::{Basis, ContactPath, Vec2, larger};
 use crate::integrators::{Interval, IntervalEnd};
 use crate::joints::{
@@ -18,6 +20,7 @@ mod passing;
 mod place;
 mod saved;
 mod seams;
+mod sleeve;
 mod static_friction;
 mod stops;
 mod unilateral;
@@ -59,6 +62,8 @@ pub struct SliderContact {
     pub friction: Option<Box<SliderFriction>>,
     /// State of a unilateral contact; `None` for a slider that never leaves its master.
     pub unilateral: Option<Box<UnilateralContact>>,
+    /// Direction that a sleeve restrains; `None` for other sliders.
+    sleeve: Option<Box<Sleeve>>,
     master: MasterCurve,
     /// Path of the slider along its track; `None` for a slider on a single beam.
     track: Option<Box<TrackPath>>,
@@ -127,7 +132,8 @@ impl SliderContact {
             length: rail.length() / (last - first),
             size: rail.length(),
             friction: slider.has_friction().then(|| Box::new(SliderFriction::of(slider))),
-            unilateral: slider.side.map(|side| Box::new(UnilateralContact::new(side.sign()))),
+            unilateral: slider.side().map(|side| Box::new(UnilateralContact::new(side.sign()))),
+            sleeve: None,
             master: rail,
             track: None,
             bars,
@@ -150,12 +156,17 @@ impl SliderContact {
     }
 
     pub fn row_entries(&self) -> usize {
-        CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(Basis::functions))
+        CONTACT_UNKNOWNS * self.components() * (1 + self.most_of_masters(Basis::functions))
     }
 
     pub fn usual_entries(&self) -> usize {
         let usual = |basis: &Basis| (basis.degree() + 3).min(basis.functions());
-        CONTACT_UNKNOWNS * 2 * (1 + self.most_of_masters(usual))
+        CONTACT_UNKNOWNS * self.components() * (1 + self.most_of_masters(usual))
+    }
+
+    /// Number of components of a control point that the contact couples: two displacements, and the rotation for a sleeve.
+    fn components(&self) -> usize {
+        if self.sleeve.is_some() { 3 } else { 2 }
     }
 
     fn set_parameter(&mut self, parameter: f64) {

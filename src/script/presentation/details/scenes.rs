@@ -171,9 +171,10 @@ pub fn of_slider(scene: &Scene, index: usize) -> Details {
         line("at the ends", ends),
         line("start velocities", velocities),
     ];
-    let side = slider.side.map(|side| {
+    let side = slider.side().map(|side| {
         let restitution = number(slider.restitution);
         line("leaves on", format!("the {} side, lands with restitution {restitution}", side.name()))
     });
-    lines.into_iter().chain(friction).chain(side).collect()
+    let sleeve = slider.is_sleeve().then(|| line("restrains", "place and direction"));
+    lines.into_iter().chain(friction).chain(side).chain(sleeve).collect()
 }

@@ -19,8 +19,13 @@ impl Passing for AtRest {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
         let (state, way) = (slider.state, slider.distance_to_stop());
+        slider.set_static_path(unknowns);
+        let sleeve = slider.resting_sleeve(bodies, increments);
         let contact = slider.evaluate_static(bodies, increments, unknowns);
-        let equations = SliderContact::static_equations(state, way, &contact);
+        let equations = match sleeve {
+            Some(sleeve) => sleeve.equations(&contact),
+            None => SliderContact::static_equations(state, way, &contact),
+        };
         (contact, equations)
     }
 
@@ -39,24 +44,30 @@ impl Passing for AtRest {
 
 impl SliderContact {
     pub fn predict_unchanged(&self, unknowns: &mut [f64]) {
-        let guess = ContactUnknowns { force: self.force_of_state(), ..ContactUnknowns::zeros() };
+        let couple = if self.sleeve.is_some() { self.unknowns.couple } else { Vec2::zeros() };
+        let guess = ContactUnknowns { force: self.force_of_state(), couple, increment: 0.0 };
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    fn evaluate_static(
+    /// Sets the path of zero length at the position for trial values.
+    pub(super) fn set_static_path(&mut self, unknowns: &[f64]) {
+        let place = self.parameter + self.read(unknowns).increment;
+        self.path.set_interval(place, place);
+    }
+
+    pub(super) fn evaluate_static(
         &mut self,
         bodies: &[Body],
         movements: &[f64],
         unknowns: &[f64],
     ) -> Contact<'_> {
-        let unknowns = self.read(unknowns);
-        let place = self.parameter + unknowns.increment;
-        self.path.set_interval(place, place);
+        self.set_static_path(unknowns);
         self.before.clear();
+        let unknowns = self.read(unknowns);
         self.contact(bodies, movements, unknowns)
     }
 
-    fn distance_to_stop(&self) -> Option<f64> {
+    pub(super) fn distance_to_stop(&self) -> Option<f64> {
         match self.state {
             SliderState::Held(end) => Some(self.master.end(end) - self.parameter),
             SliderState::Sliding | SliderState::Separated | SliderState::Released => None,
@@ -84,8 +95,14 @@ impl SliderContact {
     /// Returns true if the force of the stop is tensile beyond rounding for the given trial values.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
+        self.set_static_path(unknowns);
+        let sleeve = self.resting_sleeve(bodies, movements);
         let contact = self.evaluate_static(bodies, movements, unknowns);
-        let (push, force) = (contact.outward_push(end.outward()), contact.unknowns.force);
+        let force = contact.unknowns.force;
+        let push = match sleeve {
+            Some(sleeve) => sleeve.outward_push(&contact, end.outward()),
+            None => contact.outward_push(end.outward()),
+        };
         let push_beyond = self.seam_push(bodies, movements, force);
         self.crosses_seam = self.is_pulled_across([push, push_beyond], force.norm());
         self.crosses_seam || is_tensile(push, force.norm(), self.length)
@@ -101,10 +118,13 @@ impl SliderContact {
     }
 
     pub fn movements_held(&self) -> usize {
-        match self.state {
-            SliderState::Released | SliderState::Separated => 0,
-            SliderState::Held(_) => 2,
-            SliderState::Sliding => usize::from(!self.is_compliant()),
+        match (self.state, &self.sleeve) {
+            (SliderState::Released | SliderState::Separated, _) => 0,
+            (SliderState::Held(_), None) => 2,
+            (SliderState::Held(_), Some(_)) => 3,
+            (SliderState::Sliding, None) => usize::from(!self.is_compliant()),
+            (SliderState::Sliding, Some(sleeve)) if sleeve.is_compliant() => 0,
+            (SliderState::Sliding, Some(_)) => 2,
         }
     }
 
@@ -134,6 +154,9 @@ impl SliderContact {
         }
         if !self.state.has_contact() {
             return;
+        }
+        if self.sleeve.is_some() {
+            return self.sleeve_stiffness(bodies, own, rigid, take);
         }
         let degrees = self.static_coupling(bodies, own);
         let (width, last) = (degrees.len(), degrees.len() - 1);

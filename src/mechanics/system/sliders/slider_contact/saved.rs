@@ -15,7 +15,8 @@ impl SliderContact {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
         let of_friction = self.friction.as_ref().map_or(0, |friction| friction.numbers().count());
         let of_side = if self.unilateral.is_some() { UNILATERAL } else { 0 };
-        13 + of_friction + of_side + CONTACT_UNKNOWNS + of_route
+        let of_sleeve = self.sleeve.as_ref().map_or(0, |sleeve| sleeve.saved());
+        13 + of_friction + of_side + of_sleeve + CONTACT_UNKNOWNS + of_route
     }
 
     pub fn is_valid(&self, numbers: &[f64]) -> bool {
@@ -43,6 +44,7 @@ impl SliderContact {
         ]);
         numbers.extend(self.friction.iter().flat_map(|friction| friction.numbers()));
         numbers.extend(self.unilateral.iter().flat_map(|contact| contact.numbers()));
+        numbers.extend(self.sleeve.iter().flat_map(|sleeve| sleeve.numbers()));
         numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
@@ -61,6 +63,9 @@ impl SliderContact {
         }
         if let Some(contact) = &mut self.unilateral {
             contact.restore(std::array::from_fn(|_| next()));
+        }
+        if let Some(sleeve) = &mut self.sleeve {
+            sleeve.restore(next);
         }
         if let Some(route) = &mut self.track {
             route.restore(std::array::from_fn(|_| next()));
