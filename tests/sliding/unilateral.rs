@@ -57,8 +57,8 @@ fn sphere(q: f64) -> Scene {
     let along = (SPHERE_START - 90.0).to_radians();
     let slider = Slider::new("slider1", top, rod, along);
     let velocities = StartVelocities::Project;
-    let side = Some(Side::Left);
-    scene.add_slider(Slider { side, velocities, restitution: 0.0, ..slider }).unwrap();
+    let restraint = Restraint::OneSided(Side::Left);
+    scene.add_slider(Slider { restraint, velocities, restitution: 0.0, ..slider }).unwrap();
     scene
 }
 

@@ -62,36 +62,31 @@ impl<'a> StraightBeam<'a> {
             let moment_rule = quadrature.moment_rule()?;
             let QuadratureSpan { span, force_rule, .. } = quadrature;
             for (xi, weight) in force_rule {
-                self.add_strain(&span, xi, &mut |first, length, rows| {
-                    let row: Vec<f64> = rows.iter().flat_map(|[n, slope]| [*slope, -n]).collect();
-                    take(first, shear * weight * length, &row);
-                })?;
+                let (first, length, rows) = self.by_arc_length(&span, xi)?;
+                let row: Vec<f64> = rows.iter().flat_map(|[n, slope]| [*slope, -n]).collect();
+                take(first, shear * weight * length, &row);
             }
             for (xi, weight) in moment_rule.iter_on(span.start, span.end) {
-                self.add_strain(&span, xi, &mut |first, length, rows| {
-                    let row: Vec<f64> = rows.iter().flat_map(|[_, slope]| [0.0, *slope]).collect();
-                    take(first, bending * weight * length, &row);
-                })?;
+                let (first, length, rows) = self.by_arc_length(&span, xi)?;
+                let row: Vec<f64> = rows.iter().flat_map(|[_, slope]| [0.0, *slope]).collect();
+                take(first, bending * weight * length, &row);
             }
         }
         Ok(())
     }
 
-    fn add_strain(
+    fn by_arc_length(
         &self,
         span: &Span,
         xi: f64,
-        take: &mut dyn FnMut(usize, f64, &[[f64; 2]]),
-    ) -> Result<(), BeamError> {
+    ) -> Result<(usize, f64, Vec<[f64; 2]>), BeamError> {
         let values = self.values(span, xi);
         let speed = values.combine(1, self.control_points).norm();
         if speed.is_nan() || speed <= 0.0 {
             return Err(BeamError::NoTangent { parameter: xi });
         }
         let pairs = values.values().iter().zip(values.slopes());
-        let rows: Vec<[f64; 2]> = pairs.map(|(n, slope)| [*n, slope / speed]).collect();
-        take(2 * values.first, speed, &rows);
-        Ok(())
+        Ok((2 * values.first, speed, pairs.map(|(n, slope)| [*n, slope / speed]).collect()))
     }
 
     /// Exact compliances of the beam with hinged ends at a point: displacement per force [length/force], rotation per force [1/force],
