@@ -60,7 +60,7 @@ impl TryFrom<(Basis, Quadrature)> for Mesh {
 }
 
 impl Mesh {
-    /// Creates a B-spline mesh with the patch rule, `spans` equal spans and continuity C^`continuity` at interior knots.
+    /// Creates a B-spline mesh with the quadrature [`Quadrature::Patch`], `spans` equal spans and continuity C^`continuity` at interior knots.
     ///
     /// # Errors
     /// Fails if no knot vector exists for the given number of spans, degree and continuity.
@@ -76,7 +76,7 @@ impl Mesh {
         Ok(Self { is_automatic: true, ..Self::bspline(spans, 3, 2)? })
     }
 
-    /// Creates a mesh of equal Lagrange elements of degree 1 to 3 with the patch rule.
+    /// Creates a mesh of equal Lagrange elements of degree 1 to 3 with the quadrature [`Quadrature::Patch`].
     ///
     /// # Errors
     /// Fails if the degree or the number of elements is out of range.
@@ -84,7 +84,7 @@ impl Mesh {
         Ok(Self::new(Basis::Lagrange(LagrangeBasis::uniform(elements, degree)?)))
     }
 
-    /// Creates a mesh with the patch rule on any basis.
+    /// Creates a mesh on any basis. The quadrature of the axial and shear strain is [`Quadrature::Patch`].
     pub fn new(basis: Basis) -> Self {
         Self { basis, quadrature: Quadrature::Patch, is_automatic: false }
     }

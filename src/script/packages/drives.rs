@@ -1,4 +1,4 @@
-//! Supports of single components, prescribed motions of stations, and motors.
+//! Script functions for supports that fix some displacements or the angle of a station, prescribed motions of stations, and motors.
 
 use rhai::{Dynamic, FnPtr, ImmutableString};
 

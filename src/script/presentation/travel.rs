@@ -11,8 +11,10 @@ pub struct Travel {
 }
 
 impl Travel {
-    /// Classifies the bodies by counting degrees of freedom and joint constraints.
-    /// Beams count as rigid, and sliders, drives and springs are ignored.
+    /// Finds the bodies that joints hold in place, and the groups of joined bodies that can move.
+    /// A body is held if its joints with the ground and with held bodies have at least as many constraints as it has degrees of freedom.
+    /// The same criterion applies to a group, with all joints of its bodies.
+    /// Beams count as rigid. Sliders, drives and springs are ignored.
     pub fn of(scene: &Scene) -> Self {
         let count = scene.first_rigid_body() + scene.rigid_bodies.len();
         let mut travel = Self { is_held: vec![false; count], group: (0..count).collect() };

@@ -9,9 +9,11 @@ use rhai::{Dynamic, Engine, EvalContext, Position, Token};
 use super::definitions::{closing, nesting};
 use super::text::{Lexeme, name_of};
 
-/// Private-use character in the text of a script. It stands for the inserted declaration if the loop has one variable, as in `for x in xs`.
+/// Private-use character at the start of the body of a loop with one variable, as in `for x in xs`, in the rewritten text of a script.
+/// It stands for a statement that declares the loop variable again, so that a closure captures its value of this iteration.
 pub const ONE: char = '\u{E003}';
-/// Private-use character in the text of a script. It stands for the inserted declaration if the loop has a counter, as in `for (x, i) in xs`.
+/// Private-use character at the start of the body of a loop with a counter, as in `for (x, i) in xs`, in the rewritten text of a script.
+/// It stands for a statement that declares both loop variables again, so that a closure captures their values of this iteration.
 pub const TWO: char = '\u{E004}';
 
 pub const ONE_NAME: &str = "\u{E003}";

@@ -190,7 +190,8 @@ impl Contact<'_> {
     }
 
     /// Derivatives of the contact forces on the control points of the master with respect to the contact unknowns.
-    /// A tuple contains derivatives with respect to the force and the couple (factors of the identity matrix), and the sliding increment.
+    /// The first two numbers of a tuple, times the identity matrix, are the derivatives with respect to `force` and `couple`.
+    /// The vector is the derivative with respect to the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let ContactUnknowns { force, couple, .. } = self.unknowns;
         let share = self.couple_factor();

@@ -72,9 +72,9 @@ struct TimeBracket {
     before: (f64, f64),
     after: (f64, f64),
     last: Option<BracketSide>,
-    /// Shortest duration of an attempted step [time].
+    /// Lower limit of the duration of a trial step [time].
     shortest: f64,
-    /// Longest duration of an attempted step [time].
+    /// Upper limit of the duration of a trial step [time].
     longest: f64,
     /// Difference between the durations `before` and `after` at which the search ends [time].
     resolution: f64,
@@ -498,7 +498,7 @@ impl Simulation {
         &self.progress.arrivals
     }
 
-    /// Returns true if an arrival has ended the run.
+    /// Returns true if the run has ended because a slider with [`EndAction::Stop`] arrived at an end of its master.
     pub fn has_ended(&self) -> bool {
         self.progress.stopped().is_some()
     }

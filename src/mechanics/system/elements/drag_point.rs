@@ -1,6 +1,7 @@
 //! Drag at a point of a body in a step.
 //!
-//! The drag force is an independent unknown, in components across and along the line.
+//! The drag force is an independent unknown. For drag along a beam, its components are across and along the axis of the beam at this point.
+//! For drag on a single point, its components are along y and x.
 //! Under strong drag or wind, the rounding error of a force computed from velocities would exceed the tolerance of the residual forces.
 
 use super::drag_law::{DragLaw, DragResponse, in_space};

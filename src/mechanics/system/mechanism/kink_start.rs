@@ -46,9 +46,10 @@ impl System {
     }
 
     /// Starts the kinks of sliders that begin to slide at an end of their masters. Kinks have no energy at the ends of a master.
+    /// The velocity of each slider along the axis is rotated by the angle of the kink, so that it is along the kinked axis.
     ///
     /// # Errors
-    /// Fails if the velocities after the rotation are undetermined.
+    /// Fails if the constraints do not determine the rotated velocities.
     pub fn restart_kinks_at_ends(&mut self) -> Result<(), SystemError> {
         let (bodies, rates) = (&self.bodies, &self.motion.rates);
         let starting = |at: &usize| self.sliders[*at].is_straight_at_end(bodies, rates);

@@ -67,8 +67,9 @@ impl System {
         limits.filter(arrives).collect()
     }
 
-    /// Returns true if the velocity of a slider at an end of its master points beyond the end.
-    /// The velocity contains only the deformations that are included in an impact solved with the step length `dt` [time].
+    /// Returns true if a slider at an end of its master moves beyond the end, in a run with steps of length `dt` [time].
+    /// The velocity of the slider contains no vibrations that steps of this length do not resolve.
+    /// At a stop with a coefficient of restitution, it also contains no axial waves and no vibrations faster than the impact.
     /// It contains no component across the master, because that component changes its sign from step to step.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;

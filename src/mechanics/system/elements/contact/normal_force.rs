@@ -195,7 +195,7 @@ impl NormalForce {
         let target = self.target(law, time, change);
         self.gap = self.gap.after(change);
         if self.compare(law, target, moved) == 0.0 {
-            // The gap is corrected to the value that belongs to the tension. Otherwise, the rounding error of increments would store energy.
+            // The gap is corrected to the value for which the contact law gives the present force. Otherwise, the rounding error of the gap increments would store energy.
             self.gap = self.gap.after(self.tension.missing_change());
         }
         self.tension.last = self.tension.force;
