@@ -231,7 +231,7 @@ impl Design {
             if missed.rating.is_feasible() {
                 return true;
             }
-            // A violated constraint is tightened by twice its violation, because SLSQP may end slightly on either side of the limit.
+            // All constraints are tightened by twice the largest violation, because SLSQP may end slightly on either side of a limit.
             margin += 2.0 * missed.rating.largest_violation();
             start = at;
         }

@@ -127,7 +127,8 @@ impl Outline {
         pieces(degree).div_ceil(2)
     }
 
-    /// Number of axis stations between two knots.
+    /// Number of stations between two consecutive knots: one, or zero for degree 1.
+    /// Stations are the outline points at which fields along a beam are evaluated.
     pub fn stations_within_a_span(degree: usize) -> usize {
         pieces(degree) / Self::places_a_station(degree) - 1
     }

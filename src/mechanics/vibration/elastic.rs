@@ -15,7 +15,7 @@ pub(super) type FourVectors = [f64; STRIP_WIDTH];
 pub(super) struct Elastic {
     spans: Vec<StrainRows>,
     unknowns: Vec<u32>,
-    /// Rows of strains of each span, followed by the pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`.
+    /// Data of one span after the other: the rows of its strains, then the pairs of rows `p` and `q` of its geometric stiffness `p qᵀ + q pᵀ`.
     rows: Vec<f64>,
     stiffness: Vec<f64>,
     rounding_fractions: Vec<f64>,

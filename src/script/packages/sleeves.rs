@@ -1,4 +1,5 @@
-//! Sleeves without length, which hold place and direction of a beam in equilibria.
+//! Sleeves without length, through which a beam slides without friction in equilibria.
+//! A sleeve restrains the direction of the beam and its displacement across the sleeve.
 
 use rhai::Dynamic;
 

@@ -97,7 +97,8 @@ pub enum JournalPreference {
 }
 
 impl RunSettings {
-    /// Settings for a run without output, for dry runs and as a base for other settings.
+    /// Settings for a run whose printed text, diagnostics and progress are discarded, and the base for other settings.
+    /// In the mode [`RunMode::Run`], files are still written to the folder `out`.
     pub fn silent(mode: RunMode) -> Self {
         Self {
             mode,

@@ -48,8 +48,9 @@ impl<'a> StraightBeam<'a> {
         self.mesh.basis().evaluate_in(span, xi)
     }
 
-    /// Passes each strain and curvature at a quadrature point to `take`.
-    /// The arguments are the first unknown, the stiffness [force·length, force·length³], and derivatives by consecutive unknowns.
+    /// Passes the derivatives of the shear strain or of the curvature at each quadrature point to `take`.
+    /// The arguments are the index of the first unknown, the stiffness, and the derivatives by consecutive unknowns.
+    /// The stiffness is `GA` or `EI` times the length that the quadrature point represents [force·length, force·length³].
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

@@ -91,8 +91,9 @@ impl Supports {
         sum
     }
 
-    /// Reaction force [force] on the given nodes, and reaction moment [force·length] on the rotations of the rigid bodies `turning`.
-    /// The result is `None` without supports. Each node is a pair of body and control point.
+    /// Reaction of the supports at the given nodes: force [force] and moment [force·length]. Each node is a pair of body and control point.
+    /// The moment includes the supports of the rotations of the rigid bodies `turning`, which may be at other points of these bodies.
+    /// The result is `None` if none of these supports exists.
     pub fn force_on(
         &self,
         nodes: &[(usize, usize)],

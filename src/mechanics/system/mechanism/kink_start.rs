@@ -46,7 +46,7 @@ impl System {
     }
 
     /// Starts the kinks of sliders that begin to slide at an end of their masters. Kinks have no energy at the ends of a master.
-    /// The velocity of each slider along the axis is rotated by the angle of the kink, so that it is along the kinked axis.
+    /// The velocity of each slider relative to its master is rotated from the smooth axis onto the kinked axis, without work.
     ///
     /// # Errors
     /// Fails if the constraints do not determine the rotated velocities.

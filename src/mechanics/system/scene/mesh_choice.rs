@@ -52,7 +52,8 @@ impl Scene {
         }
     }
 
-    /// Shortest distance along a beam between concentrated forces [length]; the length of the beam if there are fewer than two forces.
+    /// Shortest distance along a beam between different places of concentrated loads, springs and point masses [length].
+    /// The result is the length of the beam if there are fewer than two such places.
     fn shortest_gap(&self, beam: usize) -> f64 {
         let length = self.beams[beam].axis.length();
         let stations = self.elements.iter().flat_map(concentrated);

@@ -15,7 +15,7 @@ pub const SOFT: f64 = 1e-2;
 #[derive(Debug, Clone, Copy)]
 pub struct NormalLaw {
     pub elastic: ContactLaw,
-    /// Damping factor, which follows from the coefficient of restitution [-].
+    /// Dimensionless factor of the damping coefficient [-]. It follows from the coefficient of restitution.
     pub damping: f64,
 }
 
@@ -195,7 +195,8 @@ impl NormalForce {
         let target = self.target(law, time, change);
         self.gap = self.gap.after(change);
         if self.compare(law, target, moved) == 0.0 {
-            // The gap is corrected to the value for which the contact law gives the present force. Otherwise, the rounding error of the gap increments would store energy.
+            // The gap is corrected to the value for which the contact law gives the present force.
+            // Otherwise, the rounding error of the gap increments would store energy.
             self.gap = self.gap.after(self.tension.missing_change());
         }
         self.tension.last = self.tension.force;

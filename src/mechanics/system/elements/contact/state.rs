@@ -1,4 +1,4 @@
-//! State of a contact, and penetrations of bodies at the start of a simulation.
+//! Data structures for the state of a contact, and for the penetration of a body at the start of a simulation.
 
 use crate::geometry::Vec2;
 

@@ -114,8 +114,8 @@ impl SliderContact {
         }
     }
 
-    /// Adds the rotations of a static solution to the stored angles of the sleeve and of its master.
-    /// `movements` are the increments of all degrees of freedom in the solution [length, rad].
+    /// Adds the rotations of a static solution to the rotations of the sleeve and of its master since the start.
+    /// `movements` are the increments of the unknown and prescribed degrees of freedom in the solution [length, rad].
     pub fn turn_sleeve(&mut self, bodies: &[Body], movements: &[f64]) {
         let value = |at: usize| movements.get(at).copied().unwrap_or(0.0);
         let Connection { master, .. } = self.connection;

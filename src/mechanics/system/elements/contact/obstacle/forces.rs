@@ -26,8 +26,9 @@ pub(super) struct TouchingBody {
     is_convex: bool,
     /// True if the convex hull of the control points does not touch the obstacle at the start of the step.
     is_far: bool,
-    /// True if the convex hull of the control points touches the obstacle at the start of the step or in an iterate.
-    /// In the inactive state, the contact points have no forces and are not updated.
+    /// True if the contact points are updated in this step. False if no contact is possible: the points then have no forces.
+    /// A body becomes active if the convex hull of its control points touches the obstacle at the start of the step or in an iterate.
+    /// A body with contact points outside this hull is always active.
     is_active: bool,
     watch: ContactWatch,
     /// Mean rate of the gap at the contact point with the largest force in the last step [length/time].
