@@ -139,7 +139,7 @@ pub const TABLE: BindingTable = BindingTable {
             .with_related(&["angular_frequencies"]),
         method(MODES, "error_estimate", &[], estimated_error)
             .returns(Returns::object(ERROR_ESTIMATE))
-            .summary("Estimates the errors of the angular frequencies due to the mesh.")
+            .summary("Estimates the errors of the angular frequencies and growth rates due to the mesh.")
             .doc("The modes are computed again with three quarters and half of the spans, about the \
                 equilibrium again if they are those of an equilibrium. Modes about the present \
                 configuration of a simulation are refused.")
@@ -319,7 +319,9 @@ fn estimated_error(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (context, count) = (call.context(), modes.all().len());
     let results = |modes: &Modes| {
         let results = modes.all().iter().enumerate().map(|(number, mode)| {
-            MeshResult::scalar(format!("mode {number}"), "1/time", mode.angular_frequency())
+            let value = Vec2::new(mode.angular_frequency(), mode.growth_rate());
+            let (name, scale) = (format!("mode {number}"), value.norm());
+            MeshResult { name, dimension: "1/time", value, scale }
         });
         results.collect::<Vec<_>>()
     };

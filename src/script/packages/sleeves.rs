@@ -43,9 +43,10 @@ pub const TABLE: BindingTable = BindingTable {
                  sleeve exerts a force (contact_force) and a couple (sleeve_couple). In \
                  equilibrium a moment M at the mouth pushes the beam along the sleeve with \
                  M²/2EI. The compliance of kink and jump of curvature at the sleeve, which the \
-                 mesh does not represent, is included; of a tapered beam that of the mean \
-                 section. scene.start refuses scenes with sleeves. Default names: sleeve1, \
-                 sleeve2, … docs/theory.md, section 14.2.",
+                 mesh does not represent, is included in positions and forces, but not in \
+                 rest.strain. The beam must be uniform and not part of a track. scene.start \
+                 refuses scenes with sleeves. Default names: sleeve1, sleeve2, … \
+                 docs/theory.md, section 14.2.",
             )
             .example(
                 "let hub = scene.body(#{ name: \"hub\", at: [0.5, 0], mass: 1, inertia: 1 });\n\
@@ -65,7 +66,9 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::NUMBER.unit("force·length"))
         .summary("Returns the couple of a sleeve on its beam in equilibrium, counter-clockwise; zero \
             for other sliders.")
-        .doc("The bending moment of the beam jumps by the couple at the sleeve.")
+        .doc("The bending moment of the beam jumps by the couple at the sleeve. The moment on the \
+            holder also contains that of contact_force about the holder: the kink of the axis \
+            moves its point of action.")
         .example("let rest = scene.equilibrium();\ncheck_close(rest.sleeve_couple(mouth), 0.1, 1e-3);\ncheck_close(rest.contact_force(mouth).y, 0.1, 1e-6);")
         .with_related(&["sleeve", "contact_force"]),
     ],

@@ -34,6 +34,9 @@ const MOST_ROWS: usize = 24;
 /// With fewer spans, at least one of the two additional meshes is finer than the mesh of the simulation.
 const SPANS_TO_COARSEN: usize = 4;
 
+/// Smallest ratio of the mesh sizes of consecutive levels [-].
+const LEAST_RATIO: f64 = 1.1;
+
 #[derive(Debug, Clone)]
 pub struct ErrorEstimate {
     pub name: String,
@@ -127,18 +130,28 @@ impl Plan {
         let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
             return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
         };
-        let (ratios, meshes, level) = match shortest {
-            SPANS_TO_COARSEN.. => ([0.75, 0.5], [0, 2, 3], 0),
-            1 => ([4.0, 2.0], [2, 3, 0], 2),
-            _ => ([2.0, 0.5], [2, 0, 3], 1),
+        let choices =
+            [([0.75, 0.5], [0, 2, 3], 0), ([2.0, 0.5], [2, 0, 3], 1), ([4.0, 2.0], [2, 3, 0], 2)];
+        let least = match shortest {
+            SPANS_TO_COARSEN.. => 0,
+            1 => 2,
+            _ => 1,
         };
-        companions.extend(ratios.map(|ratio| at(ratio, 2.0)));
-        let mut mesh_sizes = [1.0; 3];
-        for (size, run) in mesh_sizes.iter_mut().zip(meshes) {
-            let scaled = scene.with_span_ratio(companions[run].span_ratio)?;
-            *size = spans(scene) as f64 / spans(&scaled) as f64;
+        for (ratios, meshes, level) in choices.into_iter().skip(least) {
+            companions.truncate(2);
+            companions.extend(ratios.map(|ratio| at(ratio, 2.0)));
+            let mut mesh_sizes = [1.0; 3];
+            for (size, run) in mesh_sizes.iter_mut().zip(meshes) {
+                let scaled = scene.with_span_ratio(companions[run].span_ratio)?;
+                *size = spans(scene) as f64 / spans(&scaled) as f64;
+            }
+            // Spans between repeated knots cannot be merged, so a coarser mesh may have the same spans.
+            if mesh_sizes.is_sorted_by(|finer, coarser| *coarser >= LEAST_RATIO * finer) {
+                return Ok(Self { companions, meshes: Some(meshes), mesh_sizes, level });
+            }
         }
-        Ok(Self { companions, meshes: Some(meshes), mesh_sizes, level })
+        companions.truncate(2);
+        Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 })
     }
 }
 
@@ -208,7 +221,7 @@ impl ErrorEstimate {
             return Ok(estimate);
         }
         if plan.meshes.is_none() {
-            estimate.missing.push("in space: the scene has no beams".to_owned());
+            estimate.missing.push(format!("in space: {}", no_meshes(handle.simulation().scene())));
         }
         let order = f64::from(settings.method.entry().claims.order);
         let mesh_order = handle.simulation().scene().mesh_order();
@@ -376,6 +389,14 @@ impl ErrorEstimate {
             text += &format!("\nnot estimated: {reason}");
         }
         text
+    }
+}
+
+/// Reason for the absence of an estimate in space.
+pub(super) fn no_meshes(scene: &Scene) -> &'static str {
+    match scene.beams.is_empty() {
+        true => "the scene has no beams",
+        false => "the meshes cannot be scaled",
     }
 }
 

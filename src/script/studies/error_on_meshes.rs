@@ -1,6 +1,6 @@
 //! Estimated error of a computation without steps, from its results on other meshes.
 
-use super::error_estimate::{ErrorEstimate, Plan, QuantityError};
+use super::error_estimate::{ErrorEstimate, Plan, QuantityError, no_meshes};
 use crate::analysis::{ExpectedOrder, RefinementLevels, Trace};
 use crate::geometry::{Vec2, larger};
 use crate::script::messages::error::ScriptError;
@@ -46,7 +46,7 @@ impl ErrorEstimate {
         let mut estimate = Self { name, moment, length, quantities, missing };
         let plan = Plan::of(scene)?;
         let Some(meshes) = plan.meshes else {
-            estimate.missing.push("the scene has no beams".to_owned());
+            estimate.missing.push(no_meshes(scene).to_owned());
             return Ok(estimate);
         };
         let mut levels = Vec::new();
@@ -66,8 +66,7 @@ impl ErrorEstimate {
                 Err(error) => return Err(error),
             }
         }
-        let degree = scene.beams.iter().map(|beam| beam.mesh.basis().degree()).max().unwrap_or(1);
-        let order = ExpectedOrder::AtMost(degree as f64 + 1.0);
+        let order = ExpectedOrder::AtMost(scene.mesh_order());
         estimate.quantities = compare(&plan, &levels, order, length);
         let all = estimate.quantities.iter().take(together.count);
         if let Some(worst) = all.clone().max_by(|a, b| a.total().1.total_cmp(&b.total().1)) {

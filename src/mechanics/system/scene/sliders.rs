@@ -2,7 +2,7 @@
 
 use super::ties::same_place;
 use super::{RigidBodyDefinition, Scene, StartMotion};
-use crate::beams::Station;
+use crate::beams::{SectionVariation, Station};
 use crate::geometry::{Vec2, cross, nearest};
 use crate::joints::{JointKind, Partner, Slider, SlidingRule};
 use crate::system::errors::{Approach, SliderError, SliderParts, written};
@@ -31,8 +31,13 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     }
 }
 
-fn check_sleeve(slider: &Slider) -> Result<(), SystemError> {
+fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemError> {
     let refused = [
+        (
+            !matches!(master.section, SectionVariation::Uniform(_)),
+            "on a beam with a variable section, whose push would not converge",
+            "use a uniform beam, or mechanisms::sleeve",
+        ),
         (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
         (slider.track.is_some(), "on a track", "choose a single beam"),
         (slider.has_friction(), "with friction", "remove the friction"),
@@ -131,7 +136,7 @@ impl Scene {
             return Err(SliderError::FrictionRule { slider, rule }.into());
         }
         self.check_side(slider)?;
-        check_sleeve(slider)?;
+        check_sleeve(slider, &self.beams[slider.master])?;
         let is_same = |other: &Slider| {
             let is_on = self.masters(other).iter().any(|master| masters.contains(master));
             is_on && same_place(&other.slave, &slider.slave, self)
