@@ -21,7 +21,6 @@ use crate::script::handles::simulation::SimulationHandle;
 use crate::script::presentation::present::present;
 use crate::script::source::program::{LARGEST_SCRIPT, Program};
 use crate::script::state::inputs::Inputs;
-use crate::simulation::StepSize;
 
 /// Result of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -320,11 +319,8 @@ impl Shell {
             let time = significant(latest.time(), 10);
             let ended = latest.simulation().ending().map(|ending| format!("; ended: {ending}"));
             let ended = ended.unwrap_or_default();
-            let adaptive = match latest.simulation().settings().dt {
-                StepSize::Fixed(_) => String::new(),
-                StepSize::Adaptive(control) => format!(" ({control})"),
-            };
-            self.print(&format!("t = {time} after {steps} step{plural}{adaptive}{ended}"));
+            let control = latest.step_control();
+            self.print(&format!("t = {time} after {steps} step{plural}{control}{ended}"));
         }
     }
 

@@ -92,6 +92,14 @@ impl Monitor for DryRunObserver<'_> {
 }
 
 impl SimulationHandle {
+    /// Tolerance and bounds of adaptive steps in brackets, after a space; empty for fixed steps.
+    pub fn step_control(&self) -> String {
+        match self.simulation().settings().dt {
+            StepSize::Fixed(_) => String::new(),
+            StepSize::Adaptive(control) => format!(" ({control})"),
+        }
+    }
+
     /// True if there is another handle to the same simulation.
     pub fn is_shared(&self) -> bool {
         Rc::strong_count(&self.0) > 1

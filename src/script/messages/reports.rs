@@ -26,7 +26,7 @@ const MOST_NUMBERS: usize = 1_000_000;
 /// Largest length of a number and its separator in a rescue file [bytes].
 const LONGEST_NUMBER: u64 = 26;
 
-/// Number of objects from which on objects out of use are released.
+/// Smallest number of objects at which objects out of use are released.
 const MANY: usize = 100;
 
 /// All objects that contribute to the report of a run, in the order of their start.

@@ -16,7 +16,7 @@ use crate::output::{
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
-use crate::simulation::{History, Simulation, StepSize};
+use crate::simulation::{History, Simulation};
 use crate::system::Scene;
 
 use super::plan::stations_and_middles;
@@ -42,8 +42,6 @@ pub struct ErrorEstimate {
     pub name: String,
     /// Time of a simulation, with the tolerance of adaptive steps, or load factor of an equilibrium, as text after its name.
     pub moment: String,
-    /// Scale of positions [length].
-    pub length: f64,
     /// Largest errors of all stations, followed by the errors of each station and recorded column.
     pub quantities: Vec<QuantityError>,
     pub missing: Vec<String>,
@@ -125,21 +123,19 @@ pub(super) struct Plan {
 impl Plan {
     pub(super) fn of(scene: &Scene) -> Result<Self, ScriptError> {
         let at = |span_ratio, step_ratio| Companion { span_ratio, step_ratio };
-        let mut companions = vec![at(1.0, 2.0), at(1.0, 4.0)];
+        let steps = [at(1.0, 2.0), at(1.0, 4.0)];
         let spans = |scene: &Scene| scene.beams.iter().map(|beam| beam.mesh.spans()).sum::<usize>();
-        let Some(shortest) = scene.beams.iter().map(|beam| beam.mesh.spans()).min() else {
-            return Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 });
-        };
         let choices =
             [([0.75, 0.5], [0, 2, 3], 0), ([2.0, 0.5], [2, 0, 3], 1), ([4.0, 2.0], [2, 3, 0], 2)];
-        let least = match shortest {
-            SPANS_TO_COARSEN.. => 0,
-            1 => 2,
-            _ => 1,
+        let first = match scene.beams.iter().map(|beam| beam.mesh.spans()).min() {
+            Some(SPANS_TO_COARSEN..) => 0,
+            Some(2..) => 1,
+            Some(_) => 2,
+            None => choices.len(),
         };
-        for (ratios, meshes, level) in choices.into_iter().skip(least) {
-            companions.truncate(2);
-            companions.extend(ratios.map(|ratio| at(ratio, 2.0)));
+        for (ratios, meshes, level) in choices.into_iter().skip(first) {
+            let scaled = ratios.map(|ratio| at(ratio, 2.0));
+            let companions = [steps, scaled].concat();
             let mut mesh_sizes = [1.0; 3];
             for (size, run) in mesh_sizes.iter_mut().zip(meshes) {
                 let scaled = scene.with_span_ratio(companions[run].span_ratio)?;
@@ -150,8 +146,7 @@ impl Plan {
                 return Ok(Self { companions, meshes: Some(meshes), mesh_sizes, level });
             }
         }
-        companions.truncate(2);
-        Ok(Self { companions, meshes: None, mesh_sizes: [1.0; 3], level: 0 })
+        Ok(Self { companions: steps.to_vec(), meshes: None, mesh_sizes: [1.0; 3], level: 0 })
     }
 }
 
@@ -170,13 +165,10 @@ impl ErrorEstimate {
     /// Estimate without results, for the given reason.
     pub fn not_estimated(handle: &SimulationHandle, reason: &str) -> Self {
         let name = handle.name().to_owned();
-        let steps = match handle.simulation().settings().dt {
-            StepSize::Fixed(_) => String::new(),
-            StepSize::Adaptive(control) => format!(" ({control})"),
-        };
-        let moment = format!(" at t = {}{steps}", significant(handle.time(), 6));
+        let control = handle.step_control();
+        let moment = format!(" at t = {}{control}", significant(handle.time(), 6));
         let missing = vec![reason.to_owned()];
-        Self { name, moment, length: 1.0, quantities: Vec::new(), missing }
+        Self { name, moment, quantities: Vec::new(), missing }
     }
 
     /// Estimates the errors of a simulation at its present time and over its run. With a time limit, each companion run stops after this time.
@@ -226,7 +218,6 @@ impl ErrorEstimate {
         let order = f64::from(settings.method.entry().claims.order);
         let mesh_order = handle.simulation().scene().mesh_order();
         let scales = Scales::of(&handle.simulation(), &quantities, &own.0);
-        estimate.length = scales.length;
         for (index, quantity) in quantities.iter().enumerate() {
             let scale = scales.of_quantity(quantity);
             if scale > 0.0 {
@@ -338,7 +329,7 @@ impl ErrorEstimate {
             scientific(together.total().0, 2),
             self.moment,
             together.verdict(),
-            significant(if together.name == POSITIONS { self.length } else { together.scale }, 3),
+            significant(together.scale, 3),
         )
     }
 

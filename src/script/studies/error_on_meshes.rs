@@ -42,8 +42,7 @@ impl ErrorEstimate {
         compute: impl Fn(Scene) -> Result<Vec<MeshResult>, ScriptError>,
     ) -> Result<Self, ScriptError> {
         let (quantities, missing) = (Vec::new(), Vec::new());
-        let (name, length) = (scene.name.clone(), scene.size().unwrap_or(1.0));
-        let mut estimate = Self { name, moment, length, quantities, missing };
+        let mut estimate = Self { name: scene.name.clone(), moment, quantities, missing };
         let plan = Plan::of(scene)?;
         let Some(meshes) = plan.meshes else {
             estimate.missing.push(no_meshes(scene).to_owned());
@@ -67,7 +66,8 @@ impl ErrorEstimate {
             }
         }
         let order = ExpectedOrder::AtMost(scene.mesh_order());
-        estimate.quantities = compare(&plan, &levels, order, length);
+        let size = scene.size().unwrap_or(1.0);
+        estimate.quantities = compare(&plan, &levels, order, size);
         let all = estimate.quantities.iter().take(together.count);
         if let Some(worst) = all.clone().max_by(|a, b| a.total().1.total_cmp(&b.total().1)) {
             let scale = all.map(|of| of.scale).fold(0.0, larger);

@@ -130,12 +130,13 @@ impl RefinedRun {
             }
             let estimate = ErrorEstimate::estimate(&run, context, None)?;
             let positions = estimate.of(POSITIONS);
+            let size = positions.map_or(1.0, |positions| positions.scale);
             let [in_time, in_space] = [
                 positions.and_then(|of| of.in_time.as_ref()),
                 positions.and_then(|of| of.in_space.as_ref()),
             ];
             let relative = |error: Option<&DiscretisationError>| {
-                error.map_or(f64::NAN, |error| error.largest() / estimate.length)
+                error.map_or(f64::NAN, |error| error.largest() / size)
             };
             (row.in_time, row.in_space) = (relative(in_time), relative(in_space));
             row.verdict =
@@ -144,8 +145,7 @@ impl RefinedRun {
                 .into_iter()
                 .flatten()
                 .any(|error| matches!(error.verdict, ErrorVerdict::Chaotic { .. }));
-            let next =
-                |error, most| refinement_factor(error, estimate.length, request.tolerance, most);
+            let next = |error, most| refinement_factor(error, size, request.tolerance, most);
             let finer_steps = next(in_time, MOST_REFINEMENT[0]);
             let finer_mesh = next(in_space, MOST_REFINEMENT[1]);
             let is_within = finer_steps == 1.0 && finer_mesh == 1.0 && in_time.is_some();

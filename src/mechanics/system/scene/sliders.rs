@@ -35,7 +35,7 @@ fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemEr
     let refused = [
         (
             !matches!(master.section, SectionVariation::Uniform(_)),
-            "on a beam with a variable section, whose push would not converge",
+            "on a beam with a variable section, because the force along it would not converge with the mesh",
             "use a uniform beam, or mechanisms::sleeve",
         ),
         (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
