@@ -6,9 +6,10 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use crate::common::at;
+use crate::common::body_scenes::add_body;
 use crate::common::scenes::{add_beam, drive, end_of, line, start_of};
 use withy::beams::{Mesh, Section, Station};
-use withy::geometry::{Curve, Vec2};
+use withy::geometry::{Curve, Vec2, cross};
 use withy::integrators::Method;
 use withy::joints::{
     Component, Components, EndAction, JointKind, Partner, Restraint, Slider, SlidingRule,
@@ -16,7 +17,7 @@ use withy::joints::{
 use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::{Simulation, SimulationSettings};
 use withy::statics::{Equilibrium, Loading, Stability};
-use withy::system::{RigidBodyDefinition, Scene, StartMotion};
+use withy::system::Scene;
 
 fn section(stiff: f64, bending: f64) -> Section {
     Section {
@@ -35,10 +36,7 @@ fn sleeve(scene: &mut Scene, holder: Station, rod: usize, along: f64) {
 }
 
 fn hub(scene: &mut Scene, position: Vec2) -> Station {
-    let name = scene.free_name("hub");
-    let (points, outline, motion) = (Vec::new(), Vec::new(), StartMotion::default());
-    let body = RigidBodyDefinition { name, position, angle: 0.0, points, outline, motion };
-    Station::on_rigid_body(scene.add_rigid_body(body, 1.0, 1.0).unwrap(), 0)
+    Station::on_rigid_body(add_body(scene, position, 0.0, (1.0, 1.0), &[]), 0)
 }
 
 /// Motion from zero to a value at t = 1.
@@ -179,7 +177,6 @@ fn moments_about_a_soft_turning_sleeve_balance() {
     let [arm, end] = [back, tip].map(|place| rest.model().position(&place));
     let load = at(0.3, -2.0);
     let forces = hinge + support + load;
-    let cross = |a: Vec2, b: Vec2| a.x * b.y - a.y * b.x;
     let moments = moment + cross(arm, support) + cross(end, load);
     assert!(forces.norm() < 1e-10, "{forces}");
     assert!(moments.abs() < 1e-9, "{moments:e}");

@@ -26,6 +26,13 @@ pub struct MissedKink {
     pub inertia: f64,
 }
 
+/// Arc length of the axis that the control points describe, as a function of the parameter [length].
+pub fn arc_lengths(mesh: &Mesh, control_points: &[Vec2]) -> PiecewisePolynomial {
+    let basis = mesh.basis();
+    let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, control_points).norm();
+    PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
+}
+
 /// Computes the part of the kink under a point force that the mesh does not represent (docs/theory.md, section 10.1).
 ///
 /// The result is `None` if the mesh is more compliant than the exact beam, so that the kink length is negative.

@@ -38,7 +38,7 @@ pub use dashpots::{Dashpots, RateCollocation, Relaxation};
 pub(crate) use discrete::discretise;
 pub use dynamics::{BlockSink, BodyDynamics, Collocation, ForceSummary, Movement};
 pub use error::BeamError;
-pub use kink::{MissedKink, StraightBeam, unresolved_kink};
+pub use kink::{MissedKink, StraightBeam, arc_lengths, unresolved_kink};
 pub use mesh::{Mesh, PointCounts, Quadrature};
 pub use rigid_points::RigidPoints;
 pub use rotation::{Rotation, RotationIncrement};

@@ -27,6 +27,28 @@ pub struct FunctionOnPath {
     pub change: f64,
 }
 
+/// Coefficients, on each span, of the polynomials that interpolate `N` functions at the Gauss points of the span.
+fn interpolated<const N: usize>(
+    spans: &[Span],
+    points: usize,
+    mut functions: impl FnMut(usize, &Span, f64) -> [f64; N],
+) -> Vec<[Vec<f64>; N]> {
+    let places: Vec<f64> = GaussRule::legendre(points).iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
+    let power = |row: usize, k: usize| std::iter::repeat_n(places[row], k).product();
+    let powers = DMatrix::from_fn(points, points, power).lu();
+    let on_span = |(at, span): (usize, &Span)| {
+        let half = 0.5 * (span.end - span.start);
+        let samples = places.iter().map(|t| functions(at, span, span.start + half * (1.0 + t)));
+        let samples: Vec<[f64; N]> = samples.collect();
+        std::array::from_fn(|entry| {
+            let values = samples.iter().map(|sample| sample[entry]);
+            let values = DVector::from_iterator(points, values);
+            powers.solve(&values).unwrap_or(values).iter().copied().collect()
+        })
+    };
+    spans.iter().enumerate().map(on_span).collect()
+}
+
 impl PiecewisePolynomial {
     /// Creates a function from a row of coefficients for each span.
     /// On a span, the function is `Σ c_k t^k` with the coefficients `c_k`, where `t` runs from -1 to 1.
@@ -41,39 +63,27 @@ impl PiecewisePolynomial {
         }
     }
 
-    /// Creates the polynomials that interpolate a function at the Gauss points of consecutive spans.
-    /// The arguments of the function are the index of the span, the span and the parameter. It is called at increasing parameters.
-    pub fn interpolation(
+    /// Creates the polynomials that interpolate `N` functions at the Gauss points of consecutive spans.
+    /// The arguments of the functions are the index of the span, the span and the parameter.
+    pub fn interpolation<const N: usize>(
         spans: &[Span],
         points: usize,
-        mut function: impl FnMut(usize, &Span, f64) -> f64,
-    ) -> Self {
-        let places: Vec<f64> =
-            GaussRule::legendre(points).iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
-        let power = |row: usize, k: usize| std::iter::repeat_n(places[row], k).product();
-        let powers = DMatrix::from_fn(points, points, power).lu();
-        let rows = spans.iter().enumerate().map(|(at, span)| {
-            let half = 0.5 * (span.end - span.start);
-            let value = |t: &f64| function(at, span, span.start + half * (1.0 + t));
-            let values = DVector::from_iterator(points, places.iter().map(value));
-            powers.solve(&values).unwrap_or(values).iter().copied().collect()
-        });
-        let rows: Vec<Vec<f64>> = rows.collect();
-        Self::new(spans, &rows)
+        functions: impl FnMut(usize, &Span, f64) -> [f64; N],
+    ) -> [Self; N] {
+        let rows = interpolated(spans, points, functions);
+        std::array::from_fn(|entry| {
+            let rows: Vec<Vec<f64>> = rows.iter().map(|row| row[entry].clone()).collect();
+            Self::new(spans, &rows)
+        })
     }
 
     /// Creates the integral of a function over consecutive spans, starting at the first span.
     pub fn integral(spans: &[Span], points: usize, function: impl Fn(&Span, f64) -> f64) -> Self {
-        let rule = GaussRule::legendre(points);
-        let places: Vec<f64> = rule.iter_on(-1.0, 1.0).map(|(t, _)| t).collect();
-        let power = |row: usize, k: usize| std::iter::repeat_n(places[row], k).product();
-        let powers = DMatrix::from_fn(points, points, power).lu();
+        let slopes = interpolated(spans, points, |_, span, xi| {
+            [0.5 * (span.end - span.start) * function(span, xi)]
+        });
         let mut before = 0.0;
-        let rows = spans.iter().map(|span| {
-            let half = 0.5 * (span.end - span.start);
-            let value = |t: &f64| half * function(span, span.start + half * (1.0 + t));
-            let values = DVector::from_iterator(points, places.iter().map(value));
-            let slopes = powers.solve(&values).unwrap_or(values);
+        let rows = slopes.into_iter().map(|[slopes]| {
             let primitive = slopes.iter().enumerate().map(|(k, c)| c / (k + 1) as f64);
             let mut row: Vec<f64> = std::iter::once(0.0).chain(primitive).collect();
             let at = |t: f64| row.iter().rev().fold(0.0, |sum, c| sum * t + c);

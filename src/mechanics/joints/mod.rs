@@ -12,7 +12,7 @@ pub use slider::{EndAction, Restraint, Side, Slider, StartVelocities};
 pub use sliding::{
     AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
     FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,
-    MasterAngle, PathVector, Relaxed, Released, Resting, RestingSleeve, RotationSlopes, RuleClaims,
-    RuleEntry, SLIDING_RULES, SleeveOffset, SlidingLaw, SlidingRule, Unit,
+    MasterAtSleeve, PathVector, Relaxed, Released, Resting, RestingSleeve, RuleClaims, RuleEntry,
+    SLIDING_RULES, SleeveOffset, SlidingLaw, SlidingRule, Unit,
 };
 pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};

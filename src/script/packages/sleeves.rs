@@ -5,10 +5,10 @@ use rhai::Dynamic;
 
 use super::equilibria::EQUILIBRIUM;
 use super::scenes::{BEAM, SCENE, STATION};
-use super::sliding::{SLIDER, SliderHandle, WHICH, meant, slider_error};
+use super::sliding::{ENDS, SLIDER, SliderHandle, WHICH, meant, slider_error};
 use crate::beams::Station;
 use crate::geometry::Vec2;
-use crate::joints::{EndAction, Restraint, Slider, StartVelocities};
+use crate::joints::{Restraint, Slider, StartVelocities};
 use crate::script::bindings::call::Call;
 use crate::script::bindings::kind::Kind;
 use crate::script::bindings::parameter::{
@@ -25,9 +25,9 @@ use crate::system::{Scene, SystemError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "sleeves",
-    doc: "A sleeve without length holds the place and the direction of a beam that slides through \
-        it. It is available in equilibria; mechanisms::sleeve of the standard library is a sleeve \
-        of two eyelets, for motion.",
+    doc: "A beam slides through a sleeve without length: a point that stays on the axis of the beam \
+        and keeps its angle to the beam. It is available in equilibria; mechanisms::sleeve of the \
+        standard library is a sleeve of two eyelets, for motion.",
     types: &[],
     setup: SLEEVED,
     constants: &[],
@@ -84,16 +84,14 @@ const SLEEVED: &str = "let scene = new_scene(\"example\");\n\
 
 const HOLDER: Parameter = either("holder", &[Kind::Object(STATION), Kind::Point]);
 
-const ENDS: [(&str, EndAction); 2] = [("stop", EndAction::Stop), ("release", EndAction::Release)];
-
 const SLEEVE_KEYS: &[Parameter] = &[
     number("at")
         .between(0.0, 1.0)
         .unit("fraction of the length")
         .doc("initial position as a fraction of the undeformed length of the beam; default: the nearest place")
         .optional(),
-    choice("ends", &[ENDS[0].0, ENDS[1].0])
-        .doc("stop at the ends of the beam: the sleeve is held there, or the beam leaves the sleeve and has no equilibrium")
+    choice("ends", &[ENDS[0].0, ENDS[3].0])
+        .doc("stop: the sleeve is held at the ends of the beam; release: the beam may leave the sleeve, and then has no equilibrium")
         .or(Presence::Text("stop")),
     text("name").optional(),
 ];

@@ -216,7 +216,7 @@ pub(super) const SLIDER: Type = Type::of::<SliderHandle>();
 
 const ON: Parameter = either("beam", &[Kind::Object(BEAM), Kind::Object(TRACK)]);
 pub(super) const WHICH: Parameter = object("slider", SLIDER);
-const ENDS: [(&str, EndAction); 4] = [
+pub(super) const ENDS: [(&str, EndAction); 4] = [
     ("stop", EndAction::Stop),
     ("bounce", EndAction::Bounce),
     ("contact", EndAction::Contact),

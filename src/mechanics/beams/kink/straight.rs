@@ -1,5 +1,6 @@
 //! Straight beam on the functions and the quadrature points of a mesh, whose compliance is compared with the exact one.
 
+use super::arc_lengths;
 use crate::beams::mesh::QuadratureSpan;
 use crate::beams::{BeamError, Mesh, Section};
 use crate::elementary::square;
@@ -20,9 +21,7 @@ pub struct StraightBeam<'a> {
 impl<'a> StraightBeam<'a> {
     /// Creates a straight beam with the arc lengths of the axis that the control points describe.
     pub fn new(mesh: &'a Mesh, control_points: &'a [Vec2], section: &'a Section) -> Self {
-        let (basis, spans) = (mesh.basis(), mesh.basis().spans());
-        let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, control_points).norm();
-        let arc = PiecewisePolynomial::integral(&spans, basis.degree(), speed);
+        let (spans, arc) = (mesh.basis().spans(), arc_lengths(mesh, control_points));
         let last = spans.len() - 1;
         let [length, ..] = arc.in_span(last, spans[last].end);
         Self { mesh, control_points, section, spans, arc, length }

@@ -13,6 +13,7 @@ pub struct ContactUnknowns {
     pub force: Vec2,
     /// Factor `μ` of additional forces on the control points of the master [force]. The sum of these forces is zero.
     /// Their moment balances the moment of the contact forces, so that angular momentum is conserved.
+    /// For a sleeve in an equilibrium, the components are two moments instead (see [`super::RestingSleeve`]).
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,

@@ -35,4 +35,4 @@ pub use relaxed::Relaxed;
 pub use released::Released;
 pub use resting::{AtStop, Resting};
 pub use rule::{RuleClaims, RuleEntry, SLIDING_RULES, SlidingRule};
-pub use sleeve::{MasterAngle, RestingSleeve, RotationSlopes, SleeveOffset};
+pub use sleeve::{MasterAtSleeve, RestingSleeve, SleeveOffset};

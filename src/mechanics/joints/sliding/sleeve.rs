@@ -1,14 +1,14 @@
-//! Law of a sleeve without length in an equilibrium: the sleeve holds the place and the direction of its master.
+//! Law of a sleeve without length in an equilibrium: the axis of the master passes through the slave, at a constant angle to it.
 
 use super::contact::AXES;
 use super::{AtStop, CONTACT_UNKNOWNS, Contact, Equation, Resting, SlidingLaw, Unit};
 use crate::geometry::{Vec2, cross, perpendicular};
 
-/// Angle of a master at its sleeve, with the compliance of the master that its mesh does not represent.
-/// An array contains a value, and its first and second derivatives with respect to the parameter of the master.
+/// Angle between a sleeve and its master, and the compliance of the master that its mesh does not represent.
+/// An array of three numbers contains a value, and its first and second derivatives with respect to the parameter of the master.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MasterAngle {
-    /// Angle of the sleeve minus the angle of the smooth master, relative to the initial difference [rad].
+pub struct MasterAtSleeve {
+    /// Angle of the sleeve minus the angle of the master on its mesh, relative to the initial difference [rad].
     pub gap: f64,
     /// First and second derivatives of the angle of the master with respect to its parameter [rad].
     pub slopes: [f64; 2],
@@ -26,25 +26,15 @@ pub struct MasterAngle {
 
 /// Law of a sleeve in an equilibrium. The potential energy is stationary (docs/theory.md, section 14.2).
 ///
-/// The unknown couple consists of the couple of the sleeve on the master, and of the moment of the contact force about the smooth axis on the slave.
-/// Both are divided by the length of the master per unit of its parameter.
+/// The unknown `couple.x` is the couple of the sleeve on the master.
+/// The unknown `couple.y` is the moment of the contact force on the slave about the axis that the mesh represents.
+/// Both are divided by [`Contact::length`].
 #[derive(Debug, Clone, Copy)]
 pub struct RestingSleeve {
     /// Angle and compliance of the master at the sleeve.
-    pub master: MasterAngle,
+    pub master: MasterAtSleeve,
     /// Sliding increment to the stop that holds the sleeve [-]; `None` if the sleeve slides.
     pub stop: Option<f64>,
-}
-
-/// Derivatives of the equations with respect to rotations: of the sleeve, and by the weights of control points of the master.
-#[derive(Debug, Clone, Copy)]
-pub struct RotationSlopes {
-    /// Derivatives with respect to the angle of the sleeve.
-    pub by_sleeve: [f64; CONTACT_UNKNOWNS],
-    /// Derivatives with respect to the angle of the master.
-    pub by_master: [f64; CONTACT_UNKNOWNS],
-    /// Derivatives with respect to the derivative of the angle of the master by its parameter.
-    pub by_slope: [f64; CONTACT_UNKNOWNS],
 }
 
 /// Displacement and rotation of the axis at a sleeve that the mesh does not represent, or their derivatives by the parameter of the master.
@@ -58,7 +48,7 @@ pub struct SleeveOffset {
     pub turned: (Vec2, f64),
 }
 
-impl MasterAngle {
+impl MasterAtSleeve {
     /// Displacement and rotation of the axis due to a force and a couple on the master, or a derivative of this order by its parameter.
     pub fn offset(&self, (force, moment): (Vec2, f64), order: usize) -> SleeveOffset {
         let (along, normal) = (self.along, perpendicular(self.along));
@@ -87,13 +77,13 @@ impl RestingSleeve {
     }
 
     fn by_force(&self, axis: Vec2) -> Vec2 {
-        let MasterAngle { along, transverse, axial, .. } = self.master;
+        let MasterAtSleeve { along, transverse, axial, .. } = self.master;
         let normal = perpendicular(along);
         normal * (transverse[0] * axis.dot(&normal)) + along * (axial[0] * axis.dot(&along))
     }
 
     fn closed(&self, contact: &Contact<'_>, equations: &mut [Equation; CONTACT_UNKNOWNS]) {
-        let MasterAngle { along, coupling, rotation, slopes, gap, .. } = self.master;
+        let MasterAtSleeve { along, coupling, rotation, slopes, gap, .. } = self.master;
         let (normal, length) = (perpendicular(along), contact.length);
         let [offset, change] = [0, 1].map(|order| self.offset(contact, order));
         let [gap_x, gap_y, angle, ..] = equations;
@@ -146,23 +136,19 @@ impl RestingSleeve {
         contact.outward_push(outward) + self.work(contact, 1) * outward
     }
 
-    /// Derivatives of the equations with respect to the rotations of sleeve and master.
-    pub fn rotation_slopes(&self, contact: &Contact<'_>) -> RotationSlopes {
+    /// Derivatives of the equations with respect to the angle of the sleeve.
+    pub fn slopes_by_sleeve(&self, contact: &Contact<'_>) -> [f64; CONTACT_UNKNOWNS] {
         let (force, length) = (contact.unknowns.force, contact.length);
         let [offset, change] = [0, 1].map(|order| self.offset(contact, order));
         let (turned, rotated) = offset.turned;
         let along = if self.stop.is_some() { 0.0 } else { 1.0 };
-        RotationSlopes {
-            by_sleeve: [
-                -turned.x,
-                -turned.y,
-                length * (1.0 - rotated),
-                cross(turned, force) / length,
-                along * cross(change.displacement, force) / length,
-            ],
-            by_master: [0.0, 0.0, -length, 0.0, 0.0],
-            by_slope: [0.0, 0.0, 0.0, 0.0, along * contact.unknowns.couple.x],
-        }
+        [
+            -turned.x,
+            -turned.y,
+            length * (1.0 - rotated),
+            cross(turned, force) / length,
+            along * cross(change.displacement, force) / length,
+        ]
     }
 }
 

@@ -3,9 +3,9 @@
 use super::{Assembly, Numbering};
 use std::sync::Arc;
 
-use crate::beams::{MissedKink, Station, unresolved_kink};
+use crate::beams::{MissedKink, Station, arc_lengths, unresolved_kink};
 use crate::elementary::atan2;
-use crate::geometry::{ContactPath, PiecewisePolynomial, Span};
+use crate::geometry::ContactPath;
 use crate::joints::{Slider, SlidingRule, StartVelocities, Track, TrackBeam};
 use crate::system::elements::AssemblyContext;
 use crate::system::errors::SliderError;
@@ -117,13 +117,9 @@ impl Assembly<'_> {
             let points = self.bodies[master].control_points();
             let wrap = |source| SystemError::Beam { beam: beam.name.clone(), source };
             let missed = unresolved_kink(self.mesh(master), points).map_err(wrap)?;
-            let arc = || {
-                let speed = |span: &Span, xi| basis.evaluate_in(span, xi).combine(1, points).norm();
-                PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
-            };
             let of = |missed: MissedKink| MasterKink {
                 length: Arc::new(missed.length),
-                arc: Arc::new(arc()),
+                arc: Arc::new(arc_lengths(self.mesh(master), points)),
                 inertia: missed.inertia,
             };
             found[master] = Some(missed.map(of));

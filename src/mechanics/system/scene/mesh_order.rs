@@ -6,10 +6,10 @@ use crate::beams::Station;
 use crate::joints::{Partner, SlidingRule};
 use crate::system::elements::Element;
 
-/// Order of positions with a force inside a span: the shear strain jumps there.
+/// Order of convergence of positions if a force acts between the ends of a beam: the shear strain jumps at the force.
 const FIRST: f64 = 1.0;
 
-/// Order of positions with sliders whose law represents the kink of the axis.
+/// Order of convergence of positions with sliders whose law represents the kink of the axis.
 const THIRD: f64 = 3.0;
 
 impl Scene {

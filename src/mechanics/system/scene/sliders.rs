@@ -31,23 +31,33 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
     }
 }
 
+/// Option that a slider does not allow: true if it is given, with its description and a remedy.
+type RefusedOption = (bool, &'static str, &'static str);
+
+/// Options that neither one-sided sliders nor sleeves allow.
+fn refused_options(slider: &Slider) -> [RefusedOption; 3] {
+    let is_other_rule = slider.rule != SlidingRule::Conserving;
+    [
+        (slider.track.is_some(), "on a track", "choose a single beam"),
+        (slider.has_friction(), "with friction", "remove the friction"),
+        (is_other_rule, "with a rule other than conserving", "use the conserving rule"),
+    ]
+}
+
 fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemError> {
-    let refused = [
+    if !slider.is_sleeve() {
+        return Ok(());
+    }
+    let of_sleeves = [
         (
             !matches!(master.section, SectionVariation::Uniform(_)),
             "on a beam with a variable section, because the force along it would not converge with the mesh",
             "use a uniform beam, or mechanisms::sleeve",
         ),
         (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
-        (slider.track.is_some(), "on a track", "choose a single beam"),
-        (slider.has_friction(), "with friction", "remove the friction"),
-        (
-            slider.rule != SlidingRule::Conserving,
-            "with a rule other than conserving",
-            "use the conserving rule",
-        ),
     ];
-    match refused.into_iter().find(|(is_given, ..)| slider.is_sleeve() && *is_given) {
+    let mut refused = of_sleeves.into_iter().chain(refused_options(slider));
+    match refused.find(|(is_given, ..)| *is_given) {
         Some((_, what, remedy)) => {
             Err(SliderError::SleeveWith { slider: slider.name.clone(), what, remedy }.into())
         }
@@ -210,21 +220,13 @@ impl Scene {
         if slider.side().is_none() {
             return Ok(());
         }
-        let refused = [
-            (slider.track.is_some(), "on a track", "choose a single beam"),
-            (slider.has_friction(), "with friction", "remove the friction"),
-            (
-                slider.rule != SlidingRule::Conserving,
-                "with a rule other than conserving",
-                "use the conserving rule",
-            ),
-            (
-                slider.ends.has_stop(),
-                "with ends that hold or reflect it",
-                "choose ends that stop the run or release it",
-            ),
-        ];
-        let Some((_, what, remedy)) = refused.into_iter().find(|(is_given, ..)| *is_given) else {
+        let ends = (
+            slider.ends.has_stop(),
+            "with ends that hold or reflect it",
+            "choose ends that stop the run or release it",
+        );
+        let mut refused = refused_options(slider).into_iter().chain([ends]);
+        let Some((_, what, remedy)) = refused.find(|(is_given, ..)| *is_given) else {
             return Ok(());
         };
         Err(SliderError::SideWith { slider: slider.name.clone(), what, remedy }.into())

@@ -15,7 +15,7 @@ const RIGID: f64 = 1e-14;
 const FASTEST: f64 = 0.8;
 
 /// Second upper limit of the speed of a slider whose kink follows the contact force, as a fraction of the critical speed of the kink.
-/// At the critical speed, the stiffness of the kink is zero. It is the shear wave speed divided by the square root of [`MasterKink::inertia`].
+/// At the critical speed, the stiffness of the kink is zero. The critical speed is the shear wave speed divided by the square root of [`MasterKink::inertia`].
 const FASTEST_ON_MESH: f64 = 0.9;
 
 /// Smallest kink length at which a kink varies with the contact force, as a fraction of the largest kink length in the middle of the master.

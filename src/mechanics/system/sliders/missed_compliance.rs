@@ -32,10 +32,11 @@ impl MissedCompliance {
         let Some(factors) = hinged_stiffness(beam)? else { return Ok(None) };
         let points = (2 * beam.degree() + 1).max(LEAST_POINTS);
         let mut samples = Vec::new();
-        let transverse =
+        let [transverse, coupling, rotation] =
             PiecewisePolynomial::interpolation(beam.spans(), points, |at, span, xi| {
-                samples.push(missed(beam, &factors, (at, span), xi));
-                samples[samples.len() - 1][0]
+                let sample = missed(beam, &factors, (at, span), xi);
+                samples.push(sample);
+                sample
             });
         let extreme = |entry: usize, sign: f64| {
             samples.iter().map(|sample| sign * sample[entry]).fold(0.0, larger)
@@ -43,18 +44,12 @@ impl MissedCompliance {
         if [0, 2].iter().any(|entry| extreme(*entry, -1.0) > extreme(*entry, 1.0)) {
             return Ok(None);
         }
-        let of = |entry: usize| {
-            let mut next = samples.iter().map(|sample| sample[entry]);
-            PiecewisePolynomial::interpolation(beam.spans(), points, |_, _, _| {
-                next.next().unwrap_or_default()
-            })
-        };
-        Ok(Some(Self { coupling: of(1), rotation: of(2), transverse }))
+        Ok(Some(Self { transverse, coupling, rotation }))
     }
 }
 
 /// Factors of the stiffness of a beam with hinged ends; `None` if the stiffness is singular.
-/// The displacement of the first control point is left out, and the rotation of the last one takes the place of its displacement.
+/// The displacements of the first and of the last control point are zero and have no rows.
 fn hinged_stiffness(beam: &StraightBeam<'_>) -> Result<Option<SymmetricFactors>, BeamError> {
     let size = 2 * beam.control_points() - 2;
     let mut stiffness = PreciseBand::zeros(size, (2 * beam.degree() + 1).min(size - 1));
@@ -65,7 +60,7 @@ fn hinged_stiffness(beam: &StraightBeam<'_>) -> Result<Option<SymmetricFactors>,
     Ok(stiffness.factorise(0.0, &SymmetricSparse::new(size, |_| {})).ok())
 }
 
-/// Index of an unknown in the stiffness of the hinged beam of this size; `size` for the displacements of both ends.
+/// Index of an unknown in the stiffness of the hinged beam of this size; `size`, which the matrix ignores, for the displacements of both ends.
 fn place(unknown: usize, size: usize) -> usize {
     match unknown {
         0 => size,

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::missed_compliance::MissedCompliance;
-use crate::beams::{BeamError, Mesh, Rotation, Section, StraightBeam, unresolved_kink};
-use crate::geometry::{ContactPath, PiecewisePolynomial, Span, Vec2, cross};
-use crate::joints::MasterAngle;
+use crate::beams::{BeamError, Mesh, Section, StraightBeam, unresolved_kink};
+use crate::geometry::{ContactPath, PiecewisePolynomial, Span, Vec2, cross, unit};
+use crate::joints::MasterAtSleeve;
 
 /// Number of points per span, minus the degree of the mesh, at which the curvature of the undeformed axis is interpolated.
 const MORE_POINTS: usize = 4;
@@ -17,7 +17,6 @@ pub struct SleevedMaster {
     angle: PiecewisePolynomial,
     /// Compliance in bending and shear, kink length and axial stiffness; `None` if the mesh has too few quadrature points.
     compliance: Option<(MissedCompliance, PiecewisePolynomial, f64)>,
-    points: usize,
 }
 
 /// Sleeve without length on a master.
@@ -49,7 +48,7 @@ impl SleevedMaster {
             .zip(kink)
             .map(|(bending, kink)| (bending, kink.length, section.axial_stiffness));
         let angle = PiecewisePolynomial::integral(&basis.spans(), points, curvature);
-        Ok(Self { angle, compliance, points: control_points.len() })
+        Ok(Self { angle, compliance })
     }
 }
 
@@ -57,17 +56,17 @@ impl Sleeve {
     /// Creates a sleeve at the end of a path of zero length, with the angle of the undeformed axis there [rad].
     pub fn new(master: Arc<SleevedMaster>, path: &ContactPath, direction: f64) -> Self {
         let [start, ..] = path.at_end(&master.angle);
-        Self { start, direction, turned: vec![0.0; master.points], own: 0.0, master }
+        Self { start, direction, turned: vec![0.0; path.basis().functions()], own: 0.0, master }
     }
 
     /// Angle and compliance of the master at the end of a path of zero length.
     /// The arguments are rotations since the last equilibrium: of the control points on the path, and of the sleeve [rad].
-    pub fn master_angle(
+    pub fn master_at_sleeve(
         &self,
         path: &ContactPath,
         turned: impl Iterator<Item = f64>,
         own: f64,
-    ) -> MasterAngle {
+    ) -> MasterAtSleeve {
         let [drawn, by_drawn, bend_of_drawn] = path.at_end(&self.master.angle);
         let weights = path.end().iter().zip(path.slope()).zip(path.change());
         let turned = self.turned[path.first()..].iter().zip(turned);
@@ -79,15 +78,14 @@ impl Sleeve {
             },
         );
         let own = self.own + own;
-        let along = Rotation::by(self.direction + own);
-        let rigid = MasterAngle {
+        let rigid = MasterAtSleeve {
             gap: own - angle - (drawn - self.start),
             slopes: [slope + by_drawn, 2.0 * half_bend + bend_of_drawn],
-            along: Vec2::new(along.cos, along.sin),
-            ..MasterAngle::default()
+            along: unit(self.direction + own),
+            ..MasterAtSleeve::default()
         };
         let Some((bending, kink, axial_stiffness)) = &self.master.compliance else { return rigid };
-        MasterAngle {
+        MasterAtSleeve {
             transverse: path.at_end(&bending.transverse),
             coupling: path.at_end(&bending.coupling),
             rotation: path.at_end(&bending.rotation),
@@ -104,11 +102,6 @@ impl Sleeve {
     pub fn turn(&mut self, turned: impl Iterator<Item = f64>, own: f64) {
         self.turned.iter_mut().zip(turned).for_each(|(sum, more)| *sum += more);
         self.own += own;
-    }
-
-    /// Number of values that `restore` reads.
-    pub fn saved(&self) -> usize {
-        1 + self.turned.len()
     }
 
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {

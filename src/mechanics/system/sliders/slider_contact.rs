@@ -165,7 +165,7 @@ impl SliderContact {
     }
 
     /// Number of components of a control point that the contact couples: two displacements, and the rotation for a sleeve.
-    fn components(&self) -> usize {
+    pub(super) fn components(&self) -> usize {
         if self.sleeve.is_some() { 3 } else { 2 }
     }
 

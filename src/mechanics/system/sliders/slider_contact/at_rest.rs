@@ -5,7 +5,8 @@ use super::{SliderContact, is_tensile};
 use crate::beams::SpanStiffness;
 use crate::geometry::Vec2;
 use crate::joints::{
-    AtStop, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Released, Resting, SlidingLaw,
+    AtStop, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Released, Resting, RestingSleeve,
+    SlidingLaw,
 };
 use crate::system::bodies::Body;
 use crate::system::sliders::master_curve::END_TOLERANCE;
@@ -19,9 +20,7 @@ impl Passing for AtRest {
         unknowns: &[f64],
     ) -> (Contact<'s>, [Equation; CONTACT_UNKNOWNS]) {
         let (state, way) = (slider.state, slider.distance_to_stop());
-        slider.set_static_path(unknowns);
-        let sleeve = slider.resting_sleeve(bodies, increments);
-        let contact = slider.evaluate_static(bodies, increments, unknowns);
+        let (contact, sleeve) = slider.evaluate_static(bodies, increments, unknowns);
         let equations = match sleeve {
             Some(sleeve) => sleeve.equations(&contact),
             None => SliderContact::static_equations(state, way, &contact),
@@ -55,16 +54,18 @@ impl SliderContact {
         self.path.set_interval(place, place);
     }
 
+    /// Evaluates the contact for trial values, with the law of its sleeve; `None` for sliders that are not sleeves, and for released ones.
     pub(super) fn evaluate_static(
         &mut self,
         bodies: &[Body],
         movements: &[f64],
         unknowns: &[f64],
-    ) -> Contact<'_> {
+    ) -> (Contact<'_>, Option<RestingSleeve>) {
         self.set_static_path(unknowns);
+        let sleeve = self.resting_sleeve(bodies, movements);
         self.before.clear();
         let unknowns = self.read(unknowns);
-        self.contact(bodies, movements, unknowns)
+        (self.contact(bodies, movements, unknowns), sleeve)
     }
 
     pub(super) fn distance_to_stop(&self) -> Option<f64> {
@@ -95,9 +96,7 @@ impl SliderContact {
     /// Returns true if the force of the stop is tensile beyond rounding for the given trial values.
     pub fn is_pulled(&mut self, bodies: &[Body], movements: &[f64], unknowns: &[f64]) -> bool {
         let SliderState::Held(end) = self.state else { return false };
-        self.set_static_path(unknowns);
-        let sleeve = self.resting_sleeve(bodies, movements);
-        let contact = self.evaluate_static(bodies, movements, unknowns);
+        let (contact, sleeve) = self.evaluate_static(bodies, movements, unknowns);
         let force = contact.unknowns.force;
         let push = match sleeve {
             Some(sleeve) => sleeve.outward_push(&contact, end.outward()),
@@ -130,11 +129,10 @@ impl SliderContact {
 
     pub fn static_coupling(&self, bodies: &[Body], own: usize) -> Vec<usize> {
         let (body, point) = self.connection.slave;
-        let [x, y, _] = bodies[body].degrees_of_freedom[point];
         let window = self.start_path.first()..self.start_path.first() + self.start_path.end().len();
         let of_master = &bodies[self.connection.master].degrees_of_freedom[window];
-        let of_master = of_master.iter().flat_map(|[x, y, _]| [*x, *y]);
-        [x, y].into_iter().chain(of_master).chain([own]).collect()
+        let points = std::iter::once(&bodies[body].degrees_of_freedom[point]).chain(of_master);
+        points.flat_map(|point| &point[..self.components()]).copied().chain([own]).collect()
     }
 
     pub fn static_stiffness(

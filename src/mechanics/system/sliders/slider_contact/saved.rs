@@ -15,7 +15,7 @@ impl SliderContact {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
         let of_friction = self.friction.as_ref().map_or(0, |friction| friction.numbers().count());
         let of_side = if self.unilateral.is_some() { UNILATERAL } else { 0 };
-        let of_sleeve = self.sleeve.as_ref().map_or(0, |sleeve| sleeve.saved());
+        let of_sleeve = self.sleeve.as_ref().map_or(0, |sleeve| sleeve.numbers().count());
         13 + of_friction + of_side + of_sleeve + CONTACT_UNKNOWNS + of_route
     }
 

@@ -4,24 +4,10 @@ use super::SliderContact;
 use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::geometry::{ContactPath, Vec2, cross, perpendicular};
-use crate::joints::{CONTACT_UNKNOWNS, MasterAngle, RestingSleeve, SleeveOffset};
+use crate::joints::{CONTACT_UNKNOWNS, MasterAtSleeve, RestingSleeve, SleeveOffset};
 use crate::linalg::Border;
 use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, Sleeve};
-
-/// Indices of the rotations of the master, with the basis functions at the sleeve and their derivatives.
-struct MasterRotations<'a> {
-    degrees: &'a [[usize; 3]],
-    weights: [&'a [f64]; 2],
-}
-
-impl MasterRotations<'_> {
-    fn iter(&self) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
-        let [values, slopes] = self.weights;
-        let weights = values.iter().zip(slopes);
-        self.degrees.iter().zip(weights).map(|([.., at], (value, slope))| (*at, *value, *slope))
-    }
-}
 
 impl SliderContact {
     pub fn set_sleeve(&mut self, sleeve: Sleeve) {
@@ -48,7 +34,7 @@ impl SliderContact {
         bodies[body].degrees_of_freedom[point][2]
     }
 
-    /// Law of the sleeve for trial values, whose path must be set; `None` for sliders that are not sleeves, and for released ones.
+    /// Law of the sleeve on the present path; `None` for sliders that are not sleeves, and for released ones.
     pub(super) fn resting_sleeve(
         &self,
         bodies: &[Body],
@@ -59,15 +45,18 @@ impl SliderContact {
         let of_master = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
         let turned = of_master.iter().map(|[.., at]| value(*at));
         let own = value(self.rotation(bodies));
-        let master = sleeve.master_angle(&self.path, turned, own);
+        let master = sleeve.master_at_sleeve(&self.path, turned, own);
         Some(RestingSleeve { master, stop: self.distance_to_stop() })
     }
 
-    fn master_rotations<'a>(&'a self, bodies: &'a [Body]) -> MasterRotations<'a> {
-        MasterRotations {
-            degrees: &bodies[self.connection.master].degrees_of_freedom[self.path.first()..],
-            weights: [self.path.end(), self.path.slope()],
-        }
+    /// Index of the rotation of each control point of the master on the path, value of its basis function, and derivative of the value.
+    fn master_rotations<'a>(
+        &'a self,
+        bodies: &'a [Body],
+    ) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
+        let degrees = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
+        let weights = self.path.end().iter().zip(self.path.slope());
+        degrees.iter().zip(weights).map(|([.., at], (value, slope))| (*at, *value, *slope))
     }
 
     /// Adds the moments of a sleeve on its master and its slave.
@@ -78,7 +67,7 @@ impl SliderContact {
         self.set_static_path(unknowns);
         let couple = self.read(unknowns).couple * self.length;
         out[self.rotation(bodies)] += couple.x + couple.y;
-        for (at, value, _) in self.master_rotations(bodies).iter() {
+        for (at, value, _) in self.master_rotations(bodies) {
             out[at] -= couple.x * value;
         }
     }
@@ -94,22 +83,21 @@ impl SliderContact {
         if self.sleeve.is_none() {
             return;
         }
-        self.set_static_path(unknowns);
-        let Some(law) = self.resting_sleeve(bodies, increments) else { return };
-        let contact = self.evaluate_static(bodies, increments, unknowns);
-        let (slopes, couple, length) =
-            (law.rotation_slopes(&contact), contact.unknowns.couple.x, contact.length);
+        let (contact, Some(law)) = self.evaluate_static(bodies, increments, unknowns) else {
+            return;
+        };
+        let (by_sleeve, couple, length) =
+            (law.slopes_by_sleeve(&contact), contact.unknowns.couple.x, contact.length);
+        let along = if law.stop.is_some() { 0.0 } else { couple };
         let first = CONTACT_UNKNOWNS * self.connection.index;
         let mut add = |at: usize, forces: [f64; CONTACT_UNKNOWNS], by: [f64; CONTACT_UNKNOWNS]| {
             if at < movements {
                 border.add_couplings(at, first, &forces, &by);
             }
         };
-        add(self.rotation(bodies), [0.0, 0.0, length, length, 0.0], slopes.by_sleeve);
-        for (at, value, slope) in self.master_rotations(bodies).iter() {
-            let by = std::array::from_fn(|row| {
-                slopes.by_master[row] * value + slopes.by_slope[row] * slope
-            });
+        add(self.rotation(bodies), [0.0, 0.0, length, length, 0.0], by_sleeve);
+        for (at, value, slope) in self.master_rotations(bodies) {
+            let by = [0.0, 0.0, -length * value, 0.0, along * slope];
             add(at, [0.0, 0.0, -length * value, 0.0, -length * couple * slope], by);
         }
     }
@@ -134,10 +122,9 @@ impl SliderContact {
     ) {
         let Some(sleeve) = &self.sleeve else { return };
         let turned = std::iter::repeat(0.0);
-        let master = sleeve.master_angle(&self.start_path, turned, 0.0);
-        let rows = StiffnessRows { slider: self, bodies, master, own };
-        let degrees = rows.degrees();
-        take(&degrees, &rows.stiffness(rigid));
+        let master = sleeve.master_at_sleeve(&self.start_path, turned, 0.0);
+        let rows = StiffnessRows { slider: self, bodies, master };
+        take(&self.static_coupling(bodies, own), &rows.stiffness(rigid));
     }
 }
 
@@ -145,21 +132,10 @@ impl SliderContact {
 struct StiffnessRows<'a> {
     slider: &'a SliderContact,
     bodies: &'a [Body],
-    master: MasterAngle,
-    own: usize,
+    master: MasterAtSleeve,
 }
 
 impl StiffnessRows<'_> {
-    fn degrees(&self) -> Vec<usize> {
-        let (body, point) = self.slider.connection.slave;
-        let path = &self.slider.start_path;
-        let of_master = &self.bodies[self.slider.connection.master].degrees_of_freedom
-            [path.first()..path.first() + path.end().len()];
-        let slave = [self.bodies[body].degrees_of_freedom[point]];
-        let all = slave.iter().chain(of_master).flatten().copied();
-        all.chain([self.own]).collect()
-    }
-
     /// Row of a component of the gap: an axis, and zero or one for the rotation.
     fn row(&self, axis: Vec2, turns: f64, [by_sleeve, by_way]: [f64; 2]) -> Vec<f64> {
         let mut row = vec![axis.x, axis.y, turns - by_sleeve];
@@ -170,7 +146,8 @@ impl StiffnessRows<'_> {
     }
 
     fn stiffness(&self, rigid: f64) -> SpanStiffness {
-        let MasterAngle { along, transverse, coupling, rotation, axial, slopes, .. } = self.master;
+        let MasterAtSleeve { along, transverse, coupling, rotation, axial, slopes, .. } =
+            self.master;
         let slides = if self.slider.is_sliding() { 1.0 } else { 0.0 };
         let [offset, change] = [0, 1].map(|order| self.offset(order));
         let by_way = (self.slider.tangent(self.bodies) + change.displacement) * slides;
