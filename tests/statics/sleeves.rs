@@ -192,7 +192,7 @@ fn a_circular_rod_slides_through_a_sleeve_without_strain() {
         let axis = Curve::arc(at(0.0, 0.0), 1.0, 0.5, 2.5).unwrap();
         let rod =
             add_beam(&mut scene, axis, &Mesh::bspline(spans, 3, 2).unwrap(), section(1e4, 1.0));
-        let holder = scene.add_fixed_body("eye".to_owned(), at(0.0, 1.0)).unwrap();
+        let holder = scene.add_holder("eye", at(0.0, 1.0)).unwrap();
         sleeve(&mut scene, holder, rod, FRAC_PI_2 - 0.5);
         let (start, by) = (start_of(&mut scene, rod), 0.3_f64);
         let (from, to) = (at(0.5_f64.cos(), 0.5_f64.sin()), at((0.5 + by).cos(), (0.5 + by).sin()));
@@ -213,7 +213,7 @@ fn a_rod_is_held_at_its_end_or_leaves_the_sleeve() {
         let mut scene = Scene::new("plunger");
         let (section, mesh) = (section(1e4, 1.0), Mesh::bspline(16, 3, 2).unwrap());
         let rod = add_beam(&mut scene, line(at(-0.2, 0.0), at(0.8, 0.0)), &mesh, section);
-        let holder = scene.add_fixed_body("eye".to_owned(), at(0.0, 0.0)).unwrap();
+        let holder = scene.add_holder("eye", at(0.0, 0.0)).unwrap();
         let slider = Slider::new("sleeve", holder, rod, 0.2);
         let restraint = Restraint::PlaceAndDirection;
         scene.add_slider(Slider { restraint, ends, ..slider }).unwrap();
@@ -236,7 +236,7 @@ fn sleeves_are_refused_in_motion_and_with_rules_of_sliders() {
     let mut scene = Scene::new("refused");
     let (section, mesh) = (section(1e4, 1.0), Mesh::bspline(16, 3, 2).unwrap());
     let rod = add_beam(&mut scene, line(at(-0.2, 0.0), at(0.8, 0.0)), &mesh, section);
-    let holder = scene.add_fixed_body("eye".to_owned(), at(0.0, 0.0)).unwrap();
+    let holder = scene.add_holder("eye", at(0.0, 0.0)).unwrap();
     let slider = Slider {
         restraint: Restraint::PlaceAndDirection,
         ..Slider::new("sleeve", holder, rod, 0.2)

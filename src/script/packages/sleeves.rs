@@ -139,7 +139,7 @@ fn add(
 ) -> Result<usize, SystemError> {
     let slave = match holder {
         Holder::Station(station) => station,
-        Holder::Ground(place) => scene.add_fixed_body(format!("{}_holder", sleeve.name), place)?,
+        Holder::Ground(place) => scene.add_holder(&sleeve.name, place)?,
     };
     let arc_length = match at {
         Some(part) => part * scene.beams[sleeve.master].axis.length(),

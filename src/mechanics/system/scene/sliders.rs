@@ -74,12 +74,13 @@ impl Scene {
         }
     }
 
-    /// Adds a rigid body without mass that is fixed to the ground, and returns its station.
+    /// Adds a rigid body without mass that is fixed to the ground and holds a new slider, and returns its station.
     ///
     /// # Errors
-    /// Fails if the name is taken, empty or not printable, or if the position is not finite.
-    pub fn add_fixed_body(&mut self, name: String, position: Vec2) -> Result<Station, SystemError> {
-        let motion = StartMotion::default();
+    /// Fails if the name of the slider or of the body is taken, empty or not printable, or if the position is not finite.
+    pub fn add_holder(&mut self, slider: &str, position: Vec2) -> Result<Station, SystemError> {
+        self.check_name("slider", slider)?;
+        let (name, motion) = (format!("{slider}_holder"), StartMotion::default());
         let (points, outline) = (Vec::new(), Vec::new());
         let body = RigidBodyDefinition { name, position, angle: 0.0, points, outline, motion };
         let station = Station::on_rigid_body(self.add_rigid_body(body, 0.0, 1.0)?, 0);
@@ -181,7 +182,9 @@ impl Scene {
             true => Approach::On { place, guide },
             false => Approach::Distant { place, guide, distance },
         };
-        Err(SliderError::Open { parts, from: written(from), to: written(to), gap, nearest }.into())
+        let place =
+            |at: Vec2| written(at.map(|part| if part.abs() > tolerance { part } else { 0.0 }));
+        Err(SliderError::Open { parts, from: place(from), to: place(to), gap, nearest }.into())
     }
 
     /// Returns true if a slider with a unilateral contact is initially at a distance from its master (in flight).
