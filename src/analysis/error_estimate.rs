@@ -116,8 +116,8 @@ pub struct RefinementLevels<'a> {
 /// Order of convergence in the asymptotic range.
 #[derive(Debug, Clone, Copy)]
 pub enum ExpectedOrder {
-    /// Order of the integrator.
-    Known(f64),
+    /// Smallest and largest order of the integrator.
+    Between(f64, f64),
     /// Order of a mesh for functions of time. It may be exceeded.
     AtLeast(f64),
     /// Largest order of a single value.
@@ -203,7 +203,7 @@ impl RefinementLevels<'_> {
     /// Ratio of the error of the run to the difference of the two finest levels.
     fn factor(&self, found: Convergence) -> f64 {
         let order = match self.order {
-            ExpectedOrder::Known(most) | ExpectedOrder::AtMost(most) => found.order.min(most),
+            ExpectedOrder::Between(_, most) | ExpectedOrder::AtMost(most) => found.order.min(most),
             ExpectedOrder::AtLeast(_) => found.order,
         };
         let own = power(self.sizes[self.level] / self.sizes[0], order);
@@ -212,8 +212,8 @@ impl RefinementLevels<'_> {
 
     fn is_converging(&self, order: f64) -> bool {
         match self.order {
-            ExpectedOrder::Known(known) | ExpectedOrder::AtLeast(known) => {
-                order >= SHARE_OF_ORDER * known
+            ExpectedOrder::Between(least, _) | ExpectedOrder::AtLeast(least) => {
+                order >= SHARE_OF_ORDER * least
             }
             ExpectedOrder::AtMost(most) => (LEAST_ORDER..=most + EXCESS).contains(&order),
         }
@@ -318,9 +318,15 @@ mod tests {
     ) -> DiscretisationError {
         let traces = sizes.map(|size| sampled(size, |time| value(time, size)));
         let traces = traces.each_ref().map(Some);
-        RefinementLevels { sizes, traces, level, order: ExpectedOrder::Known(2.0), scale: 1.0 }
-            .error()
-            .unwrap()
+        RefinementLevels {
+            sizes,
+            traces,
+            level,
+            order: ExpectedOrder::Between(2.0, 2.0),
+            scale: 1.0,
+        }
+        .error()
+        .unwrap()
     }
 
     #[test]
@@ -423,7 +429,7 @@ mod tests {
             sizes: SIZES,
             traces,
             level: 0,
-            order: ExpectedOrder::Known(2.0),
+            order: ExpectedOrder::Between(2.0, 2.0),
             scale: 1.0,
         };
         let error = levels.error().unwrap();

@@ -56,6 +56,12 @@ pub struct Claims {
 }
 
 impl Claims {
+    /// Largest order of convergence in time.
+    /// Numerical dissipation of first order vanishes in slow motions and leaves an error of second order.
+    pub fn largest_order(&self) -> u32 {
+        self.order.max(2)
+    }
+
     /// Names of the quantities that the method conserves.
     pub fn conserved_quantities(&self) -> impl Iterator<Item = &'static str> {
         let claims = [

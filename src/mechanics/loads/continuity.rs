@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     fn of(function: impl Fn(f64) -> f64 + 'static) -> Schedule {
-        Schedule::Function { function: Rc::new(move |t| Ok(function(t))), breaks: Vec::new() }
+        Schedule::Function { function: Rc::new(move |t: f64| Ok(function(t))), breaks: Vec::new() }
     }
 
     fn at_start(function: impl Fn(f64) -> f64 + 'static) -> Option<bool> {

@@ -14,4 +14,4 @@ pub use load::{Load, LoadFrame, LoadKind};
 pub use multiples::multiple;
 pub use prescribed_motion::{MotionAtStart, MotionInStep, PrescribedMotion};
 pub use sample_clock::SampleClock;
-pub use schedule::{LimitSide, Operation, Schedule, ScheduleFunction, StepMean, VALUES_OF_A_MEAN};
+pub use schedule::{LimitSide, Operation, Schedule, StepMean, TimeFunction, VALUES_OF_A_MEAN};

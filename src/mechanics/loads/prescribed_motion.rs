@@ -275,7 +275,7 @@ mod tests {
     use super::*;
 
     fn of(function: fn(f64) -> f64) -> Schedule {
-        Schedule::Function { function: Rc::new(move |t| Ok(function(t))), breaks: Vec::new() }
+        Schedule::Function { function: Rc::new(move |t: f64| Ok(function(t))), breaks: Vec::new() }
     }
 
     #[test]

@@ -7,6 +7,7 @@ pub use means::StepMean;
 
 use serde::{Deserialize, Serialize};
 
+use std::any::Any;
 use std::cell::Cell;
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -15,8 +16,20 @@ use super::stored_schedule::StoredTerm;
 use super::{FunctionError, LoadError, SampleClock};
 use crate::elementary::{sin, whole_power};
 
-/// Function of time that the caller provides, for example a closure of a script.
-pub type ScheduleFunction = Rc<dyn Fn(f64) -> Result<f64, FunctionError>>;
+/// Function of time that the caller provides, for example a closure of a script. Callers can find their own type by a downcast.
+pub trait TimeFunction: Any {
+    /// Value of the function at a time.
+    ///
+    /// # Errors
+    /// Fails if the function has no value at this time.
+    fn value(&self, time: f64) -> Result<f64, FunctionError>;
+}
+
+impl<F: Fn(f64) -> Result<f64, FunctionError> + 'static> TimeFunction for F {
+    fn value(&self, time: f64) -> Result<f64, FunctionError> {
+        self(time)
+    }
+}
 
 /// Side from which the limit of a schedule is taken at a time, because schedules may jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +66,7 @@ pub enum Schedule {
     /// Function of time with declared breaks.
     Function {
         /// Script function that gives the factor at a time.
-        function: ScheduleFunction,
+        function: Rc<dyn TimeFunction>,
         /// Times of jumps and kinks of the function [time].
         breaks: Vec<f64>,
     },
@@ -226,6 +239,18 @@ impl Schedule {
         }
     }
 
+    /// Calls `visit` with each function of time in the schedule.
+    pub fn visit_functions<'a>(&'a self, visit: &mut impl FnMut(&'a dyn TimeFunction)) {
+        match self {
+            Self::Function { function, .. } => visit(&**function),
+            Self::Combined { parts, .. } => {
+                parts.0.visit_functions(visit);
+                parts.1.visit_functions(visit);
+            }
+            _ => (),
+        }
+    }
+
     /// Returns true if the schedule contains the command of a controller.
     pub fn is_sampled(&self) -> bool {
         match self {
@@ -268,7 +293,7 @@ impl Schedule {
             Self::Function { function, breaks } => {
                 let from_before = side == LimitSide::Before && breaks.contains(&time);
                 let time = if from_before { time.next_down() } else { time };
-                function(time).map_err(LoadError::Function)?
+                function.value(time).map_err(LoadError::Function)?
             }
             Self::Sampled(value) | Self::DigitalController { value, .. } => value.get(),
             Self::Combined { operation, parts, .. } => {
@@ -360,7 +385,8 @@ mod tests {
         assert!(!ramp.may_jump_at(1.0) && !ramp.may_jump_at(2.0));
         let sum = Schedule::combined(Operation::Sum, ramp, hold).unwrap();
         assert!(sum.may_jump_at(2.0) && !sum.may_jump_at(1.0));
-        let function = Schedule::Function { function: Rc::new(Ok), breaks: vec![0.5] };
+        let function =
+            Schedule::Function { function: Rc::new(Ok::<f64, FunctionError>), breaks: vec![0.5] };
         assert!(function.may_jump_at(0.5) && !function.may_jump_at(0.6));
     }
 
@@ -377,7 +403,7 @@ mod tests {
                 .contains("decrease")
         );
         let broken =
-            Schedule::Function { function: Rc::new(|_| Ok(f64::INFINITY)), breaks: vec![] };
+            Schedule::Function { function: Rc::new(|_: f64| Ok(f64::INFINITY)), breaks: vec![] };
         assert!(broken.mean(0.0, 1.0).unwrap_err().to_string().contains("finite"));
     }
 }

@@ -16,6 +16,7 @@ use super::vectors::VECTOR;
 use crate::beams::{BodyPoint, Station};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
+use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::bindings::kind::{Scripted, Type};
 use crate::script::bindings::parameter::{Parameter, Presence, integer, number, object, options};
 use crate::script::bindings::returns::{Returns, ValueKind};
@@ -365,10 +366,26 @@ fn estimated_error(rest: &Equilibrium, context: &Context) -> Result<ErrorEstimat
         positions.chain([Ok(strain)]).collect::<Result<Vec<MeshResult>, ScriptError>>()
     };
     let positions = Together { name: POSITIONS, count: stations.len() };
-    ErrorEstimate::on_meshes(rest.scene(), moment, positions, results(rest)?, |scene| {
-        results(&repeated(rest, scene, context)?)
+    let (own, size) = (results(rest)?, rest.scene().size().unwrap_or(1.0));
+    let is_near = |found: &MeshResult, own: &MeshResult| {
+        own.dimension != "length" || (found.value - own.value).norm() <= LARGEST_DIFFERENCE * size
+    };
+    ErrorEstimate::on_meshes(rest.scene(), moment, positions, own.clone(), |scene| {
+        let found = results(&repeated(rest, scene, context)?)?;
+        match found.iter().zip(&own).find(|(found, own)| !is_near(found, own)) {
+            None => Ok(found),
+            Some((found, own)) => Err(ScriptError::new(format!(
+                "{} is at a distance of {} from its position on the mesh of the scene: a mesh is too coarse, or this is another equilibrium",
+                own.name,
+                significant((found.value - own.value).norm(), 3)
+            ))),
+        }
     })
 }
+
+/// Largest difference of positions on the meshes of an error estimate [size of the scene].
+/// Larger differences indicate different equilibria.
+const LARGEST_DIFFERENCE: f64 = 0.1;
 
 /// Finds an equilibrium again for its scene with another mesh.
 pub(super) fn repeated(
@@ -378,9 +395,12 @@ pub(super) fn repeated(
 ) -> Result<Equilibrium, ScriptError> {
     let found = match context.mode() {
         RunMode::DryRun => Equilibrium::dry_run(scene, *rest.loading()),
-        RunMode::Run => Equilibrium::find(scene, *rest.loading(), &mut |_| !context.is_stopped()),
+        RunMode::Run => repeat_unchanged(&functions_of_time(rest.scene()), || {
+            let found = Equilibrium::find(scene, *rest.loading(), &mut |_| !context.is_stopped());
+            context.proceed()?;
+            Ok(found)
+        })?,
     };
-    context.proceed()?;
     let found = found?;
     let [own, other] = [rest, &found].map(|rest| rest.path().load_factor());
     match own == other {

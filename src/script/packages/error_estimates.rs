@@ -47,8 +47,8 @@ pub const TABLE: BindingTable = BindingTable {
                 time; 'pre-asymptotic' if not, then the error may differ from the estimate by more than a factor of 3 and is \
                 usually smaller; 'chaotic' if nearby runs converge up to a time and separate afterwards; \
                 'exact' if the runs agree to rounding. Meshes of one to three spans are compared \
-                with finer meshes. A function that changes variables of the script cannot be \
-                repeated; the printed estimate then states the reason. Errors of the model \
+                with finer meshes. A function that changes variables of the script, also a \
+                load |t| …, cannot be repeated; the printed estimate then states the reason. Errors of the model \
                 itself are not included, such as unknown stiffnesses.")
             .example("sim.run_to(1);\nlet error = sim.error_estimate();\nprint(error);\n\
                       check(error.verdict == \"converged\" && error.of(\"positions\").present < 0.01);")

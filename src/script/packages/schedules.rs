@@ -2,27 +2,22 @@
 
 use std::rc::Rc;
 
-use rhai::{Dynamic, EvalAltResult, FnPtr};
+use rhai::{Dynamic, FnPtr};
 
-use crate::loads::{FunctionError, LimitSide, Operation, SampleClock, Schedule};
+use crate::loads::{LimitSide, Operation, SampleClock, Schedule};
 use crate::script::bindings::arguments::Arguments;
 use crate::script::bindings::call::Call;
+use crate::script::bindings::function_of_time::FunctionOfTime;
 use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
 use crate::script::bindings::parameter::{
     Parameter, Presence, array, callback, number, numbers, object,
 };
 use crate::script::bindings::returns::Returns;
-use crate::script::bindings::sources::Sources;
-use crate::script::bindings::stored::NoNumber;
 use crate::script::bindings::table::{BindingTable, function, method, operator};
-use crate::script::diagnose::Explainer;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::as_number;
-use crate::script::messages::raised::Raised;
 use crate::script::presentation::details;
-use crate::script::source::program::Program;
-use crate::script::state::context::Context;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "schedules",
@@ -217,22 +212,8 @@ fn closure(call: &mut Call) -> Result<Dynamic, ScriptError> {
 fn stored(call: &Call, function: FnPtr, breaks: Vec<f64>) -> Result<Schedule, ScriptError> {
     call.expect_arguments(&function, 1, "|t| …, a function of time")?;
     let stored = call.store(function, "the function of a schedule");
-    let function = Rc::new(move |t| {
-        stored.number_of(t).map_err(|error| match error {
-            NoNumber::Other(words) => FunctionError::new(words),
-            NoNumber::Failed(error) => {
-                FunctionError::new(Raised::new(words(stored.context(), &error), error))
-            }
-        })
-    });
+    let function = Rc::new(FunctionOfTime::new(stored));
     Ok(Schedule::Function { function, breaks })
-}
-
-fn words(context: &Context, error: &EvalAltResult) -> String {
-    let Some(engine) = context.engine() else { return error.to_string() };
-    let Some(catalog) = Sources::of(&engine).catalog() else { return error.to_string() };
-    let program = Program::named("", "");
-    Explainer { program: &program, catalog: &catalog, engine: &engine }.explain(error).line()
 }
 
 pub(super) fn schedule_of(

@@ -13,6 +13,7 @@ use crate::output::{
     Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, scientific,
     significant,
 };
+use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
@@ -215,7 +216,8 @@ impl ErrorEstimate {
         if plan.meshes.is_none() {
             estimate.missing.push(format!("in space: {}", no_meshes(handle.simulation().scene())));
         }
-        let order = f64::from(settings.method.entry().claims.order);
+        let claims = settings.method.entry().claims;
+        let orders = [claims.order, claims.largest_order()].map(f64::from);
         let mesh_order = handle.simulation().scene().mesh_order();
         let scales = Scales::of(&handle.simulation(), &quantities, &own.0);
         for (index, quantity) in quantities.iter().enumerate() {
@@ -225,7 +227,7 @@ impl ErrorEstimate {
                     sizes: [1.0, 2.0, 4.0],
                     traces: time_levels.map(|run| Some(&run?.0[index])),
                     level: 0,
-                    order: ExpectedOrder::Known(order),
+                    order: ExpectedOrder::Between(orders[0], orders[1]),
                     scale,
                 };
                 let meshes = mesh_levels.map(|runs| RefinementLevels {
@@ -448,11 +450,21 @@ fn run_companions(
             (outcome, _) => Err(outcome.describe()),
         }
     };
-    let found = on_all_cores(&cases, &stop, work, |_| match context.is_stopped() {
-        true => ControlFlow::Break(()),
-        false => ControlFlow::Continue(()),
+    let scene = handle.simulation().scene().clone();
+    let found = repeat_unchanged(&functions_of_time(&scene), || {
+        Ok(on_all_cores(&cases, &stop, work, |_| match context.is_stopped() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }))
     });
     context.proceed()?;
+    let found = match found {
+        Err(ScriptError::Failure(failure)) => {
+            let same = |companion: &Companion| Err(describe(companion, failure.message.clone()));
+            return Ok(companions.iter().map(same).collect());
+        }
+        found => found?,
+    };
     let runs = companions.iter().zip(found).map(|(companion, run)| {
         let run = run.unwrap_or_else(|| Err("it was stopped".to_owned())).and_then(|run| run);
         run.map_err(|reason| describe(companion, reason))

@@ -414,7 +414,7 @@ mod tests {
     fn parts_of_a_long_step_find_a_short_pulse() {
         let pulse = |t: f64| (-((t - 3.3) / 0.02).powi(2)).exp();
         let schedule =
-            Schedule::Function { function: Rc::new(move |t| Ok(pulse(t))), breaks: vec![] };
+            Schedule::Function { function: Rc::new(move |t: f64| Ok(pulse(t))), breaks: vec![] };
         let missed = schedule.mean(0.0, 6.25).unwrap();
         assert!(missed.mean < 1e-12);
         assert_eq!(schedule.mean_of_parts(0.0, 6.25, f64::INFINITY).unwrap(), missed);
@@ -428,8 +428,10 @@ mod tests {
     #[test]
     fn samples_of_a_function_tell_what_they_miss() {
         let missed = |function: fn(f64) -> f64| {
-            let schedule =
-                Schedule::Function { function: Rc::new(move |t| Ok(function(t))), breaks: vec![] };
+            let schedule = Schedule::Function {
+                function: Rc::new(move |t: f64| Ok(function(t))),
+                breaks: vec![],
+            };
             assert!(schedule.is_sampled_in_steps());
             let StepMean { sampling_error: missed, largest, .. } = schedule.mean(0.5, 0.6).unwrap();
             missed / largest
@@ -438,7 +440,7 @@ mod tests {
         assert!(missed(|t| t * t * t - t) < 1e-15);
         for jump in [0.503, 0.537, 0.55, 0.57, 0.598] {
             let step = Schedule::Function {
-                function: Rc::new(move |t| Ok(f64::from(u8::from(t > jump)))),
+                function: Rc::new(move |t: f64| Ok(f64::from(u8::from(t > jump)))),
                 breaks: vec![],
             };
             let StepMean { sampling_error: missed, largest, .. } = step.mean(0.5, 0.6).unwrap();

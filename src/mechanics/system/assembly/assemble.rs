@@ -407,7 +407,8 @@ mod tests {
         let mut scene = Scene::new("bead");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: Vec2::zeros() };
         let station = scene.add_particle(bead, 1.0).unwrap();
-        let schedule = Schedule::Function { function: Rc::new(|_| Ok(f64::NAN)), breaks: vec![] };
+        let schedule =
+            Schedule::Function { function: Rc::new(|_: f64| Ok(f64::NAN)), breaks: vec![] };
         scene.add_load(
             LoadKind::Force { station, force: Vec2::x(), frame: LoadFrame::Dead },
             schedule,

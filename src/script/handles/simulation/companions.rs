@@ -2,9 +2,8 @@
 
 use std::rc::Rc;
 
-use rhai::Dynamic;
-
 use super::SimulationHandle;
+use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::bindings::stored::StoredFunction;
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::notes::{Notes, Printing};
@@ -98,6 +97,7 @@ impl SimulationHandle {
     ) -> Result<Self, ScriptError> {
         let (scene, settings) =
             (self.companion_scene(companion)?, self.companion_settings(companion));
+        let description = scene.clone();
         let mut simulation = match self.start() {
             RunStart::Equilibrium(rest) if companion.span_ratio == 1.0 => {
                 Simulation::start_at_rest(&rest.equilibrium(), settings)?
@@ -118,67 +118,16 @@ impl SimulationHandle {
         let handle = Self::unreported(simulation, scene, name, notes, self.start().clone());
         handle.0.events.replace(events);
         handle.0.events.borrow_mut().reschedule_after(f64::NEG_INFINITY);
-        let captured = CapturedVariables::of(self)?;
-        let ran =
-            handle.evaluate_columns().and_then(|()| handle.run_silently(self.time(), context));
+        let events: Vec<Rc<StoredFunction>> =
+            self.0.events.borrow().all().iter().map(|(_, function)| function.clone()).collect();
+        let mut functions = functions_of_time(&description);
+        functions.extend(self.callbacks().chain(events.iter().map(|function| &**function)));
+        let ran = repeat_unchanged(&functions, || {
+            handle.evaluate_columns()?;
+            handle.run_silently(self.time(), context)
+        });
         // Access to this simulation restores its controller outputs, which the companion run has changed.
         self.with_simulation_mut(|_| ());
-        captured.expect_unchanged()?;
         ran.map(|()| handle)
-    }
-}
-
-struct CapturedVariables(Vec<CapturedVariable>);
-
-struct CapturedVariable {
-    role: String,
-    shared: Dynamic,
-    value: Dynamic,
-}
-
-impl CapturedVariables {
-    fn of(handle: &SimulationHandle) -> Result<Self, ScriptError> {
-        let events: Vec<Rc<StoredFunction>> =
-            handle.0.events.borrow().all().iter().map(|(_, function)| function.clone()).collect();
-        let functions = handle.callbacks().chain(events.iter().map(|function| &**function));
-        let mut values = Vec::new();
-        for function in functions {
-            for shared in function.captured() {
-                let value = shared.flatten_clone();
-                if value.is::<SimulationHandle>() {
-                    let message = format!(
-                        "{} reads a simulation of the script, and a companion run has another one",
-                        function.role()
-                    );
-                    let hint = "read the simulation that the function receives as its argument";
-                    return Err(ScriptError::new(message).hint(hint));
-                }
-                let role = function.role().to_owned();
-                values.push(CapturedVariable { role, shared: shared.clone(), value });
-            }
-        }
-        Ok(Self(values))
-    }
-
-    /// Restores captured variables.
-    /// Fails if a function has changed a captured variable, because a companion run needs its value at the start of the simulation.
-    fn expect_unchanged(self) -> Result<(), ScriptError> {
-        let mut changed = None;
-        for CapturedVariable { role, mut shared, value } in self.0 {
-            if format!("{:?}", shared.flatten_clone()) == format!("{value:?}") {
-                continue;
-            }
-            changed = Some(role);
-            if let Some(mut cell) = shared.write_lock::<Dynamic>() {
-                *cell = value;
-            }
-        }
-        changed.map_or(Ok(()), |role| {
-            let message = format!(
-                "{role} changes a variable of the script, so a companion run cannot repeat it from the start"
-            );
-            let hint = "compute the value from the time and the simulation alone, or estimate the error by a study";
-            Err(ScriptError::new(message).hint(hint))
-        })
     }
 }
