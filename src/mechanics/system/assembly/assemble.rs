@@ -81,10 +81,10 @@ impl System {
     }
 
     /// Builds the mechanism of a scene in the given static state at the given time.
-    /// Velocities are checked against the positions of the sliders in the static state, not against their initial positions.
+    /// Velocities of slaves across their masters are checked at the slider positions of the static state, not at the initial positions.
     ///
     /// # Errors
-    /// Fails in the same cases as [`assemble`](Self::assemble), or if a function has no value at the given time.
+    /// Fails in the same cases as [`assemble`](Self::assemble), or if a drive has no value at the given time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,

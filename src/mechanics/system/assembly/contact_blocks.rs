@@ -38,7 +38,7 @@ impl Numbering {
             }
             roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
         }
-        // A slave can be eliminated together with its contact if no other slider moves the unknowns of the slave.
+        // A slave can be eliminated together with its contact if its unknowns are coupled to no other body and to no other slider.
         let own = sliders.iter().map(|slider| {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];

@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Placeholder for the missing unknown of a component whose motion is given.
+/// Placeholder for a class of tied components without an unknown. The motion of such a class is fixed or prescribed.
 const NONE: usize = usize::MAX;
 
 pub struct InitialNumbering {

@@ -9,7 +9,7 @@ use crate::system::elements::{InternalForce, Penetration, TrialState};
 /// Below this limit, the penetration is attributed to the other forces.
 const EXPLAINED: f64 = 2.0;
 
-/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest body coordinate [-].
+/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest coordinate of the body [-].
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {

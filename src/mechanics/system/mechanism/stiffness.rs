@@ -112,7 +112,7 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
+    /// Estimate of the square of the lowest angular frequency of bending [1/time²]; `None` without a beam.
     /// The estimate is the smallest bending stiffness, divided by the largest mass per length and the fourth power of the total length.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());

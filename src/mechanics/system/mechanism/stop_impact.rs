@@ -1,7 +1,7 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
-//! With a coefficient of restitution below one, the stop does not return the lost kinetic energy.
+//! The stop acts like an elastic body: it stores the lost kinetic energy and returns this energy when the slider leaves.
+//! With a coefficient of restitution below one, the lost kinetic energy counts as dissipated and is not returned.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -33,6 +33,7 @@ pub(super) struct ImpactContact {
 }
 
 /// Sliders that reach an end of their master at the same time, grouped by their behaviour at the end.
+/// A limit is a slider together with the end of its master that it reaches.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// Limits at which sliders bounce.
