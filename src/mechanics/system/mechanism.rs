@@ -110,7 +110,7 @@ impl System {
         &self.bodies
     }
 
-    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. Longer steps are divided.
+    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. In longer steps, several intervals are sampled.
     pub(crate) fn sample_loads_in_parts(&mut self, longest: f64) {
         self.elements.sample_in_parts(longest);
     }

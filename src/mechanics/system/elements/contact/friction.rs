@@ -219,7 +219,7 @@ impl<const N: usize> PointFriction<N> {
         if is_rounding { 0.0 } else { missed }
     }
 
-    /// Linearises the friction law at the present iterate.
+    /// Linearises the friction law at the present slip. A stiff contact is linearised at the slip where the law meets the response of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);

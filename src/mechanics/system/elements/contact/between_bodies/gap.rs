@@ -93,9 +93,9 @@ impl GapTrial {
         Self { secant: [normal, -normal, Vec2::zeros()], arm, ..Self::NONE }
     }
 
+    /// Evaluates the change of the gap and the directions of the contact forces in an iterate.
     /// With the rotation increments `TangentScaled`, the work of the contact forces is exactly the normal force times the change of the gap.
     /// With the rotation increments `Angle`, the contact force has the direction of the gap at the end of the step.
-    /// With `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,

@@ -556,7 +556,7 @@ impl ContactPair {
         }
     }
 
-    /// Contact force on the point at the start of the step, as an internal force [force].
+    /// Elastic contact force on the point at the start of the step, as an internal force [force].
     pub(super) fn elastic_force(&self) -> Vec2 {
         self.normal_at_start() * self.tension_at_start().0.force
     }

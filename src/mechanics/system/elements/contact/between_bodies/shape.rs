@@ -401,7 +401,7 @@ pub(super) struct CrossingPath {
     pub(super) from: Vec2,
     pub(super) to: Vec2,
     pub(super) allowed: AllowedParts,
-    /// Sum of both radii [length].
+    /// Sum of the radii of the contact point and of the touched body [length].
     pub(super) radius: f64,
 }
 
@@ -506,7 +506,7 @@ impl SpanSearch<'_> {
     }
 }
 
-/// Returns true if the origin passes between two points that move along straight lines.
+/// Returns true if the segment between two points that move along straight lines passes over the origin.
 fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
     let (da, db) = (a_end - a, b_end - b);
     // Twice the area of the triangle with corners at the origin and at the two points: c₀ + c₁ t + c₂ t² for t from 0 to 1.
