@@ -163,7 +163,7 @@ pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
 
 pub(in crate::system) static STORED: Quantity = quantity("stored", "energy", Present, Sum(stored));
 
-/// Energy dissipated by dampers, damped materials, drag and sliders since the start.
+/// Energy dissipated by dampers, brakes, damped materials, drag, contacts and sliders since the start.
 pub(in crate::system) static DISSIPATED: Quantity =
     quantity("dissipated", "energy", Present, Sum(dissipated));
 
