@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Properties of a scene from which the smallest reference values of energy and momenta are computed. Drifts are given as fractions of them.
+/// Properties of a scene from which the smallest reference values of energy and momenta are computed. Drifts are fractions of reference values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
