@@ -251,7 +251,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a fraction of the loads, starting from the present configuration, and returns the number of iterations.
-    /// With a positive `rate`, viscous damping with this rate acts [1/time²].
+    /// With a positive `rate` [1/time²], a viscous damping force acts: `rate` times the inertia matrix times the displacements.
     ///
     /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {
