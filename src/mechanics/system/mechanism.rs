@@ -149,7 +149,7 @@ impl System {
         self.step.returned
     }
 
-    /// Measures of the temporal resolution in the steps so far. They are used for warnings about too large steps.
+    /// Measures of the temporal resolution in the steps so far, used for warnings about too large steps.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }

@@ -18,7 +18,7 @@ pub struct InitialNumbering {
 }
 
 impl InitialNumbering {
-    /// Numbers the free components of a scene. Tied components share one number.
+    /// Numbers the free components (x, y, angle) of the control points of a scene. Tied components share one number.
     ///
     /// # Errors
     /// Fails if all degrees of freedom are fixed.

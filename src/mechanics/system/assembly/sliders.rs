@@ -164,7 +164,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Checks the start velocity of each slave across its master or projects it to zero, depending on the option of the slider.
-    /// Velocities below `SAME_VELOCITY` times the fastest speed count as zero, and velocities whose axial waves have a strain of rounding size.
+    /// Velocities count as zero up to `SAME_VELOCITY` times the fastest speed plus the speed whose axial wave has a strain of machine precision.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         self.follow_masters();

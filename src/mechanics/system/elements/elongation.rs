@@ -2,7 +2,7 @@
 //!
 //! Forces act along secants, so the work of a step is exactly the force times the elongation change.
 //! Positions are updated by increments, so their rounding error does not depend on the distance from the origin.
-//! The growth of a length since the start is stored instead of the length, because it may be smaller than the rounding error of the length.
+//! The growth of a length since the start is stored instead of the length. The growth may be smaller than the rounding error of the length.
 
 mod shares;
 mod term;
@@ -150,7 +150,7 @@ impl Elongation {
         }
     }
 
-    /// Largest of the increments from which the elongation change is computed [length, rad].
+    /// Largest magnitude of the increments from which the elongation change is computed [length, rad].
     pub fn moved(&self) -> f64 {
         self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()))
     }

@@ -300,7 +300,7 @@ impl System {
     }
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
-    /// If slave and master respond rigidly to an impulse, all deformations are included for the direction of the impulse.
+    /// If slave and master respond rigidly to an impulse, all deformations are included for this impulse.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,

@@ -12,7 +12,7 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Deformations are suppressed by a term that is added to the inertia matrix: their stiffness times the square of a time.
-/// This value is the largest ratio of the added term to the inertia of a degree of freedom [-].
+/// `MOST` is the largest ratio of the added term to the inertia of a degree of freedom [-].
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;

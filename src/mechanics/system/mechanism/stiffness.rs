@@ -160,7 +160,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the stiffness of the spans or elements with the given degrees of freedom to a stiffness matrix.
+/// Adds the stiffness of a span or an element with the given degrees of freedom to a stiffness matrix.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

@@ -70,8 +70,8 @@ impl System {
 
     /// Returns true if a slider at an end of its master moves beyond the end, in a run with steps of length `dt` [time].
     /// The velocity of the slider contains no vibrations that steps of this length do not resolve.
-    /// At a stop with a coefficient of restitution, it also contains no axial waves and no vibrations faster than the impact.
-    /// It contains no component across the master, because that component changes its sign from step to step.
+    /// At a stop with a coefficient of restitution, the velocity also contains no axial waves and no vibrations faster than the impact.
+    /// The velocity contains no component across the master, because that component changes its sign from step to step.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
@@ -263,7 +263,7 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     ///
     /// The speed of each leaving slider is proportional to the square root of the energy stored in its stop.
-    /// A common factor of all speeds makes the kinetic energy increase by the returned energy.
+    /// A common factor of all speeds is chosen so that the kinetic energy increases by the returned energy.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -203,7 +203,8 @@ impl ContactPair {
         [at_point.sum(), at_foot.sum()]
     }
 
-    /// Updates the effective mass `m` along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    /// Updates the effective masses `m` along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    /// Along the axis, the rotations of both bodies add a term to `1/m`.
     fn update_masses(&mut self, shapes: &[Shape]) {
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
         let point = own.mobility(self.place(shapes).weights());

@@ -96,7 +96,7 @@ pub(super) const WHOLE_AXIS: AllowedParts =
 #[derive(Debug, Clone)]
 pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
-    /// Quadrature weight [length]; 1 for a point.
+    /// Quadrature weight of a contact point of a beam [length]; 1 for a particle or a point of a body.
     pub(super) weight: f64,
     /// Parts of the axis of the same beam that the contact point can touch, without the parts close to the point along the axis.
     pub(super) allowed: AllowedParts,
@@ -134,7 +134,7 @@ struct SampledCurve {
     basis: Basis,
     spans: Vec<Span>,
     weights: Vec<f64>,
-    /// Enlargement of the box around the control points of a span that makes it contain the curve, as a fraction of its size [-].
+    /// Enlargement of the box around the control points of a span, as a fraction of the size of the box [-]. The enlarged box contains the curve.
     growth: f64,
 }
 
