@@ -76,7 +76,8 @@ impl System {
         self.slider(slider).flight_gap(self.bodies())
     }
 
-    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many events.
+    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force.
+    /// Such a slider stays in contact after too many take-offs and landings within a step.
     pub fn steps_with_kept_contact(&self, slider: usize) -> usize {
         self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
     }

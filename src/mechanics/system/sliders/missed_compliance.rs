@@ -1,6 +1,6 @@
-//! Compliance of a beam at a transverse force and a couple that act at one point. The smooth basis functions of a mesh represent only a part of it.
+//! Missed compliance: part of the compliance of a beam under a transverse force and a couple at one point that a mesh does not represent.
 //!
-//! The compliance is the difference between the exact compliance of a straight beam and that of its mesh. Derivation: docs/theory.md, section 14.2.
+//! The missed compliance is the exact compliance of a straight beam minus the compliance of its mesh. Derivation: docs/theory.md, section 14.2.
 
 use crate::beams::{BeamError, StraightBeam};
 use crate::geometry::{PiecewisePolynomial, Span, larger};
@@ -12,19 +12,19 @@ const LEAST_POINTS: usize = 5;
 /// Compliance of the axis under a transverse force and a couple at one point that a mesh does not represent, as functions of the position of the point.
 #[derive(Debug, Clone)]
 pub struct MissedCompliance {
-    /// Displacement per transverse force [length/force].
+    /// Missed displacement per transverse force [length/force].
     pub transverse: PiecewisePolynomial,
-    /// Rotation per transverse force, equal to the displacement per couple [1/force].
+    /// Missed rotation per transverse force, equal to the missed displacement per couple [1/force].
     pub coupling: PiecewisePolynomial,
-    /// Rotation per couple [1/(force·length)].
+    /// Missed rotation per couple [1/(force·length)].
     pub rotation: PiecewisePolynomial,
 }
 
 impl MissedCompliance {
     /// Computes the compliance under a transverse force and a couple that a mesh does not represent.
     ///
-    /// The compliance is positive except in small parts of the first and the last span, where the reduced quadrature of a mesh may be slightly too soft.
-    /// The result is `None` if negative compliances are larger than positive ones: the mesh then has too few quadrature points.
+    /// The missed compliance is positive except in small parts of the first and the last span, where reduced quadrature may make a mesh too soft.
+    /// The result is `None` if negative values are larger than positive ones: the mesh then has too few quadrature points.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

@@ -180,7 +180,7 @@ impl StiffnessRows<'_> {
         self.master.offset((self.slider.force_of_state(), self.slider.couple()), order)
     }
 
-    /// Geometric stiffness: products with the sliding increment, and with the rotation of the sleeve.
+    /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`. The rows `q` select the sliding increment and the rotation of the slave.
     fn twists(&self, slides: f64, width: usize) -> Vec<f64> {
         let (force, moment) = (self.slider.force_of_state(), self.slider.couple());
         let [offset, change, second] = [0, 1, 2].map(|order| self.offset(order));
