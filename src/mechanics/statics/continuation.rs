@@ -58,7 +58,7 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
+    /// Returns true if step `next` turns by at most a right angle from step `self`, and both have the same number of unstable directions.
     /// A step that turns by more than a right angle may have reached another branch, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
