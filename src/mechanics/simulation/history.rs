@@ -190,7 +190,7 @@ impl History {
     }
 
     /// Difference of an invariant from its value in the first row, divided by a scale.
-    /// The gap of joints is not divided by a scale.
+    /// For the gap, the gap of each row is returned without a scale [length].
     ///
     /// The scale of the energy is the largest energy or work of all rows.
     /// The scale of the momentum is the larger of the exchanged impulses and `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`.

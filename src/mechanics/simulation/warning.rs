@@ -205,9 +205,9 @@ pub enum Warning {
         /// Number of steps, duration and force of the bounce.
         bounce: ShortBounce,
     },
-    /// Body that starts inside an obstacle.
+    /// Body that starts inside an obstacle or another body.
     StartInside {
-        /// Type and name of the obstacle.
+        /// Type and name of the obstacle, or of the contact between the bodies.
         obstacle: String,
         /// Type and name of the body with the largest stored energy.
         body: String,

@@ -27,7 +27,7 @@ pub struct Quantity {
 pub enum ValueTime {
     /// Present time.
     Present,
-    /// Present time; the value follows from the equations of motion.
+    /// Present time. The equations of motion are solved at this time for accelerations and forces.
     Instant,
     /// Mean over the last step.
     StepMean,
@@ -169,7 +169,7 @@ pub(in crate::system) static DISSIPATED: Quantity =
 
 pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
 
-/// Work of drives and named loads in the last step, divided by the duration of the step.
+/// Power of a drive or a named load: its work in the last step, divided by the duration of the step.
 pub(in crate::system) static POWER: [Quantity; 1] =
     [quantity("power", "energy/time", SummedMean, Sum(power))];
 

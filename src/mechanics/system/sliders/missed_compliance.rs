@@ -60,7 +60,8 @@ fn hinged_stiffness(beam: &StraightBeam<'_>) -> Result<Option<SymmetricFactors>,
     Ok(stiffness.factorise(0.0, &SymmetricSparse::new(size, |_| {})).ok())
 }
 
-/// Index of an unknown in the stiffness of the hinged beam of this size; `size`, which the matrix ignores, for the displacements of both ends.
+/// Index of an unknown in the stiffness of the hinged beam with `size` unknowns.
+/// The displacements of both ends are not unknowns. Their index is `size`, whose entries the matrix ignores.
 fn place(unknown: usize, size: usize) -> usize {
     match unknown {
         0 => size,
@@ -70,7 +71,7 @@ fn place(unknown: usize, size: usize) -> usize {
     }
 }
 
-/// Compliances under a force, between force and couple, and under a couple that the mesh does not represent at a point.
+/// Missed compliances at a point: displacement per force, rotation per force, and rotation per couple.
 fn missed(
     beam: &StraightBeam<'_>,
     factors: &SymmetricFactors,
@@ -128,7 +129,7 @@ mod tests {
         [&found.transverse, &found.coupling, &found.rotation].map(|of| of.in_span(span, xi)[0])
     }
 
-    /// Exact compliances of a cantilever minus those of dense algebra on the mesh.
+    /// Exact compliances of a cantilever minus the compliances of its mesh, which are computed with dense matrices.
     fn missed_by_cantilever(beam: &StraightBeam<'_>, section: &Section, xi: f64) -> [f64; 3] {
         let size = 2 * beam.control_points();
         let mut stiffness = DMatrix::zeros(size, size);

@@ -155,7 +155,8 @@ impl GapTrial {
     }
 }
 
-/// Derivative of the parameter `ξ` of the nearest point: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
+/// Derivative of the parameter `ξ` of the nearest point `c(ξ)` of the curve to the contact point `x`, with respect to the local coordinates.
+/// It follows from the linearised condition of a perpendicular: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
 fn foot_slope(apart: Vec2, movement: &GapMovement) -> Slope {
     let [_, tangent, bend] = movement.tangents;
     let curvature = tangent.norm_squared() - apart.dot(&bend);
