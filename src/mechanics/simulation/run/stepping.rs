@@ -123,7 +123,7 @@ impl Simulation {
         stepped
     }
 
-    /// After a failed step, keeps constant the friction forces of slipping sliders and the kinks that vary with contact forces.
+    /// Freezes contacts after a failed step: friction forces of slipping sliders and kinks that vary with contact forces become constant.
     /// Returns true if this changes the equations of the step.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {
