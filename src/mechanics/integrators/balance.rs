@@ -6,7 +6,7 @@ use crate::elementary::square;
 use crate::linalg::BorderedMatrix;
 use crate::newton::{Equations, Newton, NewtonError, NewtonReport, ResidualNorms, Tolerance};
 
-/// Largest allowed rotation increment `Δω`. For larger rotation increments, the direction of rotation is ambiguous.
+/// Largest allowed rotation increment `Δω` [rad]. For larger rotation increments, the direction of rotation is ambiguous.
 const LARGEST_INCREMENT: f64 = std::f64::consts::PI;
 
 /// Smallest allowed chord of the path of a slider in the mean configuration, as a fraction of the length of the path.

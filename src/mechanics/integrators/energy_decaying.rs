@@ -6,7 +6,7 @@ use crate::newton::{NewtonReport, Tolerance};
 
 /// Energy–momentum method whose section forces follow from the strain at a time after the middle of the step.
 /// The energy-decaying method damps high frequencies, and conserves linear and angular momentum to rounding for any step size.
-/// Each step of the energy-decaying method dissipates energy. The method is of first order (docs/theory.md, section 8.2).
+/// A step dissipates or conserves energy. The method is of first order (docs/theory.md, section 8.2).
 /// A dissipation parameter of zero gives the energy–momentum method, which is of second order.
 ///
 /// Reference: F. Armero & I. Romero, Comput. Methods Appl. Mech. Eng. 190 (2001) 2603–2649.

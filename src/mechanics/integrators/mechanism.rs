@@ -73,7 +73,7 @@ pub trait Forces {
         None
     }
 
-    /// Name of an obstacle through which a body passes within a step with the given increments.
+    /// Name of an obstacle, or of a contact between bodies, through which a point passes within a step with the given increments.
     fn crossed_obstacle(&self, _increments: &[f64]) -> Option<&str> {
         None
     }
@@ -136,10 +136,11 @@ pub trait Constraints {
 
 /// Mechanical system that integrators advance. It has unknowns, a state, and data of the present step.
 ///
-/// Vectors of increments and rates contain the unknown degrees of freedom, followed by the constraint unknowns.
+/// Vectors of increments and rates contain the unknown degrees of freedom.
+/// With prescribed motions, zeros for the constraint unknowns follow, and then the prescribed degrees of freedom.
 /// Constraint unknowns are contact forces and contact positions. They have no inertia, and each has one constraint equation.
-/// Force vectors also have an entry for each supported degree of freedom, where the residual is the support reaction.
-/// With prescribed motions, the vectors of increments and rates end with the prescribed degrees of freedom.
+/// Force vectors have entries for unknowns, constraints and supported degrees of freedom.
+/// The residual at a supported degree of freedom is the support reaction.
 pub trait Mechanism: Inertia + Forces + Constraints {
     /// Number of unknown degrees of freedom.
     fn unknowns(&self) -> usize;

@@ -10,7 +10,7 @@ use crate::linalg::{BorderShape, BorderedLu, BorderedMatrix};
 const NEAR: f64 = 1e-4;
 
 /// Largest number of corrections that reuse the factors of an iteration.
-/// An iteration with new factors squares the residual norm. A correction with earlier factors multiplies it by a constant factor.
+/// An iteration with new factors squares the residual norm. A correction with earlier factors multiplies the norm by a constant factor.
 const MOST_CORRECTIONS: i32 = 5;
 
 /// Largest number of corrections that reuse the factorised tangent of similar equations.

@@ -16,7 +16,7 @@ const SMALLEST: f64 = 1e-6;
 const LARGEST: f64 = 1e6;
 
 /// Longest interval in which a load schedule is sampled with one set of points, as a multiple of the first step.
-/// A longer step is divided into such intervals. Otherwise, a long step, as in a scene at rest, could miss a short pulse.
+/// In a longer step, several such intervals are sampled. Otherwise, a long step, as in a scene at rest, could miss a short pulse.
 const SAMPLED_PART: f64 = 8.0;
 
 /// Smallest step, as a multiple of the rounding error of the present time.

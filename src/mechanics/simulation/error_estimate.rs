@@ -88,8 +88,7 @@ impl StepDoubling {
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 
-    /// Takes a whole step or one of the two half steps of [`step`](Self::step).
-    /// If the whole step or a half step fails, the model is restored to the start of the first of the three steps.
+    /// Takes one of the two half steps of [`step`](Self::step). If it fails, the model is restored to the start of the whole step.
     pub(super) fn take_or_restore(
         &self,
         integrator: &mut dyn Integrator,

@@ -25,13 +25,13 @@ pub struct Sample {
 /// Quantity that is constant if the energy, momentum or angular momentum supplied by loads and supports is subtracted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// Energy `E` of the scene minus the work `W` of the loads plus the dissipated energy `D` [energy].
+    /// Energy `E` of the scene minus the work `W` of loads and drives plus the dissipated energy `D` [energy].
     Energy,
     /// Momentum `p` minus the impulse of all external forces [mass·length/time].
     Momentum,
     /// Angular momentum `L` minus the angular impulse of all external forces [mass·length²/time].
     AngularMomentum,
-    /// Largest distance between the partners of a joint [length].
+    /// Largest distance between the partners of a joint, of a slider or of a rigid link [length].
     Gap,
 }
 
@@ -65,7 +65,7 @@ impl Invariant {
     }
 }
 
-/// Properties of a scene from which the smallest reference values of energy and momenta are computed. Drifts are given as fractions of them.
+/// Properties of a scene from which the smallest reference values of energy and momenta are computed. Drifts are fractions of reference values.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DriftScales {
     /// Mass of the whole scene [mass].
@@ -190,7 +190,7 @@ impl History {
     }
 
     /// Difference of an invariant from its value in the first row, divided by a scale.
-    /// The gap of joints is not divided by a scale.
+    /// For the gap, the gap of each row is returned without a scale [length].
     ///
     /// The scale of the energy is the largest energy or work of all rows.
     /// The scale of the momentum is the larger of the exchanged impulses and `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`.
@@ -235,7 +235,7 @@ impl History {
     }
 
     /// Largest increase of the energy balance `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
-    /// `E` is the energy, `W` the work of the loads and `D` the dissipated energy.
+    /// `E` is the energy, `W` the work of loads and drives and `D` the dissipated energy.
     /// The largest increase is NaN if an energy is NaN or the history has no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };

@@ -104,7 +104,7 @@ fn scales(scene: &Scene, model: &System) -> DriftScales {
     let distances = model.control_points().flatten().map(|point| point.norm());
     DriftScales {
         mass: model.total_mass(),
-        // The length scale is the radius of gyration of the longest beam or, if larger, the distance of a body from the origin.
+        // The length scale is the radius of gyration of the longest beam. Distances from the origin above ten beam lengths replace it.
         length: distances.fold(longest / 12_f64.sqrt(), |length, distance| {
             if distance > 10.0 * longest { length.max(distance) } else { length }
         }),

@@ -7,7 +7,7 @@ use crate::geometry::larger;
 use crate::integrators::{Integrator, Interval};
 use crate::system::{Drive, Placement, Scene, System, SystemState};
 
-/// Allowed difference of the second half step, computed with controller values sampled at the start and in the middle of the step.
+/// Allowed difference between two results of the second half step: with controller values sampled at the start and in the middle of the step.
 /// The difference is given as a multiple of the length scale times a power of the tolerance.
 /// The multiple 4 makes the accumulated sampling error about half the tolerance (docs/theory.md, section 13.1).
 const SHARE: f64 = 4.0;

@@ -11,7 +11,7 @@ const ROUNDINGS: f64 = 4.0;
 const MOST_POINTS: u64 = 1 << 60;
 
 /// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.
-/// Cuts are the jumps and kinks of schedules, and the times at which digital controllers sample and act.
+/// Cuts are the jumps of schedules and of their derivatives, and the times at which digital controllers sample and act.
 /// With variable steps, the grid consists of cuts only.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {
@@ -57,7 +57,7 @@ impl TimeGrid {
         self.dt
     }
 
-    /// Largest difference between two times that count as equal [time].
+    /// Largest difference between two times that count as equal near the given time [time].
     pub fn slack(&self, time: f64) -> f64 {
         self.slack.max(ROUNDINGS * f64::EPSILON * time.abs())
     }

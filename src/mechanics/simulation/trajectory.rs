@@ -90,7 +90,7 @@ impl Trajectory {
         &self.times
     }
 
-    /// Values of a stored configuration.
+    /// Coordinates of all control points in the stored configuration with the given index [length].
     pub fn configuration(&self, index: usize) -> &[f64] {
         &self.numbers[index * self.stride..(index + 1) * self.stride]
     }

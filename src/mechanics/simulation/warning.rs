@@ -157,7 +157,7 @@ pub enum Warning {
     },
     /// Energy drift with a method that conserves energy.
     Drift {
-        /// Largest change of the energy minus the work of loads, as a fraction of the largest energy [-].
+        /// Largest change of the energy balance (energy minus work of loads and drives plus dissipated energy), as a fraction of the largest energy [-].
         drift: f64,
         /// Name and stiffness of the stiffest spring; `None` without springs.
         stiffest: Option<(String, f64)>,
@@ -196,18 +196,18 @@ pub enum Warning {
         /// Range of the law, and the value farthest outside the range.
         outside: OutsideLaw,
     },
-    /// Contact of a spring or an obstacle that lasted too few steps.
+    /// Contact at a spring, at an obstacle or between bodies that lasted too few steps.
     Contact {
-        /// Type and name of the spring or obstacle.
+        /// Type and name of the element with the contact.
         object: String,
         /// Tolerance of variable steps [-]; `None` for fixed steps.
         tolerance: Option<f64>,
         /// Number of steps, duration and force of the bounce.
         bounce: ShortBounce,
     },
-    /// Body that starts inside an obstacle.
+    /// Body that starts inside an obstacle or another body.
     StartInside {
-        /// Type and name of the obstacle.
+        /// Type and name of the obstacle, or of the contact between the bodies.
         obstacle: String,
         /// Type and name of the body with the largest stored energy.
         body: String,

@@ -34,7 +34,7 @@ impl Balance<'_> {
 pub(super) struct UnderLoad<'a> {
     pub(super) balance: Balance<'a>,
     pub(super) factor: f64,
-    /// Rate of the viscous damping in the equations [1/time²]; zero for an equilibrium.
+    /// Factor by which inertia matrix times displacements is added to the equations as viscous damping [1/time²]; zero for an equilibrium.
     pub(super) rate: f64,
 }
 

@@ -58,7 +58,7 @@ struct PathDirection {
 }
 
 impl PathDirection {
-    /// Returns true if the next step turns by at most a right angle from this step, and the number of unstable directions does not change.
+    /// Returns true if step `next` turns by at most a right angle from step `self`, and both have the same number of unstable directions.
     /// A step that turns by more than a right angle may have reached another branch, for example near the buckling load of a column.
     fn is_aligned_with(&self, next: &Self, metric: &[f64]) -> bool {
         let ways = metric.iter().zip(&self.movements).zip(&next.movements);
@@ -251,7 +251,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a fraction of the loads, starting from the present configuration, and returns the number of iterations.
-    /// With a positive `rate`, viscous damping with this rate acts [1/time²].
+    /// With a positive `rate` [1/time²], a viscous damping force acts: `rate` times the inertia matrix times the displacements.
     ///
     /// The solution is repeated whenever a slider comes into contact with a stop or leaves a stop.
     pub(super) fn balance_from(&mut self, factor: f64, rate: f64) -> Result<usize, StepFailure> {

@@ -34,7 +34,8 @@ const MOST_LEAVES: usize = 12;
 
 impl Continuation<'_> {
     /// Finds an equilibrium under a fraction of the loads by dynamic relaxation.
-    /// The scene starts without load and approaches the equilibrium under viscous damping.
+    /// The scene starts without load and approaches the equilibrium in passes with viscous damping.
+    /// The damping force is the damping rate [1/time²] times the inertia matrix times the displacements of the pass.
     /// The damping rate decreases from pass to pass (pseudo-transient continuation; Kelley & Keyes 1998).
     /// The argument `movements` is the number of degrees of freedom without restraint in the initial configuration.
     pub(super) fn find_equilibrium(

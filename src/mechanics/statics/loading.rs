@@ -24,7 +24,7 @@ pub struct Loading {
 /// Quantity that is prescribed in each load step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Control {
-    /// Load factor. The path ends at a limit point.
+    /// Load factor. The path cannot pass a limit point, which is an extremum of the load factor.
     #[default]
     Load,
     /// Distance along the path. The load factor is an unknown and may decrease.

@@ -110,7 +110,7 @@ impl System {
         &self.bodies
     }
 
-    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. Longer steps are divided.
+    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. In longer steps, several intervals are sampled.
     pub(crate) fn sample_loads_in_parts(&mut self, longest: f64) {
         self.elements.sample_in_parts(longest);
     }
@@ -149,7 +149,7 @@ impl System {
         self.step.returned
     }
 
-    /// Measures of the temporal resolution in the steps so far. They are used for warnings about too large steps.
+    /// Measures of the temporal resolution in the steps so far, used for warnings about too large steps.
     pub fn resolution(&self) -> &Resolution {
         self.motion.resolution()
     }

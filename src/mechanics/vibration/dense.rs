@@ -21,7 +21,7 @@ const MOST_SWEEPS: usize = 60;
 const WITHOUT_INERTIA: f64 = 1e-13;
 
 /// Computes an eigenvalue and a shape for each mode of a small scene, in decreasing order of the eigenvalues.
-/// Degrees of freedom without inertia have the eigenvalue zero.
+/// Degrees of freedom without inertia have the eigenvalue zero and are left out.
 pub(super) fn all_pairs(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -23,7 +23,7 @@ pub struct Mode {
     pub rounding: f64,
     /// Residual of the mode [-], a measure of its accuracy.
     /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
-    /// It bounds the relative error of `ω² + ω₁²`, where `ω₁` is the angular frequency of the lowest bending mode.
+    /// The residual bounds the relative error of `ω² + ω₁²`, where `ω₁` is the angular frequency of the lowest bending mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
     pub shape: Vec<f64>,

@@ -19,7 +19,7 @@ pub(super) struct Pencil {
     /// Estimate of the squared frequency of the lowest bending mode, for scenes with beams [1/time²].
     /// For scenes without beams, the estimate is the squared frequency of the lowest vibration of a chain of the softest springs.
     pub(super) scale: f64,
-    /// Number of degrees of freedom with mass, which is the number of modes with a finite frequency.
+    /// Number of modes with a finite frequency: degrees of freedom with inertia, minus constraints.
     pub(super) finite: usize,
 }
 

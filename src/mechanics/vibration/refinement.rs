@@ -19,7 +19,7 @@ const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Upper bound of the relative error of the shifted squared frequency [-], without the rounding error of the squared frequency.
+    /// Upper bound of the relative error of the squared frequency plus the shift [-], without the rounding error of the squared frequency.
     pub(super) residual: f64,
     /// Rounding error of the squared frequency `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
@@ -175,7 +175,7 @@ impl OtherPairs<'_> {
             for row in &mut momenta {
                 row.iter_mut().zip(&scale).for_each(|(entry, factor)| *entry *= factor);
             }
-            // At least two corrections, because the first residual contains the rounding errors of the displacements.
+            // At least two corrections are made, because the first residual contains the rounding errors of the displacements.
             let is_done = (0..STRIP_WIDTH).all(|lane| {
                 residuals[lane].is_nan()
                     || residuals[lane] <= SMALL

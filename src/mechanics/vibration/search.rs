@@ -23,7 +23,7 @@ const MOST_SHIFTS: usize = 14;
 /// Largest residual of an accepted pair of eigenvalue and shape.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
-/// Largest relative difference of two shifted squared frequencies that count as equal in the check for missing modes.
+/// Largest relative difference of two squared frequencies plus shift that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
 
 /// Largest squared frequency that counts as zero, as a multiple of its rounding error.

@@ -1,6 +1,6 @@
 //! File envelope: magic number, versions, lengths and checksum.
 //!
-//! A file starts with the eight bytes `89 "withy" 0D 0A`. The byte 89 is not text, and the bytes 0D 0A reveal a conversion of line ends.
+//! A file starts with eight bytes: `89`, `withy`, `0D`, `0A` (hexadecimal). The byte 89 is not text, and 0D 0A reveal a conversion of line ends.
 //! The version of the file format (`u16`) and the version of the program, as a length (`u8`) and a text, follow the first eight bytes.
 //! The number of bytes of the content (`u64`) precedes the content. The file ends with the CRC-32 of all preceding bytes (`u32`).
 //! All numbers in the file are little-endian.

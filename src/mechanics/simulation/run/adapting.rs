@@ -120,7 +120,8 @@ impl Simulation {
     }
 
     /// Takes a whole step and its two halves.
-    /// If the whole step or a half step has no solution, all three steps are repeated with constant kinks under contact forces.
+    /// If one of the three steps has no solution, all three are repeated with constant friction forces and constant kinks.
+    /// A kink is the jump of the tangent of a beam axis under a contact force.
     fn try_step(
         &mut self,
         adaptive: &mut Adaptive,

@@ -91,7 +91,7 @@ impl Simulation {
     /// Restores a simulation and its name from the result of [`to_bytes`](Self::to_bytes).
     ///
     /// # Errors
-    /// Fails if the file is truncated or damaged, has a later format or a different type, or has invalid content.
+    /// Fails if the file is truncated or damaged, has another format version or a different type, or has invalid content.
     pub fn from_bytes(file: &[u8]) -> Result<(String, Self), ArchiveError> {
         let bytes = unwrap(file)?;
         let read = postcard::take_from_bytes::<Content>(bytes);

@@ -428,14 +428,14 @@ impl Simulation {
     }
 
     /// Returns true if a slider is held at a seam instead of passing the seam.
-    /// A slider is held if both sides of the seam immediately return it to the seam, or if it oscillates about the seam within few steps.
+    /// A slider is held if both sides of the seam immediately return it to the seam, or if the slider oscillates about the seam within few steps.
     fn is_held_at_seam(&self, limit: MasterLimit, located: &EventStep, dt: f64) -> bool {
         let is_led_back = located.step.is_none() && self.model.is_at_seam_event(limit.slider);
         is_led_back || self.oscillates_at_seam(limit, dt)
     }
 
     /// Period [time] in which repeated impacts or oscillations count as not resolved by steps of length `dt` [time].
-    /// For variable steps, which become longer between impacts, the time in which a wave passes a span replaces `dt` if it is shorter.
+    /// Variable steps become longer between impacts. The shortest time in which a wave passes a span therefore replaces a longer `dt`.
     fn unresolved(&self, dt: f64) -> f64 {
         CHATTER as f64
             * match self.settings.dt {

@@ -22,7 +22,7 @@ impl Simulation {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Positions along a beam for repeated sampling: its knots, and `within` positions between consecutive knots.
+    /// Positions along a beam for repeated sampling: its knots, and `within_a_span` positions between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -123,7 +123,7 @@ impl Simulation {
         stepped
     }
 
-    /// Holds the friction forces of slipping sliders and the kinks that contact forces cause constant after a failed step.
+    /// Freezes contacts after a failed step: friction forces of slipping sliders and kinks that vary with contact forces become constant.
     /// Returns true if this changes the equations of the step.
     pub(super) fn freezes_contacts_for(&mut self, source: &StepError) -> bool {
         match source {

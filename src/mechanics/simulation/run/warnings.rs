@@ -20,7 +20,7 @@ use crate::vibration::{Modes, VibrationError};
 /// A single vibration with 3.5 steps per period has an unresolved fraction of 0.2. Its computed period is 20 % too long.
 const LARGEST_SHARE: f64 = 0.2;
 
-/// Largest unresolved fraction of the kinetic energy without a warning [-]. It replaces [`LARGEST_SHARE`] if a step contains several periods.
+/// Largest unresolved fraction of the kinetic energy without a warning [-]. This limit replaces [`LARGEST_SHARE`] if a step contains several periods.
 const HIDDEN_SHARE: f64 = 0.05;
 
 /// Phase of the vibration per step above which [`HIDDEN_SHARE`] replaces [`LARGEST_SHARE`] [rad].
@@ -161,7 +161,7 @@ impl Simulation {
         notes
     }
 
-    /// Adds a warning for each obstacle, about the body whose contact stores the largest energy.
+    /// Adds a warning for each obstacle or contact between bodies, about the body whose contact stores the largest energy.
     /// The penetrations must be sorted by decreasing energy.
     pub(super) fn warn_of_penetrations(&mut self, penetrations: Vec<(String, Penetration)>) {
         for (obstacle, Penetration { body, depth, energy, .. }) in penetrations {

@@ -18,7 +18,7 @@ use crate::system::state::MotionState;
 use crate::system::{BeamDefinition, Scene, System, SystemError, SystemState};
 
 /// Largest rounding error of strains, as a multiple of the machine precision.
-/// Strains are differences of coordinates that may be much larger than a span, so their rounding error exceeds the machine precision.
+/// Strains are differences of coordinates that may be much larger than a span of the mesh. Their rounding error exceeds the machine precision.
 const STRAIN_ROUNDINGS: f64 = 100.0;
 
 pub struct Assembly<'a> {
@@ -81,10 +81,10 @@ impl System {
     }
 
     /// Builds the mechanism of a scene in the given static state at the given time.
-    /// Velocities are checked against the positions of the sliders in the static state, not against their initial positions.
+    /// Velocities of slaves across their masters are checked at the slider positions of the static state, not at the initial positions.
     ///
     /// # Errors
-    /// Fails in the same cases as [`assemble`](Self::assemble), or if a function has no value at the given time.
+    /// Fails in the same cases as [`assemble`](Self::assemble), or if a drive has no value at the given time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
@@ -195,7 +195,7 @@ impl<'a> Assembly<'a> {
         let rigid = self.scene.rigid_bodies.iter().map(|body| Ok(body.control_points()));
         let mut points =
             beams.chain(particles).chain(rigid).collect::<Result<Vec<_>, SystemError>>()?;
-        // A master may also be a slave of another slider. Therefore, the placement of slaves is repeated until no slave moves.
+        // A master may also be a slave of another slider. Therefore, all slaves are placed on their masters repeatedly until no slave moves.
         let place = |slider: &Slider| {
             Ok((
                 self.place_at(slider.master, self.slider_parameter(slider)?)?,

@@ -6,14 +6,15 @@ use crate::system::Scene;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
-/// Smallest number of sliders for block-wise elimination of contacts. For fewer sliders, a dense border is faster (docs/studies.md).
+/// Smallest number of sliders for block-wise elimination of contacts.
+/// For fewer sliders, the contact unknowns in a dense border of the band matrix are faster (docs/studies.md).
 const MANY: usize = 4;
 
 /// Largest number of control points of a slave that is eliminated together with its contact.
 const MOST_POINTS: usize = 4;
 
 impl Numbering {
-    /// Blocks of the sliders; `None` if a dense border is faster.
+    /// Blocks of the sliders; `None` if a dense border of the band matrix is faster.
     /// Scenes with contact between bodies always have blocks, because contact couples distant unknowns.
     pub fn contact_blocks(&self, scene: &Scene, sliders: &[SliderContact]) -> Option<BlockLayout> {
         let touches = scene.contacts().next().is_some();
@@ -38,7 +39,7 @@ impl Numbering {
             }
             roots.into_iter().flatten().for_each(|root| sliders_on[root] += 1);
         }
-        // A slave can be eliminated together with its contact if no other slider moves the unknowns of the slave.
+        // A slave can be eliminated together with its contact if its unknowns are coupled to no other body and to no other slider.
         let own = sliders.iter().map(|slider| {
             let own = self.unknowns_of_free_slave(slider);
             let root = component[*own.first()?];

@@ -6,7 +6,7 @@ use crate::joints::Component;
 use crate::system::SystemError;
 use crate::system::scene::Scene;
 
-/// Placeholder for the missing unknown of a component whose motion is given.
+/// Placeholder for a class of tied components without an unknown. The motion of such a class is fixed or prescribed.
 const NONE: usize = usize::MAX;
 
 pub struct InitialNumbering {
@@ -18,7 +18,7 @@ pub struct InitialNumbering {
 }
 
 impl InitialNumbering {
-    /// Numbers the free components of a scene. Tied components share one number.
+    /// Numbers the free components (x, y, angle) of the control points of a scene. Tied components share one number.
     ///
     /// # Errors
     /// Fails if all degrees of freedom are fixed.

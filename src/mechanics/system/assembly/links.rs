@@ -5,14 +5,14 @@ use crate::geometry::larger;
 use crate::linalg::BandedMatrix;
 use crate::system::{Scene, System, SystemError, UnknownKind};
 
-/// Largest constraint force per unit of gap for which the constraint force counts as unique.
+/// Largest constraint force that counts as unique, for gaps of about one and unit masses.
 const UNDETERMINED: f64 = 1e11;
 
 impl System {
-    /// Rejects redundant constraints of rigid bodies and rollers.
+    /// Rejects redundant constraints of rigid links and inclined rollers.
     ///
-    /// The check of constraints closes small gaps at all constraints of a model with unit masses at all degrees of freedom.
-    /// A unique constraint force is at most the gap times the square of the number of bodies in a chain.
+    /// The check assigns a unit mass to every degree of freedom and computes the constraint forces that close given gaps at all constraints.
+    /// A unique constraint force is at most the gap times the square of the number of bodies in a chain. Redundant forces are much larger.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {
             return Ok(());

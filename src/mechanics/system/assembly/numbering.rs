@@ -17,7 +17,8 @@ pub struct LinkPlace {
     pub force: [usize; 2],
 }
 
-/// Degree of freedom of every component of every control point. Unknowns have the lowest numbers, supported degrees of freedom the highest.
+/// Number of every degree of freedom: of each component (x, y, angle) of each control point.
+/// The order of the numbers is: unknowns, contact unknowns, prescribed degrees of freedom, fixed degrees of freedom.
 #[derive(Debug, Clone)]
 pub struct Numbering {
     pub degrees_of_freedom: Vec<Vec<[usize; 3]>>,
@@ -26,7 +27,7 @@ pub struct Numbering {
     pub rollers: Vec<Option<(usize, (usize, usize))>>,
     pub unknowns: usize,
     pub groups: Vec<Vec<usize>>,
-    /// Number of prescribed degrees of freedom, which precede the fixed degrees of freedom.
+    /// Number of prescribed degrees of freedom.
     prescribed: usize,
     supported: usize,
     half_bandwidth: usize,
@@ -78,7 +79,7 @@ impl Numbering {
             degrees_of_freedom.push(points.collect());
         }
         // Elements at a point, such as drag, couple the components of the point.
-        // Consecutive numbers keep the bandwidth of the tangent small.
+        // These couplings are added after the ordering and affect only the block-wise elimination of contacts.
         for (index, body) in bodies.iter().enumerate().filter(|(_, body)| body.order() == 1) {
             for point in 0..body.control_points().len() {
                 groups.push(initial.numbers([(index, point)].into_iter(), &mut tied));

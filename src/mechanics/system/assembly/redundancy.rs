@@ -9,7 +9,7 @@ use crate::system::{Scene, System, SystemError};
 /// Largest ratio of a pivot of the Cholesky factorisation to its diagonal entry that is attributed to rounding [-].
 const ROUNDING_PIVOT: f64 = 1e-13;
 
-/// Largest velocity response of a slider to a unit impulse that counts as zero, as a fraction of the response of the total mass.
+/// Largest velocity response of a slider to a unit impulse that counts as zero, as a multiple of the inverse total mass.
 const NO_RESPONSE: f64 = 1e-26;
 
 impl System {

@@ -16,7 +16,7 @@ use crate::system::sliders::{
 use crate::system::{BeamDefinition, Scene, System, SystemError};
 
 /// Largest start velocity of a slave across its master that counts as zero, as a fraction of the velocity of the fastest point of the scene.
-/// Velocities at a dead centre of a mechanism have relative rounding errors of about `SAME_VELOCITY`.
+/// It exceeds the rounding errors of velocities at a dead centre of a mechanism.
 const SAME_VELOCITY: f64 = 1e-9;
 
 impl Assembly<'_> {
@@ -108,7 +108,8 @@ impl Assembly<'_> {
     ) -> Result<Option<KinkedAxis>, SystemError> {
         let (master, beam) = (slider.master, &self.scene.beams[slider.master]);
         let basis = self.mesh(master).basis();
-        // A C⁰ mesh represents a kink at a node exactly, but a kink cannot move past a node.
+        // A mesh of continuity C⁰ represents a kink (jump of the tangent of the axis under a contact force) at its nodes exactly.
+        // A kink cannot move past a node, so sliders on such meshes have no kink.
         let has_nodes = basis.breaks().len() > 2 && basis.continuity() == 0;
         if slider.rule != SlidingRule::Kinked || has_nodes {
             return Ok(None);
@@ -163,7 +164,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Checks the start velocity of each slave across its master or projects it to zero, depending on the option of the slider.
-    /// A velocity counts as zero if it would cause a wave with a strain below the rounding error of strains.
+    /// Velocities count as zero up to `SAME_VELOCITY` times the fastest speed plus the speed whose axial wave has a strain of machine precision.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
         self.follow_masters();
@@ -182,7 +183,7 @@ impl System {
         Ok(())
     }
 
-    /// Sets a static model to a time. Prescribed motions receive the rates of their functions.
+    /// Sets the time of a model in static equilibrium. Prescribed motions receive the rates of their functions.
     ///
     /// # Errors
     /// Fails if a function has no value at the given time, or if velocities contradict the sliders.
@@ -197,7 +198,7 @@ impl System {
         SAME_VELOCITY * self.fastest_speed() + f64::EPSILON * scene.fastest_wave()
     }
 
-    /// Checks the start velocity of the slave across the master.
+    /// Checks the start velocity of the slave of a slider across its master.
     /// A slider with a unilateral contact starts in flight if its slave moves away from the axis to the side on which it can fly.
     fn apply_start_velocity(&mut self, slider: usize, negligible: f64) -> Result<(), SystemError> {
         let speed = self.speed_across(slider);

@@ -7,11 +7,11 @@ use crate::system::elements::AssemblyContext;
 use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
-/// Largest difference of two start velocities tied by a joint that counts as zero, as a fraction of the velocities of the beam.
+/// Largest difference between the start velocities of two joined bodies that counts as zero, as a fraction of the velocities.
 const SAME_VELOCITY: f64 = 1e-9;
 
-/// Largest accepted difference between a start velocity and the initial rate of a prescribed motion, as a fraction of this rate.
-/// The limit allows for the error of the initial rate, which is computed by finite differences.
+/// Largest accepted difference between a start velocity and the velocity that a drive or a joint requires, as a fraction of the larger one.
+/// The limit allows for the error of the initial rate of a drive, which is computed by finite differences.
 const SAME_START: f64 = 1e-6;
 
 const COMPONENTS: [&str; 3] = ["velocity along x", "velocity along y", "spin"];
@@ -80,9 +80,9 @@ impl RequestedRate<'_> {
 }
 
 impl Assembly<'_> {
-    /// Rates of the unknowns at the start, compatible with joints and start velocities [length/time, 1/time].
+    /// Rates of the unknowns at the start, compatible with joints, drives and start velocities [length/time, 1/time].
     ///
-    /// The vector contains the rates of the unknowns, zeros for the contact unknowns, and the rates of the prescribed degrees of freedom.
+    /// The argument `prescribed` contains `constraints` zeros for the contact unknowns, followed by the initial rates of the drives.
     pub fn start_rates(
         &self,
         numbering: &Numbering,
@@ -159,7 +159,7 @@ impl Assembly<'_> {
             let sized = degrees.iter().zip(rates).zip(sizes).zip(COMPONENTS);
             for (((&at, rate), size), component) in sized {
                 if let Some(begins) = begun.at(at) {
-                    // A prescribed motion of a body at rest is accepted. An impact at the start sets the body in motion.
+                    // A body at rest may be joined to a drive that starts with a velocity. An impact at the start sets the body in motion.
                     if !rests && (rate - begins).abs() > SAME_START * size.max(begins.abs()) {
                         return Err(SystemError::StartVelocity {
                             body: self.name_of(index),
@@ -171,8 +171,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 if let Some(asked) = shared.requested.get(at).copied().flatten() {
-                    // A start velocity given for this station replaces the velocity of its beam.
-                    // It is an error for rigid bodies, and for a moving beam joined to a particle with a different velocity.
+                    // A start velocity given for a single station replaces the velocity of the beam at this station.
+                    // A different velocity is an error for rigid bodies, and for a moving beam that is joined to a particle.
                     let is_rigid = degrees_of_freedom.len() > 1 && index >= self.scene.beams.len();
                     let moves_apart = !rests && matches!(asked.at.body, BodyIndex::Particle(_));
                     let missed = (rate - asked.rate).abs();
@@ -203,7 +203,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// Requested start velocities of nodes. The key is the index of the unknown to which a velocity belongs.
+    /// Start velocities given for single stations. The entry at the index of an unknown is the velocity given for this unknown.
     ///
     /// # Errors
     /// Fails if joined stations have different requested rates.

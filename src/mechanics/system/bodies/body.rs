@@ -112,7 +112,7 @@ impl Body {
         &self.movements
     }
 
-    /// Returns values of the unknowns by control point; zero at supported degrees of freedom.
+    /// Returns values of the degrees of freedom by control point; zero for degrees of freedom that `values` does not contain.
     pub fn by_control_point(&self, values: &[f64]) -> impl Iterator<Item = Movement> {
         let value = |at: usize| values.get(at).copied().unwrap_or(0.0);
         self.degrees_of_freedom.iter().map(move |degrees| degrees.map(value))

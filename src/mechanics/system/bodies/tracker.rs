@@ -16,7 +16,7 @@ impl Tracker {
         Self { place, angle: place.tangent_angle, rotation: Rotation::by(place.tangent_angle) }
     }
 
-    /// Rotation increment `Δω` of the section.
+    /// Rotation increment `Δω` of the section in a step.
     pub fn increment(&self, moved: &[Movement]) -> f64 {
         self.place.weights().map(|(point, weight)| weight * moved[point][2]).sum()
     }

@@ -95,7 +95,7 @@ impl Elements {
         })
     }
 
-    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. Longer steps are divided.
+    /// Sets the longest interval in which a load schedule is sampled with one set of points [time]. In longer steps, several intervals are sampled.
     pub fn sample_in_parts(&mut self, longest: f64) {
         self.forces.iter_mut().for_each(|force| force.sample_in_parts(longest));
     }
@@ -156,7 +156,7 @@ impl Elements {
         })
     }
 
-    /// Adds the tangent stiffness of all element forces to `tangent`.
+    /// Adds the tangent stiffness of all external forces to `tangent`.
     /// The tangent stiffness is the negative derivative of the forces with respect to the increments of the unknowns.
     pub fn add_tangent(&self, at: TrialState<'_>, unknowns: usize, tangent: &mut BandedMatrix) {
         self.forces.iter().for_each(|force| force.add_tangent(at, unknowns, tangent));
@@ -217,7 +217,7 @@ impl Elements {
         }
     }
 
-    /// Adds `weight` times the force corrections that would satisfy all force laws in the present iterate to `out`.
+    /// Adds `weight` times the corrections of the internal forces that would satisfy all force laws in the present iterate to `out`.
     pub fn add_mismatch_forces(&self, bodies: &[Body], weight: f64, out: &mut [f64]) {
         self.resistances.iter().for_each(|resistance| {
             resistance.add_mismatch_forces(bodies, weight, out);

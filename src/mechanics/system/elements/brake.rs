@@ -66,7 +66,7 @@ pub struct Brake {
     /// Mean friction limit of the step [force·length].
     limit: f64,
     duration: f64,
-    /// Weight of the friction moment of this stage in the mean friction moment of the step [-].
+    /// Weight of the friction moment of the present stage in the mean friction moment of the step [-].
     share: f64,
     rotations: RotationIncrement,
     dissipated: f64,
@@ -217,7 +217,7 @@ impl InternalForce for Brake {
         let of_terminal = |(_, coordinates): (_, Range<usize>)| -> f64 {
             self.elongation.secant[coordinates].iter().sum()
         };
-        // The moments on both sections are opposite, so the sum over the moving sections is the moment of the ground.
+        // The moments on the two sections are opposite, so the sum over the moving sections is the moment exerted by the ground.
         let on_bodies: f64 = self.elongation.moving().map(of_terminal).sum();
         let angular = -self.share * moment * on_bodies * duration;
         WorkAndImpulse::of(0.0, Vec2::zeros(), angular)

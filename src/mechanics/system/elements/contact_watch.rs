@@ -1,18 +1,18 @@
-//! Detection of contacts that last only a few steps, for springs that can be slack, such as bumpers and ropes.
+//! Detection of contacts that last only a few steps: with obstacles, between bodies, and of springs that can be slack, such as bumpers and ropes.
 
 /// Largest number of steps during a contact for which the steps do not resolve the bounce.
 const FEW: f64 = 3.0;
 
-/// Largest change of the elongation rate in a contact without a bounce, as a fraction of the rate at the start of the contact [-].
+/// Largest change of the rate of an elongation or gap in a contact without a bounce, as a fraction of the rate at the start of the contact [-].
 const TURNED: f64 = 0.5;
 
 /// Largest contact depth that is attributed to rounding, as a fraction of the length or angle of the spring.
 const ROUNDING_DEPTH: f64 = 1e-12;
 
-/// Bounce on a spring whose contact phase is too short to be resolved by the steps.
+/// Contact with a rebound that lasts too few steps to be resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShortBounce {
-    /// Number of steps during the contact [-], including steps at whose start or end the spring is slack.
+    /// Number of steps during the contact [-], including steps at whose start or end the contact is open (the spring is slack).
     pub steps: f64,
     /// Largest force of the bounce, averaged over a step [force, force·length].
     pub force: f64,
@@ -23,7 +23,7 @@ pub struct ShortBounce {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactWatch {
     steps: f64,
-    /// Rate of elongation at the beginning of the contact [length/time, rad/time].
+    /// Rate of the elongation or gap at the beginning of the contact [length/time, rad/time].
     entry: f64,
     /// Largest force of the present contact so far [force, force·length].
     force: f64,
@@ -38,8 +38,8 @@ impl ContactWatch {
         Self { noise: ROUNDING_DEPTH * largest_stiffness * extent, ..Self::default() }
     }
 
-    /// Records a step. The flags are true if the spring is slack at the start and at the end of the step.
-    /// The rates of elongation in the previous step and in the recorded step are `before` and `rate`.
+    /// Records a step. The flags are true if the contact is open (the spring is slack) at the start and at the end of the step.
+    /// The rates of the elongation or gap in the previous step and in the recorded step are `before` and `rate`.
     pub fn add(
         &mut self,
         [was_slack, is_slack]: [bool; 2],

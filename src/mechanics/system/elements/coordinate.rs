@@ -32,7 +32,7 @@ impl Coordinate {
         Self { value, rest: self.rest + lost }
     }
 
-    /// Difference between the accumulated sum and a number, with a rounding error relative to the difference.
+    /// Difference between the accumulated sum and a number. Its rounding error is proportional to the difference, not to the sum.
     pub fn difference(self, number: f64) -> f64 {
         (self.value - number) + self.rest
     }

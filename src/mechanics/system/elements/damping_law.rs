@@ -36,7 +36,8 @@ impl From<f64> for DampingLaw {
 /// Range of rates in which a damping law adds energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
-    /// The force of the law adds energy at the point with this rate [length/time, rad/time] and force [force, force·length].
+    /// Point of the law at which the force adds energy, or is not zero although the rate is zero.
+    /// The variant contains the rate [length/time, rad/time] and the force [force, force·length] of this point.
     At { rate: f64, force: f64 },
     /// The law is extrapolated linearly beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },

@@ -39,10 +39,10 @@ pub enum DragLaw {
     Line { normal: SpeedLaw, tangent: SpeedLaw },
 }
 
-/// Force of a body on the medium with the derivatives of the force, in components across and along a line.
+/// Force of a body on the medium, with the derivatives of the force. The components are perpendicular to a line and along it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DragResponse {
-    /// Components of the drag force across and along the line [force, or force/length].
+    /// Components of the force across and along the line [force, or force/length].
     pub force: Vec2,
     pub by_velocity: [Vec2; 2],
     pub by_angle: Vec2,
@@ -53,7 +53,7 @@ pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
 }
 
 impl DragLaw {
-    /// Drag force at a velocity relative to the medium, for a line with unit tangent `t`. For a point, `t` has no effect.
+    /// Force on the medium at a velocity of the body relative to the medium, for a line with unit tangent `t`. For a point, `t` has no effect.
     pub fn force(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));

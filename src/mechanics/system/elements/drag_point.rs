@@ -21,7 +21,7 @@ pub struct DragPoint {
     first: usize,
     shape: Vec<f64>,
     slope: Vec<f64>,
-    /// Quadrature weight [length]; 1 for a point.
+    /// Quadrature weight of a point of a beam with drag along its length [length]; 1 for drag on a single point.
     weight: f64,
     last_velocity: Vec2,
     speed: f64,

@@ -2,7 +2,7 @@
 //!
 //! Forces act along secants, so the work of a step is exactly the force times the elongation change.
 //! Positions are updated by increments, so their rounding error does not depend on the distance from the origin.
-//! The elongation is stored as its growth since the start, because the rounding error of a length may exceed the elongation.
+//! The growth of a length since the start is stored instead of the length. The growth may be smaller than the rounding error of the length.
 
 mod shares;
 mod term;
@@ -65,7 +65,7 @@ pub struct Elongation {
     pub change: f64,
     settled: (f64, f64),
     /// Secant [-]: vector whose scalar product with the increments of the ends in the step equals the elongation change.
-    /// For methods with forces at the end of a step, the secant is the derivative of the elongation at the end of the step.
+    /// For methods with forces at the end of a step, `secant` is instead the derivative of the elongation at the end of the step.
     pub secant: Vec<f64>,
     /// Derivative of the elongation change with respect to the coordinates [-].
     pub slope: Vec<f64>,
@@ -150,7 +150,7 @@ impl Elongation {
         }
     }
 
-    /// Largest of the increments from which the elongation change is computed [length, rad].
+    /// Largest magnitude of the increments from which the elongation change is computed [length, rad].
     pub fn moved(&self) -> f64 {
         self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()))
     }

@@ -49,7 +49,7 @@ pub trait ExternalForce {
         Ok(())
     }
 
-    /// Sets the longest interval in which a schedule is sampled with one set of points [time]. Longer steps are divided.
+    /// Sets the longest interval in which a schedule is sampled with one set of points [time]. In longer steps, several intervals are sampled.
     fn sample_in_parts(&mut self, _longest: f64) {}
 
     /// Evaluates the element just after a time, for example at the end of a static load step.

@@ -1,4 +1,4 @@
-//! Interface of elements that resist motion: springs, dampers, drag.
+//! Interface of elements that resist motion: springs, dampers, brakes, drag, obstacles and contacts between bodies.
 
 use super::{
     Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, WorkAndImpulse,
@@ -107,7 +107,7 @@ pub trait InternalForce {
         None
     }
 
-    /// State of the contact with an obstacle; `None` for other elements.
+    /// State of the contact for obstacles and contacts between bodies; `None` for other elements.
     fn contact(&self) -> Option<ContactState> {
         None
     }
@@ -121,7 +121,7 @@ pub trait InternalForce {
         Vec::new()
     }
 
-    /// Returns true if the straight path of a point in the step leads through the obstacle.
+    /// Returns true if a point moves through the obstacle, or through the other body of a contact, on its straight path in the step.
     fn crosses(&self, _bodies: &[Body], _increments: &[f64]) -> bool {
         false
     }

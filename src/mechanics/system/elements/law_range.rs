@@ -2,7 +2,7 @@
 
 use super::spring_law::SpringLaw;
 
-/// Largest distance of a value from a range that is attributed to rounding, as a fraction of the size of the range.
+/// Largest distance of a value from a range that is attributed to rounding, as a fraction of the largest magnitude of the limits of the range.
 const ROUNDING: f64 = 1e-9;
 
 /// Argument of a force law.

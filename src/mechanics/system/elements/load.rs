@@ -120,7 +120,7 @@ struct AppliedLoad {
     name: String,
     schedule: Schedule,
     check: Option<ScheduleCheck>,
-    /// Longest interval in which the schedule is sampled with one set of points [time]. Longer steps are divided.
+    /// Longest interval in which the schedule is sampled with one set of points [time]. In longer steps, several intervals are sampled.
     longest_part: f64,
     action: Action,
     factors: StageFactors,

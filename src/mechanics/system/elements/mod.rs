@@ -1,4 +1,4 @@
-//! Elements that act on bodies: point masses, weight, loads, springs and supports.
+//! Elements that act on bodies: point masses, weight, loads, springs, dampers, brakes, drag, contacts and supports.
 
 mod all;
 mod brake;

@@ -6,7 +6,7 @@ use crate::loads::{MotionInStep, PrescribedMotion};
 /// Largest jump of the rate of a motion between steps that does not count as a kink, as a fraction of the largest rate in the step [-].
 const LARGEST_SMOOTH_CHANGE: f64 = 0.1;
 
-/// Kink of a prescribed motion: a change of its rate within a step. Integrators assume a smooth motion within each step.
+/// Kink of a prescribed motion: an abrupt change of its rate within a step. Integrators assume a smooth motion within each step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionCurvature {
     /// Start time of the step with the kink [time].

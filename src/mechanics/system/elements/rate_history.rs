@@ -33,8 +33,8 @@ impl RateHistory {
 
     /// Coefficients of the rates for a stage and its weight; `None` at the start of a step, where rates are not used.
     ///
-    /// Rates are evaluated once per step, after the fraction `weight` of the step.
-    /// The evaluated rate is extrapolated from the mean rates of the present step and of the previous step.
+    /// At the middle of a step, the rate is the mean rate of the present step.
+    /// At the stage `End`, the rate after the fraction `weight` of the step is extrapolated from the mean rates of the present and the previous step.
     pub fn at(&self, stage: Stage, weight: f64) -> Option<RateCollocation> {
         let by_change = 1.0 / self.duration;
         let rotations = collocation(stage).rotations;

@@ -31,7 +31,7 @@ pub struct SpringDamper {
     rises: bool,
     /// Changes of the elongation from the initial configuration at which the stiffness of the law jumps [length, rad].
     corners: Vec<f64>,
-    /// Elongation for which the argument of the force law is zero [length, rad].
+    /// Argument of the original force law in the initial configuration [length, rad]. It is used to detect elongations outside the range of the law.
     offset: f64,
     ranges: [Option<LawRange>; 2],
     law_text: Option<String>,

@@ -81,7 +81,7 @@ impl SpringLaw {
         }
     }
 
-    /// Returns true if the law has corners and its force never decreases.
+    /// Returns true for a table or a sampled function whose force never decreases.
     pub(crate) fn rises_with_corners(&self) -> bool {
         match self {
             Self::Linear { .. } => false,
@@ -151,7 +151,7 @@ impl SpringLaw {
     }
 
     /// Stored energy at an elongation [energy].
-    /// The stored energy is zero where the force is zero, or at the first point of a table whose force has no zero.
+    /// It is zero at the elongation where the force changes from negative to positive, or else at the first point of the table.
     pub fn energy(&self, q: impl Into<Coordinate>) -> f64 {
         let q = q.into();
         match self {

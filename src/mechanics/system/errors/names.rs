@@ -77,7 +77,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
 /// Checks the name of a scene, of one of its objects, or of a simulation.
 ///
 /// # Errors
-/// Fails if the name has invisible characters or characters that cannot be typed.
+/// Fails if the name is empty or too long, begins like a formula, or has invisible or ambiguous characters.
 pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
     match refusal(name) {
         Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), reason: why }),

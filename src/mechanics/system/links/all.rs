@@ -173,8 +173,8 @@ impl Links {
     }
 
     /// Largest constraint violation in a residual [-].
-    /// The violation of a link is divided by the length of its arm plus its largest increment.
-    /// The violation of a roller is divided by the size of the scene.
+    /// The violation of a link is divided by the sum of the length of its arm and the largest increment of its points.
+    /// The violation of a roller is divided by the sum of the size of the scene and the largest increment of its point.
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let most = self.rigid.iter().fold(0.0, |most, link| larger(most, link.violation(residual)));
         self.rollers.iter().fold(most, |most, roller| larger(most, roller.violation(residual)))

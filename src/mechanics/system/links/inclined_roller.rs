@@ -42,7 +42,7 @@ impl InclinedRoller {
         [x, y]
     }
 
-    /// Force on the point for a value of the multiplier [force].
+    /// Force of the roller on its point for a value of the constraint multiplier [force].
     pub fn force_of(&self, unknown: f64) -> Vec2 {
         self.normal * -unknown
     }

@@ -47,7 +47,7 @@ pub struct ArmRule {
 #[derive(Debug, Clone)]
 pub struct RigidLink {
     pub body: usize,
-    /// Control point that is linked to the centre of mass, which is the first control point.
+    /// Control point that is linked to the centre of mass. The centre of mass is control point 0 of the body.
     pub point: usize,
     pub unknowns: [usize; 2],
     arm: Vec2,
@@ -203,7 +203,7 @@ impl RigidLink {
         out[rotation] -= cross(arm, force);
     }
 
-    /// Constraint violation of the link in a residual, divided by the length of its arm plus its largest increment [-].
+    /// Constraint violation of the link in a residual, divided by the sum of the length of its arm and its largest increment [-].
     pub fn violation(&self, residual: &[f64]) -> f64 {
         let off = larger(residual[self.unknowns[0]].abs(), residual[self.unknowns[1]].abs());
         if off == 0.0 { 0.0 } else { off / self.size }

@@ -9,7 +9,7 @@ pub struct BodyEnergy {
     pub kinetic: f64,
     /// Axial strain energy of the body [energy].
     pub axial: f64,
-    /// Shear strain energy of the body, including kinks under sliders [energy].
+    /// Shear strain energy of the body, including the energy of kinks (jumps of the tangent under sliders) [energy].
     pub shear: f64,
     /// Bending strain energy of the body [energy].
     pub bending: f64,

@@ -5,7 +5,7 @@ use crate::integrators::FailureSource;
 use crate::newton::ResidualPart;
 use crate::system::state::UnknownKind;
 
-/// Index of the first NaN or, without NaN, of the largest value; `None` if all values are zero.
+/// Index of the first NaN or, without NaN, of the largest magnitude; `None` if all values are zero.
 fn worst(values: impl Iterator<Item = f64>) -> Option<usize> {
     let size = |value: f64| if value.is_nan() { f64::INFINITY } else { value.abs() };
     let largest =

@@ -9,7 +9,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::state::InertiaSolver;
 
-/// Largest velocity along the master at which a slider sticks at the start, as a fraction of the largest velocity in the model.
+/// Largest velocity along the master at which a slider sticks at the start or after an impact, as a fraction of the largest velocity in the model.
 const AT_REST: f64 = 1e-9;
 
 impl System {
@@ -28,8 +28,8 @@ impl System {
         }
     }
 
-    /// For every slider with friction, computes the effective mass across its master.
-    /// The effective mass is the inverse of the relative velocity that a unit impulse causes. It is zero if this velocity is zero.
+    /// For every slider with friction, computes the effective mass across its master: the inverse of the relative velocity of slave and master
+    /// that a unit impulse across the master causes. The effective mass is set to zero if this velocity is zero.
     pub(super) fn measure_inertia_across(&mut self) {
         let Ok(mut solver) = self.take_inertia_solver() else { return };
         let Self { sliders, bodies, .. } = self;

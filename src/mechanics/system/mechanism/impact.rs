@@ -16,7 +16,7 @@ pub(super) type ImpactDirection = (usize, Vec2);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
-/// Bodies count as rigid in the direction of an impulse if a ratio of velocity responses is at most this value [-].
+/// Largest ratio of velocity responses at which slave and master count as rigid in the direction of an impulse [-].
 /// The ratio is the response with only the included deformations, divided by the response with all deformations.
 pub(super) const GIVES: f64 = 1e-9;
 
@@ -49,8 +49,8 @@ impl ImpulseResponse {
 /// Impact law: condition on the impulse of a contact, and on its velocities before and after the impact.
 ///
 /// The work of an impulse is the impulse times the mean of the velocities before and after the impact.
-/// For the law of a stop, the impact is also solved without impulses of stops. The law uses the mean of the velocities
-/// before and after this second impact. Velocities across masters are excluded from the mean, because their signs alternate from step to step.
+/// The law of a stop uses the mean of the velocities before and after an auxiliary impact in which stops exert no impulse.
+/// This mean contains no velocities across masters, whose signs alternate from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ImpactLaw {
     /// Law of a contact with zero relative velocity after the impact. The impulse may have either sign.
@@ -83,9 +83,9 @@ impl ImpactLaw {
 pub(super) struct ImpactProblem {
     directions: Vec<ImpactDirection>,
     responses: Vec<ImpulseResponse>,
-    /// Velocity changes in all contact directions due to unit impulses in these directions, one row per direction [1/mass].
+    /// Velocity change in each contact direction (row) due to a unit impulse in each contact direction (column) [1/mass].
     pub(super) response: Vec<Vec<f64>>,
-    /// Relative velocities in the contact directions before the impact [length/time].
+    /// Relative velocities in the contact directions before the impact, plus half of the jumps of prescribed rates [length/time].
     before: Vec<f64>,
     change: Vec<f64>,
     /// Jumps of prescribed rates, indexed by degree of freedom; empty without jumps.
@@ -192,7 +192,8 @@ fn response(answers: &[ImpulseResponse]) -> Vec<Vec<f64>> {
 }
 
 impl System {
-    /// Sets the velocities of all slaves across their masters to zero by the smallest change (Gauss's principle of least constraint).
+    /// Sets the velocities of all slaves across their masters to zero by the smallest change in the norm of the inertia matrix
+    /// (Gauss's principle of least constraint).
     pub(in crate::system) fn project_velocities(&mut self) -> Result<(), SystemError> {
         self.apply_transverse_impact().map_err(|_| self.sliders.overdetermined())
     }
@@ -254,7 +255,7 @@ impl System {
         true
     }
 
-    /// Speeds of the slave and of the contact point of the master in an impact direction [length/time].
+    /// Velocity components of the slave and of the contact point of the master in an impact direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
         let slider = &self.sliders[slider];
         let (slave, relative) = (
@@ -268,7 +269,7 @@ impl System {
         self.bodies.fastest_speed(&self.motion.rates)
     }
 
-    /// Speed of a slave across its master [length/time].
+    /// Velocity of a slave relative to its master, component across the master [length/time].
     pub(in crate::system) fn speed_across(&self, slider: usize) -> f64 {
         let slider = &self.sliders[slider];
         slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
@@ -299,7 +300,7 @@ impl System {
     }
 
     /// Computes the velocity responses to unit impulses, with the deformations selected by `deformation`.
-    /// If both bodies respond rigidly to an impulse, all deformations are included for the direction of the impulse.
+    /// If slave and master respond rigidly to an impulse, all deformations are included for this impulse.
     pub(super) fn impulse_responses_with(
         &mut self,
         inertia: &BandedLu<'_>,

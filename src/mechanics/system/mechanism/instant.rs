@@ -159,8 +159,8 @@ impl System {
         Ok(())
     }
 
-    /// Solves `M a + residual = Gᵀ λ` for the accelerations `a` and the contact forces `λ` on the masters.
-    /// `M` is the inertia matrix, and `Gᵀ` transmits contact forces to the unknowns.
+    /// Solves `M a + residual = Gᵀ λ` for the accelerations `a` and the contact forces `λ` on the slaves.
+    /// `M` is the inertia matrix, and `Gᵀ` transmits contact forces to slaves and, with opposite sign, to masters.
     fn solve_accelerations(&mut self, present: &mut PresentForces) -> Result<(), LinearError> {
         let solver = self.take_inertia_solver()?;
         let (inertia, unknowns) = (solver.factors(), self.unknowns());

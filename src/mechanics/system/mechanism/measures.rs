@@ -32,9 +32,9 @@ pub struct Measures {
     pub time: f64,
     /// Energy by type [energy].
     pub energy: Energy,
-    /// Work of the loads so far [energy].
+    /// Work of loads and drives so far [energy].
     pub work: f64,
-    /// Energy dissipated by dampers and lost in impacts so far [energy].
+    /// Energy dissipated by dampers, drag and friction, and lost in impacts, so far [energy].
     pub dissipated: f64,
     /// Linear momentum [mass·length/time].
     pub momentum: Vec2,
@@ -48,7 +48,7 @@ pub struct Measures {
     pub gross_impulse: f64,
     /// Sum of the magnitudes of all angular impulses so far, added up separately for each load and support [force·length·time].
     pub gross_angular_impulse: f64,
-    /// Largest distance between the partners of a joint [length].
+    /// Largest distance between the partners of a joint, of a slider or of a rigid link [length].
     pub gap: f64,
 }
 

@@ -12,12 +12,12 @@ use crate::integrators::{Inertia, Mechanism};
 use crate::linalg::{BandedLu, BandedMatrix};
 
 /// Deformations are suppressed by a term that is added to the inertia matrix: their stiffness times the square of a time.
-/// This value is the largest ratio of the added term to the inertia of a degree of freedom [-].
+/// `MOST` is the largest ratio of the added term to the inertia of a degree of freedom [-].
 const MOST: f64 = 1e10;
 
 const CORRECTIONS: usize = 4;
 
-/// Largest number of corrections that reduce the suppressed strains to zero.
+/// Largest number of iterations in which the suppressed strains are reduced to zero.
 const MOST_CORRECTIONS: usize = 60;
 
 /// Largest energy of the suppressed strains that counts as zero, as a fraction of the energy of the impulse [-].
@@ -26,9 +26,9 @@ const NO_STRAIN: f64 = 1e-20;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Deformation {
     All,
-    /// Deformations that time steps resolve. The value of this variant is the length of the steps [time].
+    /// All deformations except vibrations with periods much shorter than the given time [time].
     Resolved(f64),
-    /// Deformations without axial strain that time steps resolve. The value of this variant is the length of the steps [time].
+    /// All deformations without axial strain, except vibrations with periods much shorter than the given time [time].
     Inextensible(f64),
 }
 

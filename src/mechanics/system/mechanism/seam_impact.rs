@@ -26,7 +26,7 @@ const CORRECTIONS: usize = 40;
 /// Tolerance of the iteration for the rotation angle at a corner [rad].
 const RIGHT: f64 = 1e-12;
 
-/// Range of accepted estimates of the derivative of the rotation angle of the velocity with respect to the field `angle` of the search.
+/// Range of accepted estimates of a derivative: of the rotation angle of the velocity with respect to the field `angle` of `TurnSearch`.
 const SLOPES: std::ops::Range<f64> = 0.2..5.0;
 
 /// Corner of a track that a slider passes, with the directions before and after the corner [-].
@@ -129,8 +129,8 @@ impl System {
         Ok(())
     }
 
-    /// Adjusts the velocities of sliders at the ends of masters with a kink.
-    /// The velocity along the kinked axis is rotated to the smooth axis.
+    /// Rotates the relative velocities of sliders at ends of masters from the kinked axis onto the smooth axis, and removes the kinks.
+    /// A kink is a jump of the tangent of the axis under a contact force.
     pub(super) fn straighten_kinks(&mut self, limits: &[MasterLimit]) -> Result<(), LinearError> {
         let rates = &self.motion.rates;
         let corner = |&MasterLimit { slider, end }: &MasterLimit| {
@@ -183,7 +183,7 @@ fn turned(direction: Vec2, [from, to]: [Vec2; 2]) -> Vec2 {
 /// Computes the impulses of an impact in which corners rotate the velocities of sliders (docs/theory.md, section 10.3).
 /// All contacts without a corner follow their impact laws.
 /// The rotation angle of each corner is reached to 1e-12 rad, or as accurately as possible.
-/// The result is `None` if the rotation angles are not reached while sliders also strike stops.
+/// The result is `None` if the rotation angles are not reached while contacts that can only push are also struck.
 pub(super) fn deflect_at_corners(
     problem: &ImpactProblem,
     corners: &[SeamCorner],

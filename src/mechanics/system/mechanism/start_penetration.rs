@@ -1,4 +1,4 @@
-//! Bodies that start inside an obstacle.
+//! Bodies that start inside an obstacle or another body.
 
 use super::System;
 use crate::geometry::Vec2;
@@ -9,7 +9,7 @@ use crate::system::elements::{InternalForce, Penetration, TrialState};
 /// Below this limit, the penetration is attributed to the other forces.
 const EXPLAINED: f64 = 2.0;
 
-/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest body coordinate [-].
+/// Largest penetration that is attributed to the approximation of the axis by the mesh, as a fraction of the largest coordinate of the body [-].
 const APPROXIMATION: f64 = 1e-5;
 
 impl System {
@@ -23,7 +23,7 @@ impl System {
         })
     }
 
-    /// Bodies inside obstacles at the start, with the names of the obstacles, sorted by decreasing energy stored in the contact.
+    /// Bodies inside obstacles or other bodies at the start, with the name of the obstacle or contact, sorted by decreasing energy of the contact.
     /// Penetrations due to weight, loads and springs are left out.
     pub(crate) fn start_penetrations(&mut self) -> Vec<(String, Penetration)> {
         let bodies = &self.bodies;

@@ -4,7 +4,7 @@ use super::System;
 use crate::linalg::reverse_cuthill_mckee;
 
 /// Order of the unknowns in static and modal matrices.
-/// Without sliders and contact between bodies, it equals the order of the unknowns in the time integration.
+/// Without sliders and contact between bodies, this order equals the order of the unknowns in the time integration.
 /// Otherwise, all unknowns are reordered for a small bandwidth. Positions of sliders are additional unknowns.
 #[derive(Debug, Clone)]
 pub struct StaticOrder {

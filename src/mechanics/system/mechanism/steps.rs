@@ -13,7 +13,7 @@ use crate::system::elements::{TrialState, WorkAndImpulse, collocation};
 use crate::system::links::ArmRule;
 use crate::system::sliders::InStep;
 
-/// Rule for the arms of rigid links at a stage: the fraction of the step at which the integrator evaluates the balance.
+/// Rule for the arms of rigid links: they are evaluated at the fraction of the step at which the integrator evaluates the balance.
 /// Evaluation of the arms at any other fraction would reduce the integrator to first order.
 fn arm_rule(stage: Stage, weight: f64) -> ArmRule {
     let Collocation { rotations, configuration, .. } = collocation(stage);

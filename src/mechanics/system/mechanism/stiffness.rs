@@ -112,7 +112,7 @@ impl System {
         self.links.forces().saturating_sub(kinds.filter(is_light).count())
     }
 
-    /// Estimate of the square of the lowest bending frequency [1/time²]; `None` without a beam.
+    /// Estimate of the square of the lowest angular frequency of bending [1/time²]; `None` without a beam.
     /// The estimate is the smallest bending stiffness, divided by the largest mass per length and the fourth power of the total length.
     pub(crate) fn slowest_bending(&self) -> Option<f64> {
         let extents = || self.bodies.iter().filter_map(|body| body.dynamics.extent());
@@ -160,7 +160,7 @@ fn in_order<'t>(
     }
 }
 
-/// Adds the stiffness of the spans or elements with the given degrees of freedom to a stiffness matrix.
+/// Adds the stiffness of a span or an element with the given degrees of freedom to a stiffness matrix.
 pub fn add_resistance(stiffness: &mut PreciseBand, degrees: &[usize], span: &SpanStiffness) {
     let width = degrees.len();
     for (factor, row) in span.stiffness.iter().zip(span.strains.chunks_exact(width)) {

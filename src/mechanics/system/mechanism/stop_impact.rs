@@ -1,7 +1,7 @@
 //! Impacts at the ends of masters: simultaneous impacts, energy stored in stops, and release of sliders from stops.
 //!
-//! The stop acts like an elastic body: it stores the lost kinetic energy and returns it when the slider leaves.
-//! With a coefficient of restitution below one, the stop does not return the lost kinetic energy.
+//! The stop acts like an elastic body: it stores the lost kinetic energy and returns this energy when the slider leaves.
+//! With a coefficient of restitution below one, the lost kinetic energy counts as dissipated and is not returned.
 
 use super::System;
 use super::impact::{GIVES, ImpactDirection, ImpactLaw};
@@ -33,6 +33,7 @@ pub(super) struct ImpactContact {
 }
 
 /// Sliders that reach an end of their master at the same time, grouped by their behaviour at the end.
+/// A limit is a slider together with the end of its master that it reaches.
 #[derive(Debug, Clone, Default)]
 pub struct Arriving {
     /// Limits at which sliders bounce.
@@ -69,8 +70,8 @@ impl System {
 
     /// Returns true if a slider at an end of its master moves beyond the end, in a run with steps of length `dt` [time].
     /// The velocity of the slider contains no vibrations that steps of this length do not resolve.
-    /// At a stop with a coefficient of restitution, it also contains no axial waves and no vibrations faster than the impact.
-    /// It contains no component across the master, because that component changes its sign from step to step.
+    /// At a stop with a coefficient of restitution, the velocity also contains no axial waves and no vibrations faster than the impact.
+    /// The velocity contains no component across the master, because that component changes its sign from step to step.
     pub(crate) fn approaches(&mut self, limit: MasterLimit, dt: f64) -> Result<bool, SystemError> {
         let speed = self.stop_velocity(limit, dt).map_err(|_| self.sliders.overdetermined())?;
         Ok(speed < -NEGLIGIBLE_SPEED * self.fastest_speed())
@@ -262,7 +263,7 @@ impl System {
     /// Returns the stored energy of stops to the sliders that leave the stops.
     ///
     /// The speed of each leaving slider is proportional to the square root of the energy stored in its stop.
-    /// A common factor of all speeds makes the kinetic energy increase by the returned energy.
+    /// A common factor of all speeds is chosen so that the kinetic energy increases by the returned energy.
     fn return_stop_energy(&mut self) -> Result<(), LinearError> {
         let hits = self.impulse_directions(|model, limit| {
             let slider = &model.sliders[limit.slider];

@@ -18,7 +18,8 @@ const TOGETHER: f64 = 1e-12;
 
 impl System {
     /// Checks the present contact forces of sliders that only push, at the end of a step that has converged.
-    /// A slider with a tensile contact force takes off. If a step has to end at the take-off of a slider, its contact force must be zero.
+    /// A slider with a tensile contact force takes off.
+    /// If a step has to end at the take-off of a slider, the contact force of this slider at the end of the step must be zero.
     ///
     /// # Errors
     /// Fails if a slider takes off before the end of the step, or if it misses the take-off at which the step has to end.
@@ -78,7 +79,7 @@ impl System {
         self.sliders.iter_mut().for_each(|slider| slider.clear_events());
     }
 
-    /// Take-off, landing or bounce of a slider since the last call; `None` if its contact has not changed.
+    /// Take-off, landing, bounce, or passage beyond an end of the master, of a slider since the last call; `None` without such a change.
     pub(crate) fn take_contact_change(&mut self, slider: usize) -> Option<ContactChange> {
         self.sliders[slider].take_contact_change()
     }

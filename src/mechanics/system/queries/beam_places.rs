@@ -55,7 +55,7 @@ impl BeamPlaces {
 }
 
 impl System {
-    /// Positions along a beam for [`sample_along`](Self::sample_along): its knots and `within` positions between consecutive knots.
+    /// Positions along a beam for [`sample_along`](Self::sample_along): its knots, and `within_a_span` positions between consecutive knots.
     ///
     /// # Errors
     /// Fails if an axis has a point without a tangent.

@@ -45,7 +45,7 @@ impl System {
 
     /// Section forces of a beam in the present configuration. They follow from the strains by the material law: see [`SectionPlace`].
     ///
-    /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at its start and end.
+    /// In a step of the energy–momentum method, loads and inertia are balanced by the mean of the section forces at the start and the end of the step.
     ///
     /// The section forces include forces of material damping, which are computed from the present rates.
     pub fn section_forces(&self, at: &CrossSection) -> SectionForces {

@@ -31,7 +31,7 @@ impl System {
         self.slider(slider).most_spans
     }
 
-    /// Largest step length at a bounce of a slider, divided by the impact duration [-]; zero for rigid impacts.
+    /// Largest ratio of step length to impact duration at a bounce of a slider [-]; zero for rigid impacts.
     pub fn steps_per_impact(&self, slider: usize) -> f64 {
         self.slider(slider).steps_per_impact
     }
@@ -41,7 +41,8 @@ impl System {
         self.slider(slider).friction.as_ref().map_or(0, |friction| friction.fixed_steps)
     }
 
-    /// Largest speed along the master for which the kink varies with the contact force [length/time]; `None` for rules without a kink.
+    /// Largest speed along the master at which the kink varies with the contact force [length/time]; `None` for rules without a kink.
+    /// A kink is the jump of the tangent of the master under the contact force.
     pub(crate) fn kink_speed_limit(&self, slider: usize) -> Option<f64> {
         self.slider(slider).kink_speed_limit()
     }
@@ -75,27 +76,29 @@ impl System {
         self.slider(slider).flight_gap(self.bodies())
     }
 
-    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force, because of too many events.
+    /// Number of attempted steps in which a slider that only pushes stayed in contact under a tensile force.
+    /// Such a slider stays in contact after too many take-offs and landings within a step.
     pub fn steps_with_kept_contact(&self, slider: usize) -> usize {
         self.slider(slider).unilateral.as_ref().map_or(0, |contact| contact.kept_steps)
     }
 
-    /// Position of a slider along its initial master or track, from 0 to 1, plus completed rounds on a closed track [-].
+    /// Position of a slider along its undeformed master or track, from 0 to 1, plus completed rounds on a closed track [-].
     pub fn slider_position(&self, slider: usize) -> f64 {
         self.slider(slider).position()
     }
 
-    /// Arc length of a slider from the start of its initial master or track, including completed rounds on a closed track [length].
+    /// Arc length of a slider from the start of its undeformed master or track, including completed rounds on a closed track [length].
     pub fn slider_arc_length(&self, slider: usize) -> f64 {
         self.slider(slider).arc_length()
     }
 
-    /// Speed of a slider along its initial master or track, positive towards the end, zero if held or released [length/time].
+    /// Speed of a slider along its undeformed master or track, positive towards the end, zero if held or released [length/time].
     pub fn slider_speed(&self, slider: usize) -> f64 {
         self.slider(slider).speed(self.bodies(), self.rates())
     }
 
-    /// Friction limit minus the force along the master at the start of the last attempted step [force]; zero for a slider that does not stick.
+    /// Friction limit minus the force along the master at the start of the last attempted step [force].
+    /// The result is zero for a slider that slips or has no static friction.
     pub(crate) fn sticking_reserve(&self, slider: usize) -> f64 {
         self.slider(slider).sticking_reserve()
     }

@@ -9,11 +9,11 @@ use crate::system::elements::Element;
 /// Order of convergence of positions if a force acts between the ends of a beam: the shear strain jumps at the force.
 const FIRST: f64 = 1.0;
 
-/// Order of convergence of positions with sliders whose law represents the kink of the axis.
+/// Order of convergence of positions with sliders whose law represents the kink (jump of the tangent of the axis under the slider).
 const THIRD: f64 = 3.0;
 
 impl Scene {
-    /// Expected order of convergence of positions in the mesh size, for smooth loads.
+    /// Expected order of convergence of positions with respect to the span length, for smooth loads.
     ///
     /// Positions on meshes of degree `p` have the order `p + 1` if `p` is odd and `p` if it is even.
     /// The order is lower with forces that act between the ends of a beam: of sliders, contacts, joints and concentrated loads.

@@ -1,4 +1,4 @@
-//! Dissipation in a scene: damped materials and drag.
+//! Dissipative elements of a scene: material damping, drag, obstacles and contacts.
 
 use super::Scene;
 use crate::beams::Relaxation;

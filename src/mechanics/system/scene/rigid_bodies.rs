@@ -21,7 +21,7 @@ impl Scene {
     ///
     /// # Errors
     /// Fails if the name is taken, two points share a name, a number is not finite or is negative, or mass and inertia are both zero.
-    /// Also fails if the outline is not a polygon, or if the body has no point that shows its rotation.
+    /// Also fails if the outline is not a polygon, or if a body with an outline has no point off its centre of mass.
     pub fn add_rigid_body(
         &mut self,
         body: RigidBodyDefinition,

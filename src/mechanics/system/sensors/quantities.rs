@@ -27,7 +27,7 @@ pub struct Quantity {
 pub enum ValueTime {
     /// Present time.
     Present,
-    /// Present time; the value follows from the equations of motion.
+    /// Present time. The equations of motion are solved at this time for accelerations and forces.
     Instant,
     /// Mean over the last step.
     StepMean,
@@ -163,13 +163,13 @@ pub(in crate::system) static COLUMNS_OF_LOADS: [Quantity; 3] = [
 
 pub(in crate::system) static STORED: Quantity = quantity("stored", "energy", Present, Sum(stored));
 
-/// Energy dissipated by dampers, damped materials, drag and sliders since the start.
+/// Energy dissipated by dampers, brakes, damped materials, drag, contacts and sliders since the start.
 pub(in crate::system) static DISSIPATED: Quantity =
     quantity("dissipated", "energy", Present, Sum(dissipated));
 
 pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
 
-/// Work of drives and named loads in the last step, divided by the duration of the step.
+/// Power of a drive or a named load: its work in the last step, divided by the duration of the step.
 pub(in crate::system) static POWER: [Quantity; 1] =
     [quantity("power", "energy/time", SummedMean, Sum(power))];
 

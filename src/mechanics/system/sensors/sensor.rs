@@ -32,7 +32,7 @@ pub enum SensorSource {
     Drive(usize),
     /// Load, given by its index among the loads of the scene.
     Load(usize),
-    /// Spring, damper, damped material or drag, given by its index among these elements of the scene.
+    /// Element that is neither a mass nor a load, such as a spring, damped material, drag or contact. Only such elements are counted in its index.
     InternalForce(usize),
     /// Whole scene.
     Scene,

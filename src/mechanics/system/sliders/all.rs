@@ -159,7 +159,7 @@ impl Sliders {
         }
     }
 
-    /// Adds the derivatives of the moments and equations of sleeves that belong to rotations.
+    /// Adds the derivatives of the moments of sleeves, and the derivatives of the equations of sleeves with respect to rotations.
     pub fn add_static_rotations(
         &mut self,
         bodies: &[Body],
@@ -274,7 +274,7 @@ impl Sliders {
         self.target
     }
 
-    /// Smallest ratio, over all sliders, of the chord of the path of a slider in the step to the length of this path [-].
+    /// Smallest ratio of chord to length of the path of a slider in the step, over all sliders [-].
     pub fn shortest_chord(&self) -> f64 {
         self.iter().map(SliderContact::chord).fold(f64::INFINITY, f64::min)
     }
@@ -323,7 +323,7 @@ impl Sliders {
         })
     }
 
-    /// Energy lost in impacts of sliders at stops so far [energy].
+    /// Energy lost by all sliders in impacts and by friction so far [energy].
     pub fn lost_energy(&self) -> f64 {
         self.iter().map(|slider| slider.lost_energy).fold(0.0, |sum, lost| sum + lost)
     }

@@ -174,7 +174,7 @@ impl KinkedAxis {
         (self.jump, self.speed) = (Vec2::new(x, y), speed);
     }
 
-    /// Contact force on the master [force].
+    /// Contact force on the master, determined from the kink [force].
     pub fn force(&self) -> Vec2 {
         self.jump * (1.0 - self.inverse_square_speed * self.speed * self.speed)
     }

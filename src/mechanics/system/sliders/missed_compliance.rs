@@ -1,6 +1,6 @@
-//! Compliance of a beam at a transverse force and a couple that act at one point. The smooth basis functions of a mesh represent only a part of it.
+//! Missed compliance: part of the compliance of a beam under a transverse force and a couple at one point that a mesh does not represent.
 //!
-//! The compliance is the difference between the exact compliance of a straight beam and that of its mesh. Derivation: docs/theory.md, section 14.2.
+//! The missed compliance is the exact compliance of a straight beam minus the compliance of its mesh. Derivation: docs/theory.md, section 14.2.
 
 use crate::beams::{BeamError, StraightBeam};
 use crate::geometry::{PiecewisePolynomial, Span, larger};
@@ -12,19 +12,19 @@ const LEAST_POINTS: usize = 5;
 /// Compliance of the axis under a transverse force and a couple at one point that a mesh does not represent, as functions of the position of the point.
 #[derive(Debug, Clone)]
 pub struct MissedCompliance {
-    /// Displacement per transverse force [length/force].
+    /// Missed displacement per transverse force [length/force].
     pub transverse: PiecewisePolynomial,
-    /// Rotation per transverse force, equal to the displacement per couple [1/force].
+    /// Missed rotation per transverse force, equal to the missed displacement per couple [1/force].
     pub coupling: PiecewisePolynomial,
-    /// Rotation per couple [1/(force·length)].
+    /// Missed rotation per couple [1/(force·length)].
     pub rotation: PiecewisePolynomial,
 }
 
 impl MissedCompliance {
     /// Computes the compliance under a transverse force and a couple that a mesh does not represent.
     ///
-    /// The compliance is positive except in small parts of the first and the last span, where the reduced quadrature of a mesh may be slightly too soft.
-    /// The result is `None` if negative compliances are larger than positive ones: the mesh then has too few quadrature points.
+    /// The missed compliance is positive except in small parts of the first and the last span, where reduced quadrature may make a mesh too soft.
+    /// The result is `None` if negative values are larger than positive ones: the mesh then has too few quadrature points.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.
@@ -60,7 +60,8 @@ fn hinged_stiffness(beam: &StraightBeam<'_>) -> Result<Option<SymmetricFactors>,
     Ok(stiffness.factorise(0.0, &SymmetricSparse::new(size, |_| {})).ok())
 }
 
-/// Index of an unknown in the stiffness of the hinged beam of this size; `size`, which the matrix ignores, for the displacements of both ends.
+/// Index of an unknown in the stiffness of the hinged beam with `size` unknowns.
+/// The displacements of both ends are not unknowns. Their index is `size`, whose entries the matrix ignores.
 fn place(unknown: usize, size: usize) -> usize {
     match unknown {
         0 => size,
@@ -70,7 +71,7 @@ fn place(unknown: usize, size: usize) -> usize {
     }
 }
 
-/// Compliances under a force, between force and couple, and under a couple that the mesh does not represent at a point.
+/// Missed compliances at a point: displacement per force, rotation per force, and rotation per couple.
 fn missed(
     beam: &StraightBeam<'_>,
     factors: &SymmetricFactors,
@@ -128,7 +129,7 @@ mod tests {
         [&found.transverse, &found.coupling, &found.rotation].map(|of| of.in_span(span, xi)[0])
     }
 
-    /// Exact compliances of a cantilever minus those of dense algebra on the mesh.
+    /// Exact compliances of a cantilever minus the compliances of its mesh, which are computed with dense matrices.
     fn missed_by_cantilever(beam: &StraightBeam<'_>, section: &Section, xi: f64) -> [f64; 3] {
         let size = 2 * beam.control_points();
         let mut stiffness = DMatrix::zeros(size, size);

@@ -15,7 +15,8 @@ const MORE_POINTS: usize = 4;
 pub struct SleevedMaster {
     /// Angle of the undeformed axis relative to its start [rad].
     angle: PiecewisePolynomial,
-    /// Compliance in bending and shear, kink length and axial stiffness; `None` if the mesh has too few quadrature points.
+    /// Missed compliance in bending and shear, kink length (length over which the mesh spreads the jump of a strain at a point force),
+    /// and axial stiffness. `None` if the mesh has too few quadrature points.
     compliance: Option<(MissedCompliance, PiecewisePolynomial, f64)>,
 }
 
@@ -23,7 +24,7 @@ pub struct SleevedMaster {
 #[derive(Debug, Clone)]
 pub struct Sleeve {
     master: Arc<SleevedMaster>,
-    /// Undeformed angle of the master at the sleeve at the start [rad].
+    /// Angle of the undeformed master at the initial position of the sleeve [rad].
     start: f64,
     /// Direction of the sleeve at the start [rad].
     direction: f64,

@@ -62,7 +62,7 @@ pub struct SliderContact {
     pub friction: Option<Box<SliderFriction>>,
     /// State of a unilateral contact; `None` for a slider that never leaves its master.
     pub unilateral: Option<Box<UnilateralContact>>,
-    /// Direction that a sleeve restrains; `None` for other sliders.
+    /// State of a sleeve, which restrains the direction of the slave; `None` for other sliders.
     sleeve: Option<Box<Sleeve>>,
     master: MasterCurve,
     /// Path of the slider along its track; `None` for a slider on a single beam.

@@ -16,7 +16,8 @@ pub enum Prediction {
     FromMeanRates,
 }
 
-/// Ratio of the squared errors of the predictions from mean rates and from start rates, below which mean rates are used.
+/// Limit of the squared error of the prediction from mean rates, as a fraction of the squared error of the prediction from start rates.
+/// Below this limit, the next increments are predicted from mean rates.
 const SELECTION_RATIO: f64 = 0.8;
 
 #[derive(Debug, Clone)]
@@ -38,8 +39,8 @@ impl IncrementPrediction {
         }
     }
 
-    /// Compares the increments of a step with both predictions, in the norm of the diagonal inertia, and selects the better prediction.
-    /// Returns the errors of the prediction from start rates and of the prediction from mean rates.
+    /// Compares the increments of a step with the predictions from start rates and from mean rates, and selects the better prediction.
+    /// Returns the errors of the two predictions in the norm of the diagonal inertia.
     pub fn update(&mut self, at_start: &[f64], increments: &[f64], duration: f64) -> GuessErrors {
         let inverse = 1.0 / duration;
         let mut missed = GuessErrors::default();

@@ -37,7 +37,7 @@ impl InertiaSolver {
         self.inertia.factors()
     }
 
-    /// Velocity of a body in the direction of a unit impulse that acts on it, due to this impulse [1/mass].
+    /// Velocity in the direction of a unit impulse that this impulse causes [1/mass]. For the impulse of a contact, it is the relative velocity.
     /// The callback `add_forces` adds the generalised forces of the impulse.
     pub fn response(&mut self, add_forces: impl FnOnce(&mut [f64])) -> f64 {
         let Self { inertia, forces, rates, .. } = self;

@@ -11,7 +11,7 @@ pub struct MotionState {
     pub accelerations: Accelerations,
     forecast: IncrementPrediction,
     resolution: Resolution,
-    /// Bodies for which the resolution measures are also computed separately; empty if there is only one body.
+    /// Beams with material damping, for which the resolution measures are also computed separately; empty if there is only one body.
     monitored: Vec<MonitoredBody>,
 }
 

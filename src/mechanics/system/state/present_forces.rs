@@ -1,4 +1,4 @@
-//! Vectors for the accelerations and contact forces at the present time, which are kept between steps.
+//! Vectors for the accelerations and contact forces at the present time. They are kept between steps to avoid allocation.
 
 use crate::beams::Movement;
 use crate::geometry::Vec2;
@@ -7,7 +7,7 @@ use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
 pub struct PresentForces {
     pub rates: Vec<Vec<Movement>>,
-    /// Sum of all forces except inertia and contact forces, for each degree of freedom.
+    /// Internal forces minus loads for each degree of freedom, plus the inertia forces of prescribed accelerations.
     pub residual: Vec<f64>,
     /// Prescribed accelerations, indexed by the degree of freedom; empty without drives.
     pub prescribed: Vec<f64>,

@@ -90,7 +90,7 @@ impl Resolution {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }
 
-    /// Sum of the kinetic energies of all steps that contribute to the resolution measures [energy].
+    /// Twice the sum of the kinetic energies of all steps that contribute to the resolution measures [energy].
     pub fn kinetic(&self) -> f64 {
         self.kinetic
     }

@@ -1,5 +1,5 @@
 //! Measures of the temporal resolution for single bodies.
-//! They are needed because the unresolved motion of a small body hardly changes the measures of the whole scene.
+//! These measures are needed because the unresolved motion of a small body hardly changes the measures of the whole scene.
 
 use super::Resolution;
 use super::forecast::IncrementPrediction;

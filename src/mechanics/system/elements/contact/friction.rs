@@ -25,7 +25,7 @@ struct FrictionLaw {
     deflection: f64,
     /// Viscous force per slip [force/length].
     damping: f64,
-    /// Weight of this force in the mean force of the step [-]; 1 unless the force is evaluated at the end of the step.
+    /// Weight of the friction force in the mean friction force of the step [-]; 1 unless the force is evaluated at the end of the step.
     share: f64,
 }
 
@@ -135,7 +135,7 @@ pub struct NormalContact {
     /// Normal force [force]. It is negative if the contact pulls in the present iterate.
     pub force: f64,
     pub duration: f64,
-    /// Weight of this force in the mean force of the step [-]; 1 unless the force is evaluated at the end of the step.
+    /// Weight of the contact force in the mean contact force of the step [-]; 1 unless the force is evaluated at the end of the step.
     pub share: f64,
 }
 
@@ -219,7 +219,7 @@ impl<const N: usize> PointFriction<N> {
         if is_rounding { 0.0 } else { missed }
     }
 
-    /// Linearises the friction law at the present iterate.
+    /// Linearises the friction law at the present slip. A stiff contact is linearised at the slip where the law meets the response of the body.
     pub fn linearise(&mut self, contact: NormalContact) {
         let impedance = 2.0 * self.mass / square(contact.duration);
         let (law, slip) = (self.law(contact), self.trial.slip);
@@ -288,7 +288,7 @@ impl<const N: usize> PointFriction<N> {
         0.5 * self.stiffness * self.deflection * self.deflection
     }
 
-    /// Mean friction force in the last step along the surface, positive to the right of its normal [force].
+    /// Mean friction force in the last step along the surface, positive to the right of the normal of the surface [force].
     pub fn last(&self) -> f64 {
         self.force.last
     }

@@ -54,7 +54,7 @@ pub struct GapChange {
 
 #[derive(Debug, Clone)]
 pub struct NormalForce {
-    /// Quadrature weight [length]; 1 for a point.
+    /// Quadrature weight of a contact point of a beam [length]; 1 for a particle or a point of a body.
     weight: f64,
     /// Effective mass of the contact [mass]. It scales the search for the force and limits the damping.
     pub mass: f64,

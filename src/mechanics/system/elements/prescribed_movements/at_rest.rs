@@ -25,9 +25,9 @@ impl PrescribedMovements {
         Ok(())
     }
 
-    /// Finds the first drive whose static position under a load differs from its prescribed position just after `time`.
-    /// The static position is that under the full load times `load_factor`.
-    /// Returns the name of the drive, its static position and its prescribed position; `None` if no positions differ.
+    /// Finds the first drive whose position in a static solution differs from its prescribed position just after `time`.
+    /// The position in the static solution is `load_factor` times the displacement of the drive under the full load.
+    /// Returns the name of the drive, its position in the static solution and its prescribed position; `None` if no positions differ.
     pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };

@@ -12,7 +12,7 @@ impl SpringDamper {
     }
 
     /// Returns true if the law has a segment with zero force. The result determines the size of saved states.
-    /// Therefore it must not change if the spring is released.
+    /// Therefore the result must not change if the spring is released.
     pub(super) fn may_be_slack(&self) -> bool {
         let law = self.released.as_ref().map_or(&self.law, |(law, _)| law);
         law.as_ref().is_some_and(SpringLaw::may_be_slack)

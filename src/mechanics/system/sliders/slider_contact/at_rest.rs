@@ -48,13 +48,13 @@ impl SliderContact {
         unknowns[self.connection.places()].copy_from_slice(&guess.to_array());
     }
 
-    /// Sets the path of zero length at the position for trial values.
+    /// Sets a path of zero length at the position of the slider for trial values of the unknowns.
     pub(super) fn set_static_path(&mut self, unknowns: &[f64]) {
         let place = self.parameter + self.read(unknowns).increment;
         self.path.set_interval(place, place);
     }
 
-    /// Evaluates the contact for trial values, with the law of its sleeve; `None` for sliders that are not sleeves, and for released ones.
+    /// Evaluates the contact and the law of its sleeve for trial values. The law is `None` for released sliders, and for sliders that are not sleeves.
     pub(super) fn evaluate_static(
         &mut self,
         bodies: &[Body],

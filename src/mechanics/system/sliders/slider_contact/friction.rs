@@ -50,9 +50,9 @@ pub struct SliderFriction {
     slave_velocity: Vec2,
     /// Velocities of the control points of the master at the start of the step [length/time].
     master_velocities: Vec<Vec2>,
-    /// Velocity of the slave along the master at the start of the step [length/time].
+    /// Velocity of the slave relative to the master, component along the master, at the start of the step [length/time].
     start_velocity_along: f64,
-    /// Velocity of the slave across the master at the start of the step [length/time].
+    /// Velocity of the slave relative to the master, component across the master, at the start of the step [length/time].
     start_velocity_across: f64,
     pub inertia_across: f64,
     duration: f64,

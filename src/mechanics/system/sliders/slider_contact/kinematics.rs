@@ -125,7 +125,7 @@ impl SliderContact {
         bodies[body].vector_at(point, rates)
     }
 
-    /// Acceleration of the contact point on the master due to sliding [length/time²].
+    /// Part of the acceleration of the contact point that is due to its motion along the master [length/time²].
     pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];

@@ -128,7 +128,8 @@ impl SliderContact {
     }
 }
 
-/// Rows of the stiffness of a sleeve: for x, y and rotation of the slave, then of the control points of the master, and for the sliding increment.
+/// Rows of the stiffness of a sleeve. The entries of a row belong to x, y and rotation of the slave,
+/// then of the control points of the master, and to the sliding increment.
 struct StiffnessRows<'a> {
     slider: &'a SliderContact,
     bodies: &'a [Body],
@@ -136,7 +137,7 @@ struct StiffnessRows<'a> {
 }
 
 impl StiffnessRows<'_> {
-    /// Row of a component of the gap: an axis, and zero or one for the rotation.
+    /// Row of a component of the gap: of the displacement along `axis`, or of the rotation if `turns` is one.
     fn row(&self, axis: Vec2, turns: f64, [by_sleeve, by_way]: [f64; 2]) -> Vec<f64> {
         let mut row = vec![axis.x, axis.y, turns - by_sleeve];
         let values = self.slider.start_path.end();
@@ -179,7 +180,7 @@ impl StiffnessRows<'_> {
         self.master.offset((self.slider.force_of_state(), self.slider.couple()), order)
     }
 
-    /// Geometric stiffness: products with the sliding increment, and with the rotation of the sleeve.
+    /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`. The rows `q` select the sliding increment and the rotation of the slave.
     fn twists(&self, slides: f64, width: usize) -> Vec<f64> {
         let (force, moment) = (self.slider.force_of_state(), self.slider.couple());
         let [offset, change, second] = [0, 1, 2].map(|order| self.offset(order));

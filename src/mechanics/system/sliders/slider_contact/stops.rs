@@ -10,7 +10,7 @@ impl SliderContact {
         self.state = SliderState::Held(end);
     }
 
-    /// Books the work that an impact does on the bodies: the energy stored in the stop decreases by this work.
+    /// Records the work that an impact does on the bodies: the energy stored in the stop decreases by this work.
     /// If the impact loses energy or the contact is unilateral, the lost energy of the slider decreases instead.
     pub fn book_impact_work(&mut self, work: f64) {
         match self.restitution < 1.0 || self.unilateral.is_some() {

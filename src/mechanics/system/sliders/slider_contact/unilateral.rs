@@ -42,7 +42,7 @@ pub struct UnilateralContact {
     nearest: NearestPoint,
     may_land: bool,
     events: usize,
-    /// Number of attempted steps in which the slider stayed in contact because of too many events.
+    /// Number of attempted steps in which the slider stayed in contact because of too many take-offs and landings.
     pub kept_steps: usize,
     change: Option<ContactChange>,
 }

@@ -60,7 +60,7 @@ impl PairContact {
     }
 
     /// Friction between two members; `None` without friction.
-    /// The moment of the friction force about the contact is divided between the members in the ratio of their radii.
+    /// The total moment of friction on both members is divided between the members in the ratio of their radii.
     /// A particle does not rotate, so the whole moment of friction acts on the body that touches the particle.
     fn friction_of_pair(&self, own: usize, other: usize) -> Option<FrictionOfPair> {
         let radius =

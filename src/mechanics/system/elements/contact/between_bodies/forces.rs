@@ -169,7 +169,7 @@ impl PairForces {
     }
 
     /// Nearest point (foot of the perpendicular) on the axis of a body that a contact point touches in the present iterate.
-    /// The result is `None` if the contact point touched this body before.
+    /// The result is `None` without contact, or if a pair of the contact point and this body already exists.
     fn touched_foot(&self, index: PairIndex) -> Option<Foot> {
         let PairIndex { shape, site, target } = index;
         let (own, other) = (&self.shapes[shape], &self.shapes[target]);

@@ -93,9 +93,9 @@ impl GapTrial {
         Self { secant: [normal, -normal, Vec2::zeros()], arm, ..Self::NONE }
     }
 
+    /// Evaluates the change of the gap and the directions of the contact forces in an iterate.
     /// With the rotation increments `TangentScaled`, the work of the contact forces is exactly the normal force times the change of the gap.
     /// With the rotation increments `Angle`, the contact force has the direction of the gap at the end of the step.
-    /// With `Angle`, the contact force has the direction of the gap at the end of the step.
     pub(super) fn new(
         start: &GapStart,
         movement: &GapMovement,
@@ -155,7 +155,8 @@ impl GapTrial {
     }
 }
 
-/// Derivative of the parameter `ξ` of the nearest point: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
+/// Derivative of the parameter `ξ` of the nearest point `c(ξ)` of the curve to the contact point `x`, with respect to the local coordinates.
+/// It follows from the linearised condition of a perpendicular: `(δx - δc)·c' + (x - c)·δc' = (|c'|² - (x - c)·c'') δξ`.
 fn foot_slope(apart: Vec2, movement: &GapMovement) -> Slope {
     let [_, tangent, bend] = movement.tangents;
     let curvature = tangent.norm_squared() - apart.dot(&bend);

@@ -203,7 +203,8 @@ impl ContactPair {
         [at_point.sum(), at_foot.sum()]
     }
 
-    /// Updates the effective mass `m` along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    /// Updates the effective masses `m` along the normal and along the axis: `1/m = 1/m_point + 1/m_foot`.
+    /// Along the axis, the rotations of both bodies add a term to `1/m`.
     fn update_masses(&mut self, shapes: &[Shape]) {
         let (own, other) = (&shapes[self.index.shape], &shapes[self.index.target]);
         let point = own.mobility(self.place(shapes).weights());
@@ -556,7 +557,7 @@ impl ContactPair {
         }
     }
 
-    /// Contact force on the point at the start of the step, as an internal force [force].
+    /// Elastic contact force on the point at the start of the step, as an internal force [force].
     pub(super) fn elastic_force(&self) -> Vec2 {
         self.normal_at_start() * self.tension_at_start().0.force
     }

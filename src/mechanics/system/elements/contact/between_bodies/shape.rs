@@ -96,7 +96,7 @@ pub(super) const WHOLE_AXIS: AllowedParts =
 #[derive(Debug, Clone)]
 pub(super) struct ContactSite {
     pub(super) place: BodyPoint,
-    /// Quadrature weight [length]; 1 for a point.
+    /// Quadrature weight of a contact point of a beam [length]; 1 for a particle or a point of a body.
     pub(super) weight: f64,
     /// Parts of the axis of the same beam that the contact point can touch, without the parts close to the point along the axis.
     pub(super) allowed: AllowedParts,
@@ -134,7 +134,7 @@ struct SampledCurve {
     basis: Basis,
     spans: Vec<Span>,
     weights: Vec<f64>,
-    /// Enlargement of the box around the control points of a span that makes it contain the curve, as a fraction of its size [-].
+    /// Enlargement of the box around the control points of a span, as a fraction of the size of the box [-]. The enlarged box contains the curve.
     growth: f64,
 }
 
@@ -401,7 +401,7 @@ pub(super) struct CrossingPath {
     pub(super) from: Vec2,
     pub(super) to: Vec2,
     pub(super) allowed: AllowedParts,
-    /// Sum of both radii [length].
+    /// Sum of the radii of the contact point and of the touched body [length].
     pub(super) radius: f64,
 }
 
@@ -506,7 +506,7 @@ impl SpanSearch<'_> {
     }
 }
 
-/// Returns true if the origin passes between two points that move along straight lines.
+/// Returns true if the segment between two points that move along straight lines passes over the origin.
 fn passes_between([a, a_end]: [Vec2; 2], [b, b_end]: [Vec2; 2]) -> bool {
     let (da, db) = (a_end - a, b_end - b);
     // Twice the area of the triangle with corners at the origin and at the two points: c₀ + c₁ t + c₂ t² for t from 0 to 1.

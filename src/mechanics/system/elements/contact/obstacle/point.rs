@@ -38,8 +38,8 @@ impl Surface {
         }
     }
 
-    /// Returns true if a body through all positions cannot touch the obstacle.
-    /// All positions must be farther than the radius of the body from the tangent of the obstacle that faces the position `towards`.
+    /// Returns true if a body whose axis lies in the convex hull of `positions` cannot touch the obstacle.
+    /// All positions must then be farther than the radius of the body from a tangent of the obstacle, which faces the position `towards`.
     pub(super) fn is_beyond(
         &self,
         towards: Vec2,
