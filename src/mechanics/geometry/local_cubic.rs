@@ -10,7 +10,7 @@ const PARALLEL: f64 = 1e-12;
 /// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle of every piece has the same value.
 ///
 /// # Errors
-/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
+/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than about 1e-12 of the curve length.
 pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     if points.len() < 2 {
         return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });
