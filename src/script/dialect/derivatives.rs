@@ -1,4 +1,4 @@
-//! Operators on numbers and vectors that depend on parameters of a scene, evaluated in each variant.
+//! Operators on numbers and vectors that depend on parameters of a scene. The operators are evaluated for each perturbed set of parameters.
 
 use std::any::TypeId;
 use std::rc::Rc;
