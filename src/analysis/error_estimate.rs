@@ -18,10 +18,10 @@ const ORDERS: (f64, f64) = (0.05, 12.0);
 /// Smallest observed order of a converging run, as a fraction of the order of the integrator or mesh.
 const SHARE_OF_ORDER: f64 = 0.7;
 
-/// Smallest observed order of a converging single value.
+/// Smallest observed order of a converging single value, a result at one time only.
 const LEAST_ORDER: f64 = 0.7;
 
-/// Largest difference of the observed order of a converging single value from its largest expected order.
+/// Largest amount by which the observed order of a converging single value may exceed its largest expected order.
 const EXCESS: f64 = 1.0;
 
 /// Smallest correlation coefficient of the differences of successive refinement levels for which the runs count as converging [-].
@@ -33,7 +33,7 @@ const LARGEST_DECORRELATION: f64 = 8.0;
 /// Absolute tolerance of the order `p` and of the exponent `k`.
 const ACCURACY: f64 = 1e-3;
 
-/// Order and correlation exponent that are assumed for the smallest estimate of the error if the runs do not determine them.
+/// Order and correlation exponent for the smallest error estimate of runs that have not converged.
 const FIRST_ORDER: Convergence = Convergence { order: 1.0, decorrelation: 0.0 };
 
 /// Largest error at which a run may count as converged, as a fraction of the scale of the compared quantity.
@@ -50,7 +50,8 @@ const GROWTH_OF_CHAOS: f64 = 10.0;
 pub enum ErrorVerdict {
     Exact,
     /// The error is small, the differences of neighbouring levels are correlated, and the observed order is high enough.
-    /// The order must be at least 0.7 times the expected order.
+    /// For functions of time, the order must be at least 0.7 times the expected order.
+    /// For a single value, the order must be at least 0.7, and exceed the largest expected order by at most 1.
     Converged,
     /// The runs do not converge as expected. The error may differ from the estimate by more than a factor of 3.
     PreAsymptotic,
@@ -120,7 +121,7 @@ pub enum ExpectedOrder {
     Between(f64, f64),
     /// Order of a mesh for functions of time. It may be exceeded.
     AtLeast(f64),
-    /// Largest order of a single value.
+    /// Largest order of a single value, a result at one time only.
     ///
     /// The difference of two levels can be small by chance. The observed order of a single value is then too high.
     AtMost(f64),

@@ -4,7 +4,7 @@ use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::simulation::Simulation;
 
-/// Largest difference of two times that count as equal, as a fraction of the length of a run.
+/// Largest difference of two times that count as equal, as a fraction of the duration of a run.
 const SAME_TIME: f64 = 1e-9;
 
 #[derive(Debug, Clone, PartialEq)]

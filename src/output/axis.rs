@@ -50,7 +50,7 @@ impl Default for PlotAxis {
 }
 
 impl PlotAxis {
-    /// Creates a linear axis over the finite values, extended at each end by `margin` times the length.
+    /// Creates a linear axis over the finite values. The axis is extended at each end by `margin` times the range of the values.
     pub fn linear(values: impl IntoIterator<Item = f64>, margin: f64) -> Self {
         let (low, high) = extent(values).unwrap_or((0.0, 1.0));
         let size = low.abs().max(high.abs());

@@ -152,8 +152,8 @@ impl LineChart {
     }
 
     /// Combines the series of several charts in the axes of the first chart.
-    /// Each series is renamed to its chart, followed by its own name if the chart has several series.
-    /// Lines of the second chart are dashed, and lines of the third chart are dotted.
+    /// Each series gets the name of its chart, followed by its own name if the chart has several series.
+    /// Unless a series has its own line style, lines of the second chart are dashed, and lines of the third chart are dotted.
     pub fn shared(
         title: impl Into<String>,
         charts: impl IntoIterator<Item = (String, Self)>,

@@ -18,9 +18,9 @@ const ORDINATE: f64 = 1.0;
 /// Distance between ordinates [pixels].
 const APART: f64 = 7.0;
 const NUMBER: f64 = 12.0;
-/// Largest ordinate, as a fraction of the size of the beams.
+/// Length of the longest ordinate, as a fraction of the size of the beams.
 const LARGEST: f64 = 0.2;
-/// Smallest extreme value that has a label, as a fraction of the largest value.
+/// Smallest magnitude of an extreme value that has a label, as a fraction of the largest magnitude.
 const SMALLEST_LABELLED: f64 = 0.03;
 const DIGITS: usize = 4;
 

@@ -27,7 +27,7 @@ impl Prepared {
     /// Gives the file its final name, replaces an existing file with this name, and writes the folder to disk.
     ///
     /// # Errors
-    /// Fails if the file cannot be renamed; nothing is then changed.
+    /// Fails if the file cannot be renamed, and nothing is then changed. Also fails after renaming if the folder cannot be written to disk.
     pub fn rename_to_final(self) -> io::Result<()> {
         self.folder.0.rename(&self.partial, &self.name)?;
         self.folder.sync()
@@ -46,7 +46,8 @@ impl Folder {
     /// An existing file or link with the same name is replaced; the link is not followed.
     ///
     /// # Errors
-    /// Fails if writing fails, or if `name` is that of a folder, a pipe or a device. Existing files are then unchanged.
+    /// Fails if `name` is that of a folder, a pipe or a device, or if writing or renaming fails. Existing files are then unchanged.
+    /// Also fails if the folder cannot be written to disk after the file has its final name.
     pub fn write_atomic(&self, name: &Path, bytes: &[u8]) -> io::Result<()> {
         self.prepare(name, |file| file.write_all(bytes))?.rename_to_final()
     }

@@ -6,7 +6,7 @@ use super::simd::{LANES, Lanes};
 use super::span_points::window;
 use crate::geometry::{Basis, Span, Vec2};
 
-/// Largest speed `|dx/dξ|` of an axis that counts as zero, as a fraction of its mean speed.
+/// Largest parametric speed `|dx/dξ|` at which the axis counts as having no tangent, as a fraction of the mean parametric speed [-].
 const STANDSTILL: f64 = 1e-9;
 
 #[derive(Debug, Clone)]

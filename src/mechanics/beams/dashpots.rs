@@ -37,14 +37,14 @@ impl Relaxation {
     }
 }
 
-/// Rule for the rate of a quantity in a step: `by_change` times its change in the step, minus `by_last` times its previous rate.
+/// Rule for the time derivative (rate) of a quantity in a step: `by_change` times its change in the step, minus `by_last` times its rate in the last step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RateCollocation {
-    /// Fraction of the step at which the directions of forces are evaluated [-].
+    /// Fraction of the step, from its start, at which the directions and lever arms of the dashpot forces are evaluated [-].
     pub fraction: f64,
-    /// Factor by which the change in a step is multiplied in the formula for the rate of the step [1/time].
+    /// Factor of the change in the step, in the formula for the rate of the step [1/time].
     pub by_change: f64,
-    /// Factor by which the rate of the previous step is multiplied in the formula for the rate of a step [-].
+    /// Factor of the rate of the last step, in the formula for the rate of the step [-].
     pub by_last: f64,
     /// Type of rotation increments.
     pub rotations: RotationIncrement,
@@ -156,7 +156,7 @@ impl Dashpots {
     }
 
     /// Calls `give` with the dashpot forces on control points in the present iterate.
-    /// Returns the largest dashpot force, and the largest deviation of a dashpot force from the damping law.
+    /// Returns the largest dashpot force and the largest residual of the damping laws, which is converted to a strain.
     pub fn add_forces(
         &mut self,
         at: RateCollocation,

@@ -59,8 +59,9 @@ impl<const N: usize> ForcePoint<N> {
         }
     }
 
-    /// Section force for the present strain, and a flag that is true if the last solution has already determined this force.
-    /// The section force of the last solution has a smaller rounding error than a force computed from the strain.
+    /// Section force that belongs to the strain between two steps, and a flag.
+    /// The flag is true for the section force of the last solution, and false for a force computed from the strain.
+    /// The section force of the last solution is used if it agrees with the strain, because its rounding error is smaller.
     fn present_force(&self, section: &Section) -> (Vec2, bool) {
         let missing = self.strain - strain_from(section, self.last_force);
         let is_known = larger(missing.x.abs(), missing.y.abs()) <= SAME_STRAIN;

@@ -1,7 +1,8 @@
 //! Quadrature points for the axial and shear strain in vector lanes.
 //! The section force is an independent unknown (docs/theory.md, section 11).
 //!
-//! The derivative of each position is updated by increments, so rounding errors of strains do not depend on the distance from the origin.
+//! The derivative of the position with respect to arc length is updated by increments.
+//! Rounding errors of strains therefore do not depend on the distance from the origin.
 
 use pulp::Simd;
 

@@ -1,4 +1,4 @@
-//! Kink of a beam axis under a point force. The smooth basis functions of a mesh cannot represent the displacement due to the kink.
+//! Kink of a beam axis under a point force. The basis functions of a mesh are too smooth to represent the additional deflection at the kink.
 //!
 //! A point force on a shear-flexible beam causes a jump of the tangent of its axis.
 //! Derivation: docs/theory.md, section 10.1.
@@ -22,7 +22,7 @@ pub struct MissedKink {
     /// Kink length as a function of the position of the kink [length].
     /// The kink length is the shear stiffness times the additional deflection per unit force that the mesh does not represent.
     pub length: PiecewisePolynomial,
-    /// Factor that corrects the kinetic energy of a moving kink, because the mesh does not represent a part of this energy [-].
+    /// Factor of the kinetic energy of a moving kink [-]. It accounts for kinetic energy that the mesh does not represent.
     pub inertia: f64,
 }
 
@@ -33,7 +33,7 @@ pub fn arc_lengths(mesh: &Mesh, control_points: &[Vec2]) -> PiecewisePolynomial 
     PiecewisePolynomial::integral(&basis.spans(), basis.degree(), speed)
 }
 
-/// Computes the part of the kink under a point force that the mesh does not represent (docs/theory.md, section 10.1).
+/// Computes the kink length, as a function of the position on the mesh, and the factor of the kinetic energy (docs/theory.md, section 10.1).
 ///
 /// The result is `None` if the mesh is more compliant than the exact beam, so that the kink length is negative.
 /// This may occur on meshes with fewer quadrature points than the patch rule.

@@ -244,7 +244,7 @@ impl Mesh {
     }
 
     /// Number of quadrature points per span for the curvature `κ` in `run`, a sequence of smoothly joined spans.
-    /// If all its spans are joined with the highest continuity, each span needs one point fewer.
+    /// If all its spans are joined with the highest continuity, each span needs one point fewer, but at least two points.
     fn moment_points(&self, run: &[Span]) -> usize {
         let degree = self.basis.degree();
         let is_fully_smooth = run.windows(2).all(|pair| pair[1].first == pair[0].first + 1);

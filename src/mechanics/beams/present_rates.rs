@@ -1,6 +1,7 @@
-//! Strain rates at the end of a step, accurate even if the steps are longer than the relaxation time of the dashpots.
+//! Strain rates at the end of a step for the dashpot forces.
 //!
-//! The mean rates of the last two steps are extrapolated to the end of the last step. The extrapolated rate has an error of second order.
+//! If the steps are too long to resolve a rate, its mean values in the last two steps are extrapolated to the end of the last step.
+//! The error of the extrapolated rate is of second order in the step length.
 
 use super::Movement;
 
@@ -12,9 +13,10 @@ pub(super) struct DashpotRates<'a> {
     pub(super) is_extrapolated: [bool; 3],
 }
 
-/// Squared errors of a rate in a step, multiplied by the damping coefficient `c` [energy/time].
-/// The first error is the difference of the rate at the start and the rate interpolated between two steps: `off = c (start − interpolated)²`.
-/// The second error is the change of the mean rate since the previous step: `apart = c (now − before)²`.
+/// Squared errors of a strain rate in a step, multiplied by the damping coefficient `c` [energy/time].
+/// The first error is the rate at the start of the step minus the interpolation between the mean rates of this step and the last step:
+/// `off = c (start − interpolated)²`.
+/// The second error is the change of the mean rate since the last step: `apart = c (now − before)²`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct RateMismatch {
     pub(super) off: f64,
@@ -37,8 +39,8 @@ impl RateMismatch {
 /// Factor by which each step multiplies the squared errors that have been summed over all earlier steps.
 const KEPT: f64 = 0.8;
 
-/// Largest ratio `off / apart` (see [`RateMismatch`]) for which the steps count as resolving the rate.
-/// For a vibration of angular frequency `ω`, the ratio is below this limit if the step length `h` satisfies `ω h < 2`.
+/// Largest value of `√(off / apart)` (see [`RateMismatch`]) for which the steps count as resolving the rate.
+/// For a vibration of angular frequency `ω`, the root is below this limit if the step length `h` satisfies `ω h < 2`.
 const MOST_OFF: f64 = 0.5;
 
 #[derive(Debug, Clone, Default)]

@@ -34,7 +34,7 @@ pub struct SectionForces {
     pub axial_strain: f64,
     /// Shear strain `Γ2` [-], which is `Q/GA` without damping.
     pub shear_strain: f64,
-    /// Bending strain `κ` [1/length]: change of the curvature since the start, which is `M/EI` without damping.
+    /// Bending strain `κ` [1/length]: curvature minus initial curvature, which is `M/EI` without damping.
     pub curvature: f64,
 }
 

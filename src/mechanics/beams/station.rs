@@ -131,7 +131,7 @@ impl BodyPoint {
             .map_or(self.first, |(index, _)| index)
     }
 
-    /// Interpolates values of control points at the station.
+    /// Interpolates values of control points at this position.
     pub fn interpolate(&self, values: &[Vec2]) -> Vec2 {
         let points = &values[self.first..self.first + self.order];
         points.iter().zip(self.shape()).fold(Vec2::zeros(), |sum, (point, by)| sum + point * *by)

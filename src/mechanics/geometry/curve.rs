@@ -6,7 +6,7 @@ use super::knots::check_inside;
 use super::{CircularArc, GeometryError, KnotVector, Line, SplineCurve, Vec2, cross, local_cubic};
 use crate::elementary::{atan2, hypot};
 
-/// Largest distance of two points that count as coincident, as a fraction of the size of the curve.
+/// Largest distance of two positions that count as coincident, as a fraction of the length of the curve.
 pub const ROUNDING_OF_PLACES: f64 = 1e-12;
 
 /// Largest speed `|dx/dξ|` that counts as zero, as a fraction of the mean speed. A curve has no tangent where its speed is zero.
@@ -64,7 +64,7 @@ impl Curve {
     /// The spline has `2n + 2` control points and double interior knots at the points. Its parameter ξ runs from 0 to 1.
     ///
     /// # Errors
-    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
+    /// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than about 1e-12 of the curve length.
     pub fn through(points: &[Vec2]) -> Result<Self, GeometryError> {
         local_cubic::through(points).map(Self::Spline)
     }

@@ -8,7 +8,7 @@ use super::{Basis, Curve, GeometryError, Vec2};
 /// The interpolation is exact for lines, and for splines with the same knots.
 /// Other curves are interpolated at the [abscissae](Basis::abscissae) of the basis, which include the ends of the curve.
 /// For smooth curves, the interpolation error is of order `degree + 1` in the span length.
-/// Kinks of the curve are represented only at C⁰ breaks of the basis.
+/// Corners of the curve, where its tangent jumps, are represented only at C⁰ breaks of the basis.
 ///
 /// # Errors
 /// Fails if the curve cannot be evaluated.

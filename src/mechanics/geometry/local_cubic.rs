@@ -7,10 +7,10 @@ use super::{GeometryError, KnotVector, SplineCurve, Vec2, cross};
 const PARALLEL: f64 = 1e-12;
 
 /// Local cubic interpolation (The NURBS Book, section 9.3.4) through `n + 1` points. One cubic piece joins each pair of consecutive points.
-/// The end tangents of a cubic piece are those of [`tangents`]. The speed at the ends and in the middle of every piece has the same value.
+/// The end tangents of a cubic piece are those of [`tangents`]. The speed `|dx/dξ|` has the same value at the ends and middles of all pieces.
 ///
 /// # Errors
-/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than 1e-12 of the size of the curve.
+/// Fails if there are fewer than two points, coordinates are not finite, or consecutive points are closer than about 1e-12 of the curve length.
 pub(super) fn through(points: &[Vec2]) -> Result<SplineCurve, GeometryError> {
     if points.len() < 2 {
         return Err(GeometryError::TooFewPoints { count: points.len(), needed: 2 });

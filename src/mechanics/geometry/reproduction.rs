@@ -24,7 +24,7 @@ pub struct Reproduction<'a> {
 }
 
 impl LowerSplines {
-    /// Creates the space for consecutive spans that are joined at least C¹.
+    /// Creates the function space for consecutive spans that are joined at least C¹.
     pub fn of(basis: &Basis, run: &[Span]) -> Result<Self, GeometryError> {
         let count = lower_count(basis, run).unwrap_or(0);
         let mut splines =

@@ -1,6 +1,6 @@
 //! Gauss quadrature for the derivatives of splines.
 //!
-//! The number of quadrature points is the smallest number at which the values of such a derivative determine it uniquely.
+//! The number of quadrature points is the smallest number for which a spline derivative is determined by its values at these points.
 
 use super::collocation::{CollocationRow, solve};
 use super::{Basis, BasisValues, GaussRule, Span};

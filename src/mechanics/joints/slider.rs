@@ -6,7 +6,8 @@ use super::SlidingRule;
 use crate::beams::Station;
 
 /// Point that stays on the axis of a beam and slides along the axis, with or without friction.
-/// A one-sided slider can only push its master, and may leave the axis of the master on its side. A sleeve also restrains the direction.
+/// A one-sided slider can only push its master, and may leave the axis of the master on its side.
+/// A sleeve also keeps the angle between the slave and the master constant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slider {
     /// Name of the slider in messages and columns.
@@ -31,7 +32,7 @@ pub struct Slider {
     pub static_friction: Option<f64>,
     /// Movements of the slave that the slider restrains.
     pub restraint: Restraint,
-    /// Treatment of velocities of the slave across the master at the start.
+    /// Treatment of initial velocities of the slave across the master.
     pub velocities: StartVelocities,
 }
 
@@ -72,7 +73,7 @@ impl Slider {
         }
     }
 
-    /// Returns true if the slider is a sleeve, which also restrains the direction of its master.
+    /// Returns true if the slider is a sleeve, which also keeps the angle between the slave and the master constant.
     pub fn is_sleeve(&self) -> bool {
         self.restraint == Restraint::PlaceAndDirection
     }
@@ -138,7 +139,7 @@ impl EndAction {
     }
 }
 
-/// Treatment of velocities of the slave across the master at the start.
+/// Treatment of initial velocities of the slave across the master.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum StartVelocities {
     /// The scene is rejected if the slave has a velocity across its master.

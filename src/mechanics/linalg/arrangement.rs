@@ -5,6 +5,7 @@ use super::distant::DistantBlocks;
 use super::{BlockLayout, reverse_cuthill_mckee};
 
 /// Largest accepted ratio of the elimination work to the work for the same band without blocks [-].
+/// If the ratio is larger, the unknowns are renumbered for a small bandwidth.
 const LARGEST_WORK: usize = 4;
 
 /// Order of the unknowns that are not eliminated in blocks, including delayed unknowns, and the resulting profile of the matrix.

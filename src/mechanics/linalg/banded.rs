@@ -69,7 +69,7 @@ impl BandedMatrix {
         self.rows_mut().add(row, column, value);
     }
 
-    /// Entry at `(row, column)`; zero outside the band and the distant blocks.
+    /// Entry at `(row, column)`; zero outside the band and outside the dense blocks of distant couplings.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let here = |(r, c, _): &(usize, usize, f64)| (*r, *c) == (row, column);
         let distant: f64 = self.distant.iter().filter(here).map(|(.., value)| value).sum();

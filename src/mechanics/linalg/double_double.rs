@@ -45,7 +45,7 @@ impl DoubleDouble {
     #[inline(always)]
     pub(super) fn inverse(self) -> Self {
         let guess = 1.0 / self.high;
-        // The remainder `1 - guess · self` is small and is computed exactly.
+        // The fused multiply–add computes `1 - guess · high` exactly, so that the remainder `1 - guess · self` has a small relative error.
         let rest = (-guess).mul_add(self.low, (-guess).mul_add(self.high, 1.0));
         Self::renormalised(guess, guess * rest)
     }

@@ -1,10 +1,10 @@
 //! Gaussian elimination of a banded matrix by panels of columns.
 //!
-//! A panel of columns is eliminated without row exchanges if all multipliers are small. The multipliers depend only on the panel.
+//! A panel of columns is eliminated without row exchanges if all its multipliers are small. The multipliers depend only on entries of the panel.
 //! Reference for threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! Row exchanges and additional nonzero entries stay inside the profile, because the ends of its rows do not decrease from row to row.
+//! Row exchanges and additional nonzero entries stay inside the profile, because the last columns of successive rows do not decrease.
 
 use pulp::{Simd, WithSimd};
 
@@ -20,11 +20,11 @@ pub(super) const PANEL: usize = LANES;
 /// Smallest half-bandwidth for which the storage of a row has space for a panel and the vectors that are read after the panel.
 pub(super) const SMALLEST_HALF_BANDWIDTH: usize = PANEL + LANES - 2;
 
-/// Square of the largest multiplier that is accepted without a row exchange, for rows of equal norm.
+/// Square of the largest multiplier that is accepted without a row exchange, for rows of equal reference size (see `Storage::weigh_rows`).
 const LARGEST_SQUARE: f64 = 64.0;
 
 /// Returns true if a multiplier is so small that no row exchange is needed.
-/// The arguments are the multiplier, and the squared sizes of the pivot row and of the eliminated row.
+/// The arguments are the multiplier, and the squared reference sizes of the pivot row and of the eliminated row (see `Storage::weigh_rows`).
 #[inline(always)]
 pub(super) fn is_small(multiplier: f64, pivot_row: f64, row: f64) -> bool {
     multiplier * multiplier * pivot_row <= LARGEST_SQUARE * row

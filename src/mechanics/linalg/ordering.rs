@@ -9,9 +9,9 @@ pub struct Ordering {
     pub half_bandwidth: usize,
 }
 
-/// Numbers `count` unknowns. All unknowns of a group are coupled with each other.
+/// Numbers `count` unknowns for a small bandwidth. All unknowns of a group are coupled with each other.
 ///
-/// The given numbering is kept unless the reverse Cuthill–McKee numbering is narrower.
+/// The given numbering is kept unless the reverse Cuthill–McKee numbering has a smaller bandwidth.
 pub fn reverse_cuthill_mckee(count: usize, groups: &[Vec<usize>]) -> Ordering {
     let given: Vec<usize> = (0..count).collect();
     let reordered = order_by_levels(count, groups);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::elimination::{PANEL, SMALLEST_HALF_BANDWIDTH};
 use crate::elementary::square;
 
-/// Limit of the squared size of a constraint row (see `weigh_rows`), as a multiple of the second largest squared scaled entry of the row [-].
+/// Limit of the squared reference size of a constraint row (see `weigh_rows`), as a multiple of its second largest squared scaled entry [-].
 /// With this limit, the elimination loses at most half of the digits, which corrections with the same factors recover.
 const LARGEST_RATIO: f64 = 1e8;
 
@@ -108,9 +108,9 @@ impl Storage {
         }
     }
 
-    /// Computes the squared sizes of the rows, by which the pivot search divides squared entries.
-    /// If rows and columns are scaled to a unit diagonal, the squared size of a row is its diagonal entry.
-    /// The row of a constraint has no diagonal entry. Its size is its largest scaled entry, limited by [`LARGEST_RATIO`].
+    /// Computes a squared reference size of each row. The pivot search divides the squared entries of a row by this number.
+    /// The squared reference size of a row is its diagonal entry, as if rows and columns were scaled to a unit diagonal.
+    /// The row of a constraint has no diagonal entry. Its squared reference size is its largest squared scaled entry, limited by [`LARGEST_RATIO`].
     /// Without this limit, a negligible and therefore inaccurate diagonal entry could become a pivot.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());

@@ -9,9 +9,9 @@ use crate::geometry::larger;
 /// Prescribed motion. Either the displacement or the rate is given as a function of time.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum PrescribedMotion {
-    /// Displacement from the start as a function of time [length, rad].
+    /// Displacement from the initial position as a function of time [length, rad].
     Position(Schedule),
-    /// Rate as a function of time [length/time, rad/time].
+    /// Time derivative (rate) of the displacement as a function of time [length/time, rad/time].
     Rate(Schedule),
 }
 
@@ -54,7 +54,7 @@ const RATE_AT_END: [f64; 5] = [0.5, 2.0 / (-1.0 - INNER), 2.0, 2.0 / (INNER - 1.
 /// Weights of the values for the second derivative of the interpolation polynomial at the end of [-1, 1].
 const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 20.0, 17.0];
 
-/// Largest jump of the rate at a declared break for which the motion counts as smooth, as a fraction of the rate.
+/// Largest jump of the rate at a declared break for which the rate counts as continuous, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
 /// Bound of the rounding error of a rate, as a multiple of the rounding error of the values from which the rate is computed.
@@ -85,7 +85,7 @@ impl PrescribedMotion {
     /// Evaluates the motion between two times. `duration` is the difference of the times, which may be negative [time].
     ///
     /// A prescribed rate is integrated by [`Schedule::mean`].
-    /// The rate of a prescribed displacement is computed from five values inside the step, by a polynomial of degree four.
+    /// The rate of a prescribed displacement is computed from five values in the step and at its ends, by a polynomial of degree four.
     ///
     /// # Errors
     /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.
@@ -125,7 +125,7 @@ impl PrescribedMotion {
                     &[start, 0.5 * (start + end), end],
                     &[first, middle, last],
                 )?;
-                // If the rate jumps within the step, the motion has a kink, and the rate at the end of the step replaces the rate at its start.
+                // If the rate jumps within the step, the displacement has a kink. The rate at the end of the step then replaces the rate at its start.
                 let first_rate = jump.map_or(first, |_| last);
                 let rounding = ROUNDINGS * f64::EPSILON * size_of(&[first, middle, last]);
                 Ok(MotionInStep {
@@ -141,7 +141,7 @@ impl PrescribedMotion {
     }
 
     /// Jump of the rate at the start of a step [length/time, rad/time]; `None` if the rate is continuous.
-    /// The jump is computed at declared breaks and for controllers. `before` is the rate at the end of the last step.
+    /// The jump is computed only at declared breaks and for controllers. `before` is the rate at the end of the last step.
     pub(crate) fn jump_of_rate(
         &self,
         start: f64,

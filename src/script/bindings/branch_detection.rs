@@ -1,4 +1,4 @@
-//! Detection of script functions that branch on parameters of a scene, so that they jump and their derivatives are wrong.
+//! Detection of script functions that branch on parameters of a scene. The results of such functions may jump, so their derivatives are wrong.
 
 use rhai::{Array, Dynamic, FnPtr, Map, NativeCallContext};
 

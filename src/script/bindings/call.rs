@@ -234,7 +234,8 @@ pub(super) fn body_named(native: &NativeCallContext, name: &str, parameters: usi
     body
 }
 
-/// Closure that a call expression creates, without captured values, and the expressions of the captured variables.
+/// Closure that captures variables, without the captured values, and the expressions of the captured variables; `None` for other calls.
+/// Rhai represents such a closure in the syntax tree as a call of `curry`.
 pub fn written_within(call: &FnCallExpr) -> Option<(FnPtr, &[Expr])> {
     match call.args.as_slice() {
         [Expr::DynamicConstant(function, _), captured @ ..] if call.name == CAPTURE => {

@@ -1,5 +1,5 @@
 //! Source files of script functions, and script lines that call the library.
-//! They are recorded, because the engine does not know the file of a closure, and reports lines of calls only in errors.
+//! Files and lines are recorded, because the engine does not know the file of a closure, and reports lines of calls only in errors.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};

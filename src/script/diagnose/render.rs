@@ -124,7 +124,7 @@ impl std::fmt::Display for CallFrame {
 }
 
 impl Location {
-    /// Text of the location.
+    /// Part of the script text to which the location refers.
     pub fn text(&self) -> &str {
         &self.program.text[self.bytes()]
     }

@@ -1,4 +1,5 @@
-//! Operators on numbers and vectors that depend on parameters of a scene, evaluated in each variant.
+//! Operators on numbers and vectors that depend on parameters of a scene.
+//! The operators are evaluated for the given parameters and for each perturbation of a parameter.
 
 use std::any::TypeId;
 use std::rc::Rc;

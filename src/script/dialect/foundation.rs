@@ -17,7 +17,7 @@ rhai::def_package! {
         BasicMathPackage, BasicStringPackage, BasicTimePackage, LogicPackage, MoreStringPackage {}
 }
 
-/// Fixed seed of the hashes in Rhai. They are part of the names of closures (`anon$…`), which scripts can print.
+/// Fixed seed of the hashes in Rhai. Hashes are part of the names of closures (`anon$…`), which scripts can print.
 const SEED: [u64; 4] =
     [0x7769_7468_7920_0001, 0x7769_7468_7920_0002, 0x7769_7468_7920_0003, 0x7769_7468_7920_0004];
 

@@ -52,7 +52,7 @@ pub struct Condition {
 pub struct Controller {
     pub function: StoredFunction,
     pub value: Rc<Cell<f64>>,
-    /// Sampling interval of the controller; `None` if the function is called at every step.
+    /// Sampling clock of the controller; `None` if the function is called at every step.
     pub beat: Option<SampleClock>,
 }
 

@@ -1,6 +1,6 @@
 //! Definition files (`.d.rhai`) for the Rhai language server in editors, generated from the bindings.
 //!
-//! A function with optional arguments has one declaration for each number of arguments, because the format has no such arguments.
+//! A function with optional arguments has one declaration for each number of arguments, because the format has no optional arguments.
 //! Units, allowed values, options and examples are in the comment above a declaration, which editors show.
 
 mod types;

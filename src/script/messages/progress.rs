@@ -3,7 +3,7 @@
 /// Display of the progress of a simulation or study: a bar on a terminal, and nothing in a pipe.
 pub trait Progress {
     fn begin(&self, name: &str, from: f64, to: f64);
-    /// Shows the present time `t`. Implementations must be fast, because this function is called at every step.
+    /// Shows the present simulation time `t`. Implementations must be fast, because this function is called at every step.
     fn report_time(&self, t: f64);
     fn begin_cases(&self, name: &str, count: usize);
     /// Shows the number of completed cases. Implementations must be fast, because this function is called many times per second.

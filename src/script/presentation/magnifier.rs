@@ -7,7 +7,7 @@ use crate::joints::Partner;
 use crate::simulation::{DrawnConfiguration, Simulation};
 use crate::system::SystemError;
 
-/// Magnification of the deformations since the start.
+/// Magnification of the deformations relative to the initial configuration.
 ///
 /// Rigid motions of bodies that joints do not hold in place are not magnified.
 pub struct Magnifier<'a> {
@@ -35,7 +35,7 @@ pub struct MagnifiedBodies {
 }
 
 impl MagnifiedBodies {
-    /// Magnified position of a point of a body from its position at the start and now [length].
+    /// Magnified position of a point of a body [length]. `start` is the initial position of the point, and `now` its present position.
     pub fn magnified_position(&self, body: usize, start: Vec2, now: Vec2) -> Vec2 {
         let RigidMotion { from, to, turn, shift } = self.motions[body];
         let arm = start - from;

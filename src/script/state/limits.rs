@@ -22,7 +22,7 @@ pub const DEEPEST: usize = 1000;
 /// Address space of the stack for [`DEEPEST`] nested calls [bytes]. It uses memory only as it grows.
 pub const LEAST_STACK: usize = 256 << 20;
 /// Memory limit above which the stack size no longer increases with the memory limit [bytes].
-/// It increases because dropping deeply nested values needs stack in proportion to their memory.
+/// Below this limit, the stack size increases because dropping deeply nested values needs stack in proportion to their memory.
 const LARGEST_FOR_VALUES: u64 = 16 << 30;
 
 /// Resource limits of a run. `None` means unlimited.
@@ -158,7 +158,7 @@ impl Meter {
         self.steps.set(self.steps.get() + 1);
     }
 
-    /// Counts steps of other engines.
+    /// Counts the steps of simulations that ran on other threads.
     pub fn count_steps(&self, steps: usize) {
         self.steps.set(self.steps.get().saturating_add(steps as u64));
     }

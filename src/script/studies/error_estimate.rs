@@ -52,7 +52,7 @@ pub struct ErrorEstimate {
 pub struct QuantityError {
     pub name: String,
     pub dimension: &'static str,
-    /// Scale of the quantity: its largest value in the run, or for positions the size of the scene.
+    /// Scale of the quantity: its largest value in the run, or for positions the size of the scene, which is a length.
     pub scale: f64,
     pub in_time: Option<DiscretisationError>,
     pub in_space: Option<DiscretisationError>,

@@ -308,7 +308,7 @@ pub fn usual_stations(scene: &Scene) -> Vec<(String, Station)> {
     ends.chain(particles).chain(bodies).collect()
 }
 
-/// Usual stations and the middles of beams, which move if both ends are fixed.
+/// Stations of `usual_stations`, and the middles of beams, because a middle may move even if both ends of the beam are fixed.
 pub fn stations_and_middles(scene: &Scene) -> Vec<(String, Station)> {
     let middles = scene.beams.iter().enumerate().map(|(index, beam)| {
         let middle = Station::on_beam(index, 0.5 * beam.axis.length());

@@ -19,7 +19,7 @@ const MOST_RUNS: usize = 12;
 
 const MOST_REFINEMENT: [f64; 2] = [8.0, 4.0];
 
-/// Largest error without convergence that is accepted, as a fraction of the allowed error [-].
+/// Largest error estimate that is accepted although it has not converged, as a fraction of the allowed error [-].
 const NEGLIGIBLE: f64 = 0.1;
 
 /// Largest allowed error due to the steps, and due to the mesh, each as a fraction of the tolerance.

@@ -1,15 +1,15 @@
-//! Correction of the kinetic energy of a moving kink, because the mesh represents this energy only approximately.
+//! Factor of the kinetic energy of a moving kink, because the mesh represents this energy only approximately.
 
 use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// Largest number of spans over which the correction factor of the kinetic energy is averaged.
+/// Largest number of spans over which the factor of the kinetic energy is averaged.
 const SAMPLES: usize = 16;
 
 impl SplineString {
-    /// Factor that corrects the kinetic energy of a moving kink, a jump of the tangent of the axis [-].
-    /// The mesh does not represent a part of this energy (docs/theory.md, section 10.1).
+    /// Factor of the kinetic energy of a moving kink, a jump of the tangent of the axis [-].
+    /// The factor accounts for kinetic energy that the mesh does not represent (docs/theory.md, section 10.1).
     pub fn inertia(
         &self,
         mesh: &Mesh,
@@ -32,7 +32,8 @@ impl SplineString {
                         let fields = rule.iter_on(around.start, around.end).map(|(x, weight)| {
                             let values = basis.evaluate_in(around, x);
                             let own = values.values().iter().enumerate();
-                            // `missing` is the exact velocity (one beyond the kink, zero before it) minus the mesh velocity `there`.
+                            // `there` is the velocity of the mesh. `missing` is `1 - there`, where 1 is the exact velocity beyond the kink.
+                            // Before the kink, the exact velocity is zero. `square` is the squared exact velocity minus the squared mesh velocity.
                             let (there, missing) =
                                 own.fold((0.0, 0.0), |(there, missing), (a, n)| {
                                     let [low, high] = motion[around.first + a];

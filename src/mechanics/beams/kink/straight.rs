@@ -1,4 +1,4 @@
-//! Straight beam on the functions and the quadrature points of a mesh, whose compliance is compared with the exact one.
+//! Straight beam with the basis functions and quadrature points of a mesh. Its compliance is compared with the exact compliance.
 
 use super::arc_lengths;
 use crate::beams::mesh::QuadratureSpan;
@@ -6,8 +6,8 @@ use crate::beams::{BeamError, Mesh, Section};
 use crate::elementary::square;
 use crate::geometry::{BasisValues, PiecewisePolynomial, Span, Vec2};
 
-/// Straight shear-flexible beam on the functions and the quadrature points of a mesh, with small displacements.
-/// Its unknowns are the transverse displacement and the rotation of each control point, in turn.
+/// Straight shear-flexible beam with the basis functions and quadrature points of a mesh, for small displacements.
+/// The unknowns alternate: the transverse displacement and the rotation of the first control point, then those of the second, and so on.
 #[derive(Debug)]
 pub struct StraightBeam<'a> {
     mesh: &'a Mesh,
@@ -19,7 +19,7 @@ pub struct StraightBeam<'a> {
 }
 
 impl<'a> StraightBeam<'a> {
-    /// Creates a straight beam with the arc lengths of the axis that the control points describe.
+    /// Creates a straight beam with the same arc lengths as the axis that the control points describe.
     pub fn new(mesh: &'a Mesh, control_points: &'a [Vec2], section: &'a Section) -> Self {
         let (spans, arc) = (mesh.basis().spans(), arc_lengths(mesh, control_points));
         let last = spans.len() - 1;
@@ -47,8 +47,8 @@ impl<'a> StraightBeam<'a> {
         self.mesh.basis().evaluate_in(span, xi)
     }
 
-    /// Passes the derivatives of the shear strain or of the curvature at each quadrature point to `take`.
-    /// The arguments are the index of the first unknown, the stiffness, and the derivatives by consecutive unknowns.
+    /// Calls `take` for the shear strain or curvature at each quadrature point.
+    /// The arguments are the index of the first unknown, the stiffness, and the derivatives of the strain with respect to consecutive unknowns.
     /// The stiffness is `GA` or `EI` times the length that the quadrature point represents [force·length, force·length³].
     ///
     /// # Errors
@@ -89,8 +89,8 @@ impl<'a> StraightBeam<'a> {
         Ok((2 * values.first, speed, pairs.map(|(n, slope)| [*n, slope / speed]).collect()))
     }
 
-    /// Exact compliances of the beam with hinged ends at a point: displacement per force [length/force], rotation per force [1/force],
-    /// and rotation per couple [1/(force·length)].
+    /// Exact compliances, at one point, of the beam with hinged ends: displacement per force [length/force],
+    /// rotation per force [1/force], and rotation per couple [1/(force·length)].
     pub fn hinged(&self, span: usize, xi: f64) -> [f64; 3] {
         let Section { bending_stiffness: bending, shear_stiffness: shear, .. } = *self.section;
         let (whole, [a, ..]) = (self.length, self.arc.in_span(span, xi));

@@ -11,9 +11,9 @@ pub const CONTACT_UNKNOWNS: usize = 5;
 pub struct ContactUnknowns {
     /// Contact force `λ` on the master; the force `-λ` acts on the slave [force].
     pub force: Vec2,
-    /// Factor `μ` of additional forces on the control points of the master [force]. The sum of these forces is zero.
-    /// Their moment balances the moment of the contact forces, so that angular momentum is conserved.
-    /// For a sleeve in an equilibrium, the components are two moments instead (see [`super::RestingSleeve`]).
+    /// Factor of additional forces on the control points of the master [force]: `η`, or `χ` with a kink (docs/theory.md, sections 10 and 10.1).
+    /// The sum of these forces is zero. Their moment balances the moment of the contact forces, so that angular momentum is conserved.
+    /// For a sleeve in an equilibrium, the components are moments divided by a length instead (see [`super::RestingSleeve`]).
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
@@ -54,7 +54,8 @@ pub struct PathVector {
     pub by_end: Vec2,
 }
 
-/// Kink of the axis of a master: jump of its tangent under the contact force. The mesh does not represent it (docs/theory.md, section 10.1).
+/// Kink of the axis of a master: jump of its tangent under the contact force.
+/// The mesh does not represent this jump (docs/theory.md, section 10.1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Kink {
     /// Kink length of the master, as a function along the path of the slave [length].
@@ -84,7 +85,7 @@ pub struct KinkMotion {
     pub arc: FunctionOnPath,
     /// Speed of the kink at the start of the step [length/time].
     pub speed: f64,
-    /// Inverse square of the shear wave speed, times the correction factor of the kinetic energy of the kink [time²/length²].
+    /// Inverse square of the shear wave speed, times the factor of the kinetic energy of the kink (`MissedKink::inertia`) [time²/length²].
     pub inverse_square_speed: f64,
     /// Duration of the step [time].
     pub duration: f64,
@@ -142,9 +143,9 @@ impl Contact<'_> {
         PathVector { value, by_end: self.sum(self.path.slope(), 1.0) }
     }
 
-    /// Product of the contact force and the tangent of the master at the end of the step [force·length].
-    /// The product of force and tangent is positive if the slave pushes outwards at an end of the master.
-    /// The argument `outward` is the sign of the parameter change towards the end of the master at which the slider is.
+    /// Product of the contact force on the master, the tangent of the master at the end of the step, and `outward` [force·length].
+    /// The product is positive if the slave pushes the master outwards, at the end of the master at which the slider is.
+    /// The argument `outward` is the sign of the parameter change towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
         self.unknowns.force.dot(&self.end_point().by_end) * outward
     }

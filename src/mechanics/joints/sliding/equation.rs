@@ -19,7 +19,7 @@ pub struct Equation {
     pub value: f64,
     /// Unit of the value.
     pub unit: Unit,
-    /// Derivative of the value with respect to the increment of the slave [unit of the equation/length].
+    /// Derivative of the value with respect to the displacement of the slave in the step [unit of the equation/length].
     pub by_slave: Vec2,
     /// Derivative of the value with respect to the end position of the slave on the master [unit of the equation/length].
     pub by_end: Vec2,
@@ -44,7 +44,7 @@ impl Equation {
         }
     }
 
-    /// Derivative of the value with respect to the increment of a control point of the master.
+    /// Derivative of the value with respect to the displacement of a control point of the master in the step.
     /// The argument `(end, mean, difference)` contains the weights of the control point in the order of `Contact::weights`.
     pub fn by_master(&self, (end, mean, difference): (f64, f64, f64)) -> Vec2 {
         self.by_end * end + self.by_mean * mean + self.by_difference * difference

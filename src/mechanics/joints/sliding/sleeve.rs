@@ -4,8 +4,8 @@ use super::contact::AXES;
 use super::{AtStop, CONTACT_UNKNOWNS, Contact, Equation, Resting, SlidingLaw, Unit};
 use crate::geometry::{Vec2, cross, perpendicular};
 
-/// Angle between a sleeve and its master, and the compliance of the master that its mesh does not represent.
-/// An array of three numbers contains a value, and its first and second derivatives with respect to the parameter of the master.
+/// Angle between a sleeve and its master, and the missing compliance: the compliance of the master that its mesh does not represent.
+/// An array of three numbers contains a missing compliance, and its first and second derivatives with respect to the parameter of the master.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MasterAtSleeve {
     /// Angle of the sleeve minus the angle of the master on its mesh, relative to the initial difference [rad].
@@ -14,13 +14,13 @@ pub struct MasterAtSleeve {
     pub slopes: [f64; 2],
     /// Unit vector along the sleeve [-].
     pub along: Vec2,
-    /// Displacement across the sleeve per force across the sleeve [length/force].
+    /// Missing compliance: displacement across the sleeve per force across the sleeve [length/force].
     pub transverse: [f64; 3],
-    /// Rotation per force across the sleeve, equal to the displacement per couple [1/force].
+    /// Missing compliance: rotation per force across the sleeve, equal to the displacement per couple [1/force].
     pub coupling: [f64; 3],
-    /// Rotation per couple [1/(force·length)].
+    /// Missing compliance: rotation per couple [1/(force·length)].
     pub rotation: [f64; 3],
-    /// Displacement along the sleeve per force along the sleeve [length/force].
+    /// Missing compliance: displacement along the sleeve per force along the sleeve [length/force].
     pub axial: [f64; 3],
 }
 
@@ -28,7 +28,7 @@ pub struct MasterAtSleeve {
 ///
 /// The unknown `couple.x` is the couple of the sleeve on the master.
 /// The unknown `couple.y` is the moment of the contact force on the slave about the axis that the mesh represents.
-/// Both are divided by [`Contact::length`].
+/// Both unknowns are moments divided by [`Contact::length`].
 #[derive(Debug, Clone, Copy)]
 pub struct RestingSleeve {
     /// Angle and compliance of the master at the sleeve.
@@ -37,7 +37,8 @@ pub struct RestingSleeve {
     pub stop: Option<f64>,
 }
 
-/// Displacement and rotation of the axis at a sleeve that the mesh does not represent, or their derivatives by the parameter of the master.
+/// Part of the displacement and rotation of the axis at a sleeve that the mesh does not represent.
+/// The type is also used for derivatives of this part with respect to the parameter of the master.
 #[derive(Debug, Clone, Copy)]
 pub struct SleeveOffset {
     /// Displacement [length].
@@ -49,7 +50,8 @@ pub struct SleeveOffset {
 }
 
 impl MasterAtSleeve {
-    /// Displacement and rotation of the axis due to a force and a couple on the master, or a derivative of this order by its parameter.
+    /// Displacement and rotation that the mesh does not represent, due to a force and a couple on the master.
+    /// For `order` 1 or 2, the result is the derivative of this order with respect to the parameter of the master.
     pub fn offset(&self, (force, moment): (Vec2, f64), order: usize) -> SleeveOffset {
         let (along, normal) = (self.along, perpendicular(self.along));
         let (across, tension) = (force.dot(&normal), force.dot(&along));
@@ -113,7 +115,8 @@ impl RestingSleeve {
         equation
     }
 
-    /// Work of the couple and of the missing compliance if the sleeve slides, and the derivative of this work [force·length].
+    /// Derivative of the work of the couple and of the missing compliance in sliding of the sleeve [force·length].
+    /// The derivative has the order `order`, 1 or 2, and is taken with respect to the parameter of the master.
     fn work(&self, contact: &Contact<'_>, order: usize) -> f64 {
         let (force, moment) = (contact.unknowns.force, self.moment(contact));
         let offset = self.offset(contact, order);
@@ -121,7 +124,7 @@ impl RestingSleeve {
         moment * self.master.slopes[order - 1] + 0.5 * of_offset
     }
 
-    /// Adds the work of the couple and of the missing compliance to the equation of sliding without friction.
+    /// Adds the first derivative of the work of the couple and of the missing compliance to the equation of sliding without friction.
     fn slide(&self, contact: &Contact<'_>, equation: &mut Equation) {
         let (scale, change) = (1.0 / contact.length, self.offset(contact, 1));
         equation.value += self.work(contact, 1) * scale;

@@ -16,7 +16,7 @@ pub struct StepMean {
     pub mean: f64,
     /// Difference between the results of two quadrature rules [-]; zero if the mean is exact.
     pub sampling_error: f64,
-    /// Largest absolute value of the samples [-].
+    /// Largest absolute value of the samples [-]; the absolute mean if no samples are used. For a sum of schedules, the sum of these values.
     pub largest: f64,
 }
 

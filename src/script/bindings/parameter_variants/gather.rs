@@ -11,8 +11,9 @@ use crate::script::messages::error::ScriptError;
 use crate::script::messages::numbers::as_number;
 
 /// Combines the results of all variants, the unperturbed variant first, to one value.
-/// The result is a plain value if all results are equal. Scene objects (`is_thing`) already contain their variants.
-/// Booleans, texts and integers keep only the result of the unperturbed variant.
+/// The result is a plain value if all results are equal.
+/// For booleans, texts and integers, only the result of the unperturbed variant is kept.
+/// The same applies to objects for which `is_thing` is true, because objects of a scene contain their variants.
 ///
 /// # Errors
 /// Fails if arrays or maps differ between variants in more than numbers.

@@ -41,7 +41,7 @@ thread_local! {
     static ANY: Cell<bool> = const { Cell::new(false) };
     static THINGS: RefCell<HashMap<TypeId, (&'static str, SceneParameters)>> = RefCell::default();
     static PRESENT: RefCell<Option<CurrentVariant>> = const { RefCell::new(None) };
-    /// Reason why the present call has no results in perturbed variants; `None` if it has.
+    /// Reason why the call that is being evaluated has no results in perturbed variants; `None` if it has such results.
     static LOST: RefCell<Option<Rc<str>>> = const { RefCell::new(None) };
 }
 
@@ -62,7 +62,7 @@ pub(super) fn of_thing(value: &Dynamic) -> Option<Rc<ParameterSet>> {
     known.and_then(|(_, family_of)| family_of(value))
 }
 
-/// Variant in which the present call is evaluated; `None` if the call is not evaluated in variants.
+/// Variant in which a call is being evaluated; `None` if no call is being evaluated in variants.
 pub fn present() -> Option<CurrentVariant> {
     PRESENT.with_borrow(Clone::clone)
 }
@@ -176,7 +176,7 @@ impl ParameterSet {
         Some((beside / 2, beside % 2 == 0))
     }
 
-    /// Description of a variant, for example `EI = … + 1e-3`; empty for the unperturbed variant.
+    /// Description of a variant, for example `'EI' plus 1e-3`; empty for the unperturbed variant.
     pub fn describe(&self, variant: usize) -> String {
         let parameters = self.parameters.borrow();
         let of =

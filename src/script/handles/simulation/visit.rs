@@ -10,7 +10,7 @@ pub type Look<'l> = &'l mut dyn FnMut(usize, &Simulation) -> Result<(), ScriptEr
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Visited {
     All,
-    /// The repeated run differs from the original run, first at the time in the variant.
+    /// The repeated run differs from the original run. The field is the first visited time at which the runs differ [time].
     Diverged(f64),
 }
 
