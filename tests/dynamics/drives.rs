@@ -19,7 +19,7 @@ use withy::system::{
 };
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
-    Schedule::Function { function: Rc::new(move |t| Ok(of(t))), breaks: Vec::new() }
+    Schedule::Function { function: Rc::new(move |t: f64| Ok(of(t))), breaks: Vec::new() }
 }
 
 fn section(axial: f64) -> Section {
@@ -171,7 +171,7 @@ fn spin_up_has_the_published_stretch_and_the_converged_lag() {
         rotary_inertia: 6e-4,
     };
     let motion = PrescribedMotion::Position(Schedule::Function {
-        function: Rc::new(|t| Ok(spun_up(t))),
+        function: Rc::new(|t: f64| Ok(spun_up(t))),
         breaks: vec![15.0],
     });
     let scene = turned(&Mesh::bspline(10, 3, 2).unwrap(), section, 10.0, motion, 0.0);

@@ -185,7 +185,7 @@ fn rewinding_restores_states_over_halved_steps() {
 fn rewinding_restores_states_under_a_function_of_time() {
     let mut scene = scenes::towed(&Mesh::bspline(3, 3, 2).unwrap());
     let schedule =
-        Schedule::Function { function: Rc::new(|t| Ok((3.0 * t).cos())), breaks: vec![0.17] };
+        Schedule::Function { function: Rc::new(|t: f64| Ok((3.0 * t).cos())), breaks: vec![0.17] };
     let station = scenes::end_of(&mut scene, 0);
     scene.add_load(LoadKind::Moment { station, moment: 2.0 }, schedule);
     assert_walk_is_straight("function", &scene, settings(Method::EnergyMomentum, 0.05), 12, 7);

@@ -37,7 +37,7 @@ fn moved(schedule: Schedule) -> Scene {
 }
 
 fn function(of: impl Fn(f64) -> f64 + 'static) -> Schedule {
-    Schedule::Function { function: Rc::new(move |t| Ok(of(t))), breaks: Vec::new() }
+    Schedule::Function { function: Rc::new(move |t: f64| Ok(of(t))), breaks: Vec::new() }
 }
 
 fn place(simulation: &Simulation) -> f64 {
@@ -133,7 +133,10 @@ fn functions_unresolved_by_steps_are_reported_once() {
     let seen = [
         pushed(function(|t| (2.0 * t).sin())),
         pushed(function(|t| f64::from(u8::from(t < 0.5)))),
-        pushed(Schedule::Function { function: Rc::new(move |t| Ok(jump(t))), breaks: vec![0.537] }),
+        pushed(Schedule::Function {
+            function: Rc::new(move |t: f64| Ok(jump(t))),
+            breaks: vec![0.537],
+        }),
         moved(function(|t| t * t)),
     ];
     for scene in seen {

@@ -118,8 +118,10 @@ mod tests {
         assert_eq!(refused(vec![one.clone(), sum.clone()]), LoadError::StoredTerms);
         assert!(matches!(refused(vec![one; 3000]), LoadError::TooManyParts { .. }));
         assert!(matches!(refused(vec![StoredTerm::Table(vec![])]), LoadError::ShortTable { .. }));
-        let function =
-            Schedule::Function { function: Rc::new(Ok::<f64, FunctionError>), breaks: vec![] };
+        let function = Schedule::Function {
+            function: Rc::new(Ok::<f64, super::super::FunctionError>),
+            breaks: vec![],
+        };
         let both = Schedule::combined(Operation::Sum, function, Schedule::Constant(1.0)).unwrap();
         assert!(!both.can_be_stored());
     }

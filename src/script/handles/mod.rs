@@ -1,8 +1,10 @@
 //! Handles of scenes, beams, stations, simulations and histories for scripts. Clones of a handle refer to the same object.
 
 pub mod beam;
+pub mod captured_variables;
 pub mod equilibrium;
 pub mod events;
+pub mod function_of_time;
 pub mod history;
 pub mod joint;
 pub mod notes;

@@ -16,13 +16,13 @@ use super::vectors::VECTOR;
 use crate::beams::{BodyPoint, Station};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::bindings::kind::{Scripted, Type};
 use crate::script::bindings::parameter::{Parameter, Presence, integer, number, object, options};
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{
     BindingTable, FunctionBinding, NativeFunction, function, method, property,
 };
+use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::RunStart;

@@ -7,13 +7,13 @@ use rhai::{Dynamic, FnPtr};
 use crate::loads::{LimitSide, Operation, SampleClock, Schedule};
 use crate::script::bindings::arguments::Arguments;
 use crate::script::bindings::call::Call;
-use crate::script::bindings::function_of_time::FunctionOfTime;
 use crate::script::bindings::kind::{Details, Kind, NumberRange, Scripted, Type};
 use crate::script::bindings::parameter::{
     Parameter, Presence, array, callback, number, numbers, object,
 };
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function, method, operator};
+use crate::script::handles::function_of_time::FunctionOfTime;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::as_number;

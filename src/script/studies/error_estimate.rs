@@ -13,7 +13,7 @@ use crate::output::{
     Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, scientific,
     significant,
 };
-use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
+use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;

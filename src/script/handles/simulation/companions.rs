@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::SimulationHandle;
-use crate::script::bindings::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::bindings::stored::StoredFunction;
+use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::notes::{Notes, Printing};
 use crate::script::handles::scene::SceneHandle;

@@ -3,8 +3,8 @@
 use rhai::Dynamic;
 
 use super::function_of_time::FunctionOfTime;
-use super::stored::StoredFunction;
-use crate::script::handles::simulation::SimulationHandle;
+use super::simulation::SimulationHandle;
+use crate::script::bindings::stored::StoredFunction;
 use crate::script::messages::error::ScriptError;
 use crate::system::Scene;
 

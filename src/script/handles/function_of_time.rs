@@ -2,9 +2,9 @@
 
 use rhai::EvalAltResult;
 
-use super::sources::Sources;
-use super::stored::{NoNumber, StoredFunction};
 use crate::loads::{FunctionError, TimeFunction};
+use crate::script::bindings::sources::Sources;
+use crate::script::bindings::stored::{NoNumber, StoredFunction};
 use crate::script::diagnose::Explainer;
 use crate::script::messages::raised::Raised;
 use crate::script::source::program::Program;
