@@ -199,9 +199,9 @@ pub struct CheckOptions {
 /// Options of `withy docs`.
 #[derive(Args)]
 pub struct DocsOptions {
-    /// Function, type, option, constant or topic, such as section or simulation.run_to; without it, an overview.
+    /// Function, type, option, constant or topic, such as section, simulation.run_to or boundary condition; without it, an overview.
     #[arg(conflicts_with_all = ["markdown", "grammar", "definitions"])]
-    pub name: Option<String>,
+    pub name: Vec<String>,
     /// Prints the whole reference as Markdown.
     #[arg(long, conflicts_with_all = ["grammar", "definitions"])]
     pub markdown: bool,

@@ -25,7 +25,7 @@ pub fn docs(options: &DocsOptions) -> Exit {
         Some(folder) => write_definitions(&catalog, folder),
         None if options.grammar => Ok(grammar(&catalog)),
         None if options.markdown => Ok(reference(&catalog)),
-        None => page(&catalog, options.name.as_deref().unwrap_or_default()),
+        None => page(&catalog, &options.name.join(" ")),
     };
     match text {
         Ok(text) => show(&text),

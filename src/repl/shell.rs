@@ -117,6 +117,7 @@ impl Shell {
     /// Evaluates a complete input, which is a command, a help request, or statements.
     pub fn submit(&mut self, input: &str) -> CommandOutcome {
         self.session.clear_interrupt();
+        let input = without_prompt(input);
         let text = input.trim();
         if text.starts_with(':') {
             return match text.strip_suffix('?').filter(|name| !name.contains(char::is_whitespace)) {
@@ -393,4 +394,11 @@ impl Shell {
 pub fn no_simulation() -> Diagnostic {
     Diagnostic::general("there is no simulation yet")
         .with_hint("start one: let sim = scene.start(#{ dt: 0.1 })")
+}
+
+/// Input without the text of a prompt at its start, as in a copied transcript.
+fn without_prompt(input: &str) -> &str {
+    let numbered = input.trim_start().strip_prefix("withy:");
+    let rest = numbered.map(|rest| rest.trim_start_matches(|digit: char| digit.is_ascii_digit()));
+    rest.and_then(|rest| rest.strip_prefix("> ")).unwrap_or(input)
 }

@@ -120,6 +120,17 @@ fn expression_is_plotted_over_all_states_without_changing_the_simulation() {
 }
 
 #[test]
+fn copied_prompts_and_commands_without_a_colon_are_accepted() {
+    let mut prompt = Prompt::spinning();
+    assert_eq!(prompt.ask("withy:5> 1 + 2").trim(), "3");
+    prompt.ask("withy:6> step 3");
+    prompt.ask("run 1");
+    assert_eq!(prompt.ask("sim.t").trim(), "1");
+    let message = prompt.refusal("withy:x> 1");
+    assert!(!message.is_empty());
+}
+
+#[test]
 fn history_in_each_state_ends_at_that_state() {
     let mut prompt = Prompt::spinning();
     prompt.ask(":step 4");

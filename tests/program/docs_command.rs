@@ -52,6 +52,18 @@ fn example_of_a_page_runs_unchanged() {
 }
 
 #[test]
+fn terms_of_several_words_are_found() {
+    for (words, topic) in [
+        (&["boundary", "condition"][..], "scene.clamp"),
+        (&["capstan"], "friction"),
+        (&["restart", "file"], "load_simulation"),
+    ] {
+        let page = shown(&docs(words));
+        assert!(page.contains(topic), "{words:?}: {page}");
+    }
+}
+
+#[test]
 fn page_width_is_that_of_the_terminal() {
     let output = Command::new(env!("CARGO_BIN_EXE_withy"))
         .args(["docs", "section"])

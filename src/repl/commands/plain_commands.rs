@@ -1,6 +1,6 @@
-//! Words for help and for quitting that are accepted without the colon of a command.
+//! Commands that are accepted without their colon: help, quitting, and steps with a number.
 
-use super::{Command, HELP, QUIT};
+use super::{Command, HELP, QUIT, find};
 
 /// Command and operand of an input without a colon, such as `quit`, `exit()`, `help sine` or `sim?`; `None` for other inputs.
 /// A word is not a command if a variable has this name, for which `is_variable` returns true.
@@ -17,6 +17,9 @@ pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static
     }
     match (bare, rest.trim()) {
         ("quit" | "exit" | "bye", "") => Some((&QUIT, "")),
+        ("run" | "step" | "back", number) if number.parse::<f64>().is_ok() => {
+            find(&format!(":{bare}")).ok().map(|command| (command, number))
+        }
         ("help", name) if word == "help" && (name.is_empty() || is_name(name)) => {
             Some((&HELP, name))
         }
@@ -43,7 +46,19 @@ mod tests {
         assert_eq!(name("sim.run_to?"), Some((":help", "sim.run_to")));
         assert_eq!(name("sim??"), Some((":help", "sim")));
         assert_eq!(name("half()?"), Some((":help", "half()")));
-        for own in ["exit", "help(\"sine\")", "1 ?? 2", "quit + 1", "a ? 1 : 2", "help = 3"] {
+        assert_eq!(name("step 3"), Some((":step", "3")));
+        assert_eq!(name("run 7.5;"), Some((":run", "7.5")));
+        for own in [
+            "step",
+            "run fast",
+            "step = 3",
+            "exit",
+            "help(\"sine\")",
+            "1 ?? 2",
+            "quit + 1",
+            "a ? 1 : 2",
+            "help = 3",
+        ] {
             assert_eq!(name(own), None, "{own}");
         }
     }

@@ -9,6 +9,7 @@ use crate::script::bindings::parameter_variants::{at_largest_change, at_smallest
 use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::messages::numbers::format_number;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "arrays",
@@ -29,11 +30,12 @@ pub const TABLE: BindingTable = BindingTable {
         ),
         function(
             "logspace",
-            &[number("from").positive(), number("to").positive(), integer("count").between(2.0, 1e6)],
+            &[number("from"), number("to"), integer("count").between(2.0, 1e6)],
             logspace,
         )
         .returns(Returns::NUMBERS)
         .summary("Creates an array of positive numbers with equal ratios, including both ends.")
+        .doc("The ends are values, not exponents: logspace(1, 1000, 4) is [1, 10, 100, 1000].")
         .example("let ten = logspace(0.01, 100, 5);\ncheck(ten[0] == 0.01 && ten[4] == 100);\ncheck_close(ten[2], 1, 1e-14);"),
         function("sum", &[VALUES], |call| Ok(call.numbers("values")?.iter().sum::<f64>().into()))
             .returns(Returns::NUMBER)
@@ -73,6 +75,15 @@ fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn logspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
+    for (at, value) in [from, to].into_iter().enumerate() {
+        if value <= 0.0 {
+            let message =
+                format!("the ends must be positive numbers, got {}", format_number(value));
+            let hint =
+                "the ends are values, not exponents: logspace(1, 1000, 4) is [1, 10, 100, 1000]";
+            return Err(call.error(message).hint(hint).at(CallPart::Argument(at)));
+        }
+    }
     let (low, high, last) = (ln(from), ln(to), count - 1);
     let at = |i: usize| match i {
         0 => from,

@@ -176,6 +176,40 @@ pub const WORDS: &[ForeignName] = &[
         &["error_estimate", "solve", "study_convergence"],
     ),
     entry(
+        &["boundary condition", "boundary conditions", "boundary_condition", "fixed end", "pin"],
+        "scene.clamp(rod.start) fixes position and angle, scene.hinge(rod.start) the position, \
+        scene.support(rod.end, #{ y: true }) single components",
+        &["clamp", "hinge", "support"],
+    ),
+    entry(
+        &["capstan", "belt", "belt friction", "bollard"],
+        "scene.disc(centre, radius, #{ stiffness: k, friction: 0.3 }) is a peg with friction for a \
+        rope, which is a beam with a small EI; a tendon runs over its pins without friction",
+        &["disc", "beam", "tendon"],
+    ),
+    entry(
+        &["cam", "follower", "cam follower", "roller"],
+        "scene.contact([cam, follower], #{ stiffness: k }) lets a rigid body with an outline push \
+        another body; scene.move prescribes the lift of a follower as a function of time",
+        &["contact", "body", "move"],
+    ),
+    entry(
+        &["restart", "checkpoint", "restart file", "resume"],
+        "sim.save(\"name.withy\") writes a restart file, and load_simulation(\"name.withy\") continues it",
+        &["save", "load_simulation"],
+    ),
+    entry(
+        &["envelope", "peak value", "extreme values"],
+        "max(sim.history.column(\"rod.end.y\")) is the largest value of a recorded column",
+        &["column", "max", "min", "record"],
+    ),
+    entry(
+        &["bode", "frequency response", "transfer function", "frequency sweep"],
+        "there is no frequency response; scene.modes and damped_modes give the poles, and a sweep \
+        over the frequency of a sine load gives the amplitudes",
+        &["damped_modes", "sweep", "sine"],
+    ),
+    entry(
         &["static", "statics", "at rest", "balance"],
         "scene.equilibrium() computes the static equilibrium of a scene",
         &["equilibrium", "load_control"],
@@ -213,6 +247,7 @@ pub const WORDS: &[ForeignName] = &[
         &[
             "rest length",
             "natural length",
+            "unstressed length",
             "winch",
             "cylinder",
             "hydraulic",
