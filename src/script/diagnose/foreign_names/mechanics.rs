@@ -176,19 +176,13 @@ pub const WORDS: &[ForeignName] = &[
         &["error_estimate", "solve", "study_convergence"],
     ),
     entry(
-        &["boundary condition", "boundary conditions", "boundary_condition", "fixed end", "pin"],
-        "scene.clamp(rod.start) fixes position and angle, scene.hinge(rod.start) the position, \
-        scene.support(rod.end, #{ y: true }) single components",
-        &["clamp", "hinge", "support"],
-    ),
-    entry(
         &["capstan", "belt", "belt friction", "bollard"],
         "scene.disc(centre, radius, #{ stiffness: k, friction: 0.3 }) is a peg with friction for a \
         rope, which is a beam with a small EI; a tendon runs over its pins without friction",
         &["disc", "beam", "tendon"],
     ),
     entry(
-        &["cam", "follower", "cam follower", "roller"],
+        &["cam", "follower", "cam follower"],
         "scene.contact([cam, follower], #{ stiffness: k }) lets a rigid body with an outline push \
         another body; scene.move prescribes the lift of a follower as a function of time",
         &["contact", "body", "move"],
