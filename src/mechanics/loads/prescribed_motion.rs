@@ -177,7 +177,7 @@ impl PrescribedMotion {
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
     /// A prescribed rate is read from its schedule. All other derivatives are computed over several decreasing time spans, because the time scale of the function is unknown.
-    /// The result for each derivative is its value over the shorter of the two consecutive time spans whose values differ least.
+    /// All time spans are evaluated. The result for each derivative is its value over the shorter of the two consecutive spans whose values differ least.
     ///
     /// # Errors
     /// Fails if the script function fails or a value is not finite just after the start.
