@@ -186,6 +186,7 @@ impl Scene {
     /// # Errors
     /// Fails if the name is taken, or if the slave is a station of the master, does not lie on it, or already slides on it.
     /// Fails if the sliding rule does not allow the track or the friction.
+    /// Fails if a sleeve or a unilateral contact is not available with the other options of the slider.
     /// Fails if a coefficient of restitution or friction is outside its range.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
@@ -251,7 +252,8 @@ impl Scene {
     /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// Fails if the stations are equal or not at the same position, or if one of them is already joined.
+    /// Fails if the stations are equal or not at the same position, if a particle would be joined rigidly,
+    /// or if a tied component is already joined, fixed or prescribed.
     pub fn join(
         &mut self,
         kind: JointKind,
