@@ -214,7 +214,7 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors.
+    /// Warning about alternating long and short steps in scenes with rigid links or dissipation, whose velocity errors persist.
     /// In steps of different lengths, position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();
