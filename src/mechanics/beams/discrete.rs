@@ -35,7 +35,7 @@ struct DiscreteBeam<const N: usize, S: Sections = Uniform> {
 /// Creates a discretised beam whose stress-free axis is given by control points. `length` is the approximate length of the axis.
 ///
 /// # Errors
-/// Fails if the axis has a point without a tangent.
+/// Fails if the axis has a point without a tangent, or if the mesh has no quadrature.
 pub fn discretise(
     control_points: Vec<Vec2>,
     length: f64,

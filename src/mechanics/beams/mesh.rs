@@ -92,7 +92,7 @@ impl Mesh {
     /// Returns the mesh with another quadrature of the axial and shear strain.
     ///
     /// # Errors
-    /// Fails if the number of points is zero, or far too large for the degree.
+    /// Fails if the number of points is zero, or exceeds the degree by more than three.
     pub fn with_quadrature(self, quadrature: Quadrature) -> Result<Self, BeamError> {
         let (degree, most) = (self.basis.degree(), self.basis.degree() + 3);
         match quadrature {

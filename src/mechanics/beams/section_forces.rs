@@ -22,7 +22,7 @@ const NO_WEIGHT: f64 = 1e-14;
 /// With material damping, section forces include viscous forces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SectionForces {
-    /// Unit normal of the section [-]; zero on a particle, which has no section.
+    /// Unit normal of the section [-]; zero on particles and rigid bodies, which have no section.
     pub normal: Vec2,
     /// Axial force `N`, positive in tension [force].
     pub axial: f64,

@@ -33,7 +33,8 @@ impl SectionVariation {
     /// Checks the sections and their positions, and returns them.
     ///
     /// # Errors
-    /// Fails if a number of a section is out of range, or if the positions do not increase from 0 to 1.
+    /// Fails if a number of a section is out of range, or if solids of a taper have different types of shape.
+    /// Also fails if a taper has fewer than two or more than 10 000 positions, or if the positions do not increase from 0 to 1.
     pub fn validated(self) -> Result<Self, BeamError> {
         match &self {
             Self::Uniform(section) => return section.validated().map(Self::Uniform),

@@ -14,8 +14,9 @@ pub enum StrainKind {
     Bending,
 }
 
-/// Static stiffness of one span of a beam.
-/// Each row of derivatives has an entry for each component (x, y, rotation) of each control point of the span.
+/// Static stiffness of one span of a beam, of an element or of a constraint.
+/// For a span, each row of derivatives has an entry for each component (x, y, rotation) of each control point.
+/// For elements and constraints, each row has an entry for each of their degrees of freedom.
 #[derive(Debug, Clone, Default)]
 pub struct SpanStiffness {
     /// First control point of the span.
@@ -25,7 +26,7 @@ pub struct SpanStiffness {
     pub strains: Vec<f64>,
     /// Stiffness for each strain or curvature, times the integration length [force·length, force·length³].
     pub stiffness: Vec<f64>,
-    /// Type of the strain in each row; empty for bodies that are not beams.
+    /// Type of the strain in each row; empty for elements and constraints.
     pub kinds: Vec<StrainKind>,
     /// Pairs of rows `p` and `q` of the geometric stiffness `p qᵀ + q pᵀ`. The product `p qᵀ` has the unit of a stiffness.
     pub twists: Vec<f64>,

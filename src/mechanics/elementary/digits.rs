@@ -1,6 +1,6 @@
 //! Decimal rounding.
 
-/// Rounds a number to the given number of significant digits. A float has at most 17 digits.
+/// Rounds a number to the given number of significant digits, at least 1 and at most 17. With 17 digits, a float is unchanged.
 pub fn rounded_to(digits: usize, number: f64) -> f64 {
     format!("{number:.*e}", digits.clamp(1, 17) - 1).parse().unwrap_or(number)
 }

@@ -147,7 +147,7 @@ impl ContactPath {
 
     /// Evaluates a piecewise polynomial along the path. The result is NaN if an end of the path is not finite.
     ///
-    /// The derivative of the polynomial may jump only where derivatives of the basis jump.
+    /// The derivative of the polynomial may jump only where first derivatives of the basis jump.
     pub fn along(&self, function: &PiecewisePolynomial) -> FunctionOnPath {
         let interval = self.interval;
         if interval.departure == interval.arrival {

@@ -47,7 +47,7 @@ impl KnotVector {
     /// Creates the knot vector of `degree` 1 to [`MAX_DEGREE`] with the given `knots`.
     ///
     /// # Errors
-    /// Fails for a degree out of range, too few knots, and knots that are infinite, decreasing or all equal.
+    /// Fails for a degree out of range, too few knots, and knots that are not finite, decreasing or all equal.
     /// Fails if end knots are not repeated `degree + 1` times, or interior knots are repeated more than `degree` times.
     /// Fails for spans shorter than 1e-12 of the domain, or more than [`MAX_SPANS`] spans.
     pub fn new(degree: usize, knots: Vec<f64>) -> Result<Self, GeometryError> {
@@ -143,6 +143,7 @@ impl KnotVector {
     ///
     /// # Errors
     /// Fails if `xi` is not strictly inside the domain, too close to another knot (1e-12 of the domain), or repeated more often than the degree.
+    /// Also fails if there would be more than [`MAX_SPANS`] spans.
     pub fn insert(&self, xi: f64, times: usize) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         if !(start < xi && xi < end) {

@@ -108,7 +108,7 @@ impl LagrangeBasis {
     /// Returns the basis with the element that contains `xi` split at `xi`.
     ///
     /// # Errors
-    /// Fails if `xi` is outside the domain or too close to a break.
+    /// Fails if `xi` is outside the domain or too close to a break, or if there would be too many elements.
     pub fn split(&self, xi: f64) -> Result<Self, GeometryError> {
         let (start, end) = self.domain();
         check_inside(xi, start, end)?;

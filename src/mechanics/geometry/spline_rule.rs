@@ -14,7 +14,8 @@ const EQUAL: f64 = 1e-9;
 /// Computes the patch rule of a run, a sequence of consecutive spans that are joined at least C¹ (docs/theory.md, section 4).
 /// The number of points equals the number of linearly independent derivatives of basis functions. All derivatives are integrated exactly.
 ///
-/// The quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
+/// Usually, the quadrature points are the zeros of a spline that is orthogonal to all splines of one degree less.
+/// On three or more equal spans of C² cubics, they are two Gauss points in the first and the last span, and the middles of the other spans.
 /// The number of zeros follows from total positivity (de Boor, A Practical Guide to Splines, rev. ed. 2001, chapter XI).
 /// Tests for every degree and continuity confirm that the quadrature weights are positive. There is no proof.
 /// Returns `None` if rounding hides a zero, or if a weight is not positive. No such spans are known.
@@ -181,7 +182,8 @@ impl Polynomial {
     }
 }
 
-/// Weights for which the quadrature points of a run integrate the derivatives of all its basis functions exactly; `None` if they are infinite.
+/// Weights for which the quadrature points of a run integrate the derivatives of all its basis functions exactly.
+/// The result is `None` if the weights are not unique or not finite.
 /// Reference: F. Auricchio et al., Comput. Methods Appl. Mech. Eng. 249–252 (2012) 15–27.
 fn derivative_weights(basis: &Basis, run: &[Span], points: &[Vec<f64>]) -> Option<Vec<f64>> {
     let (first, last) = (run.first()?, run.last()?);

@@ -8,8 +8,8 @@ pub trait Integrator {
     /// Advances the mechanism over the interval. If the step fails, the mechanism is unchanged.
     ///
     /// # Errors
-    /// Fails if the equations have no solution, a rotation increment is too large, or a load has no value.
-    /// Also fails if a slider would pass a limit within the interval.
+    /// Fails if the equations have no solution, a rotation increment is too large, or a load or a prescribed motion has no valid value.
+    /// Also fails if the mechanism rejects the step, for example because a slider would pass a limit within the interval.
     fn step(
         &mut self,
         mechanism: &mut dyn Mechanism,

@@ -114,7 +114,8 @@ pub trait Constraints {
     /// Checks that the constraint unknowns allow the step to be accepted.
     ///
     /// # Errors
-    /// Fails if a slider passes a limit within the step, or misses the limit at which the step has to end.
+    /// Fails if an event of a constraint occurs within the step (arrival at a limit, landing, stop force in tension, start or end of a slip).
+    /// Also fails if the step misses the event at which it has to end.
     fn check_constraints(&mut self, unknowns: &[f64]) -> Result<(), Overshoot>;
 
     /// Returns true if [`check_end`](Self::check_end) may fail.
@@ -168,7 +169,7 @@ pub trait Mechanism: Inertia + Forces + Constraints {
     /// Prepares a step: evaluates loads and prescribed motions. `stages` lists the stages at which the integrator evaluates forces.
     ///
     /// # Errors
-    /// Fails if a load has no finite value.
+    /// Fails if a load or a prescribed motion has no valid value.
     fn begin_step(&mut self, interval: Interval, stages: &[Stage]) -> Result<(), StepError>;
 
     /// Ends a step with the given solution: updates configuration, rates, work and impulse.

@@ -1,4 +1,5 @@
-//! Joints, which tie displacement components of two stations by a common unknown.
+//! Joints, which tie displacement components of two stations by a common unknown, or fix components of one station.
+//! Inclined rollers and guides have a constraint force as an unknown instead.
 //!
 //! The two stations of a joint have the same increments in every step, for every integrator.
 //! A joint has no gap, does no work, and transmits force and moment unchanged.

@@ -9,7 +9,7 @@ pub enum Releasable {
     Joint(usize),
     /// Slider.
     Slider(usize),
-    /// Spring, damper or tendon.
+    /// Spring, damper, tendon or brake.
     Spring(usize),
     /// Prescribed motion.
     Drive(usize),
@@ -18,7 +18,7 @@ pub enum Releasable {
 /// Event that triggers a release.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Trigger {
-    /// Release at the given time since the start of the run [time]. A step ends at this time.
+    /// Release at the given time of the simulation [time]. A step ends at this time.
     Time(f64),
     /// Release by a call of the user of the simulation, between two steps.
     Outside,

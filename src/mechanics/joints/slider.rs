@@ -14,7 +14,7 @@ pub struct Slider {
     pub name: String,
     /// Slave: the sliding point.
     pub slave: Station,
-    /// Index of the master beam. For a slider on a track, it is the index of the first of its masters.
+    /// Index of the master beam. For a slider on a track, it is the index of the beam on which the slider starts.
     pub master: usize,
     /// Index of the track; `None` for a slider on a single beam.
     pub track: Option<usize>,

@@ -10,7 +10,7 @@ use super::storage::{Factors, Storage};
 use super::substitution::{StripSubstitution, Substitution};
 use super::{BandRows, LinearError};
 
-/// Square matrix whose entries `(i, j)` are zero if `|i - j|` exceeds the half-bandwidth.
+/// Square matrix whose entries `(i, j)` are zero if `|i - j|` exceeds the half-bandwidth, except in the dense blocks of distant couplings.
 #[derive(Debug, Clone)]
 pub struct BandedMatrix {
     size: usize,

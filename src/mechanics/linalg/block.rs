@@ -2,7 +2,7 @@
 //!
 //! A block is a small dense matrix, like the front of a multifrontal method (Duff & Reid, ACM Trans. Math. Softw. 9 (1983) 302–325).
 //! The unknowns of a block are eliminated with complete pivoting, and the Schur complement is added to the band.
-//! An unknown without a pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
+//! An unknown without a sufficiently large pivot, for example the contact force of a supported slave, is delayed: it is inserted into the band.
 
 use pulp::{Simd, WithSimd};
 
@@ -17,7 +17,7 @@ pub(super) const MOST_DELAYED: usize = 2;
 
 const LARGEST_FILL: f64 = 100.0;
 
-/// Placeholder index for a band unknown that is not coupled to a block.
+/// Placeholder for an index that does not exist, for example the place in a block of a band unknown that is not coupled to the block.
 pub(super) const UNTOUCHED: usize = usize::MAX;
 
 pub(super) struct BlockElimination<'a> {

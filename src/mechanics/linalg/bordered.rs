@@ -57,7 +57,7 @@ impl BorderUnit {
 /// Border of a [`BorderedMatrix`]: its last columns `B`, its last rows `C` and their common corner `D`.
 #[derive(Debug, Clone)]
 pub enum Border {
-    /// Dense columns and rows.
+    /// Dense columns, and rows that are stored as a list of entries.
     Full(FullBorder),
     /// Blocks of five unknowns. Each block is coupled to few unknowns of the band, and to no other block.
     Local(Box<LocalBorder>),
@@ -242,7 +242,7 @@ impl BorderedMatrix {
         self.border.clear();
     }
 
-    /// Entry at `(row, column)`; zero outside the band and the border.
+    /// Entry at `(row, column)`; zero outside the band, the border and the dense blocks of distant couplings.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let place = |at: usize| at.checked_sub(self.band.size()).map_or(Ok(at), Err);
         match (place(row), place(column)) {
@@ -251,7 +251,7 @@ impl BorderedMatrix {
         }
     }
 
-    /// Replaces the entries of the matrix by its factors. Without a border, these are the factors of the band.
+    /// Replaces the entries of the matrix by its factors.
     ///
     /// # Errors
     /// Fails if a column has no nonzero finite pivot. The entries of the matrix are then lost.

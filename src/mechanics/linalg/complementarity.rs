@@ -27,7 +27,7 @@ const NOTHING: f64 = 1e-13;
 /// If block pivoting does not make progress, pairs are exchanged one by one (Murty 1974).
 ///
 /// # Errors
-/// Fails if the submatrix of the nonzero unknowns is singular.
+/// Fails if, during the exchanges, the submatrix of the unknowns that may be nonzero is singular or not finite.
 pub fn complementary(
     matrix: &[Vec<f64>],
     q: &[f64],

@@ -4,7 +4,8 @@
 //! Reference for threshold pivoting: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, section 5.2.
 //! If a multiplier is large, the columns of the panel are eliminated one by one with partial pivoting.
 //!
-//! Row exchanges and additional nonzero entries stay inside the profile, because the last columns of successive rows do not decrease.
+//! Below the diagonal, row exchanges and additional nonzero entries stay inside the profile, because the last rows of successive columns do not decrease.
+//! Right of the diagonal, row exchanges create entries beyond the profile.
 
 use pulp::{Simd, WithSimd};
 
@@ -13,7 +14,7 @@ use super::{LinearError, fixed_band};
 
 const LANES: usize = 4;
 
-/// Number of columns that are eliminated together, equal to the vector length, so that panels read and write aligned vectors.
+/// Number of columns that are eliminated together, equal to the vector length, so that successive panels read and write the same vectors of a row.
 /// A read that overlaps two recently written vectors would stall the processor.
 pub(super) const PANEL: usize = LANES;
 

@@ -1,6 +1,7 @@
 //! Errors of linear systems.
 
 /// Error for a linear system without a unique solution in floating-point arithmetic.
+/// The index of the column is approximate for unknowns that are renumbered or eliminated in blocks.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum LinearError {
     /// Singular or nearly singular matrix: a column has no usable pivot.
@@ -11,7 +12,7 @@ pub enum LinearError {
         /// Number of rows of the matrix.
         size: usize,
     },
-    /// Entry of the matrix that is infinite or NaN.
+    /// Entry of the matrix or of its factors that is infinite or NaN.
     #[error("the matrix has an entry that is not a finite number, at unknown {unknown} of {size}")]
     NotFinite {
         /// Index of the column with the entry, counted from 0.

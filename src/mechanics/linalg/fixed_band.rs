@@ -46,7 +46,7 @@ pub(super) fn eliminate_panel<
         let l1 = (head[1] - l0 * u01) * inverses[1];
         let l2 = (head[2] - l0 * u02 - l1 * u12) * inverses[2];
         let l3 = (head[3] - l0 * u03 - l1 * u13 - l2 * u23) * inverses[3];
-        // Each value is written separately, because reading a vector that was written in several pieces would stall the processor.
+        // The values are written, and later read, one by one, because reading a vector that was written in several pieces would stall the processor.
         (head[0], head[1], head[2], head[3]) = (l0, l1, l2, l3);
         let size = sizes_below[index];
         are_small &=

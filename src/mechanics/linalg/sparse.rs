@@ -18,7 +18,7 @@ impl SymmetricSparse {
     /// The callback `give` is called twice, first to count the entries and then to store them.
     ///
     /// # Panics
-    /// Panics if there are more than 2³² rows.
+    /// Panics if there are 2³² or more rows.
     pub fn new(size: usize, give: impl Fn(&mut dyn FnMut(usize, usize, f64))) -> Self {
         assert!(u32::try_from(size).is_ok(), "{size} rows");
         let mut starts = vec![0; size + 1];

@@ -110,7 +110,8 @@ impl Storage {
 
     /// Computes a squared reference size of each row. The pivot search divides the squared entries of a row by this number.
     /// The squared reference size of a row is its diagonal entry, as if rows and columns were scaled to a unit diagonal.
-    /// The row of a constraint has no diagonal entry. Its squared reference size is its largest squared scaled entry, limited by [`LARGEST_RATIO`].
+    /// The row of a constraint has no diagonal entry. Its squared reference size is its largest squared scaled entry.
+    /// If all unknowns in the row have diagonal entries, the squared reference size is limited by [`LARGEST_RATIO`].
     /// Without this limit, a negligible and therefore inaccurate diagonal entry could become a pivot.
     pub(super) fn weigh_rows(&mut self) {
         let (stride, centre) = (self.stride(), self.centre());

@@ -65,6 +65,6 @@ pub struct Load {
     pub kind: LoadKind,
     /// Load factor as a function of time.
     pub schedule: Schedule,
-    /// Name of the load in the columns of histories, which then contain the work of the load; `None` for loads without columns.
+    /// Name of the load in the columns of histories, which then contain the value and the work of the load; `None` for loads without columns.
     pub title: Option<String>,
 }

@@ -88,7 +88,7 @@ impl PrescribedMotion {
     /// The rate of a prescribed displacement is computed from five values in the step and at its ends, by a polynomial of degree four.
     ///
     /// # Errors
-    /// Fails if the script function fails, a value is not finite, or a displacement jumps or has an infinite rate.
+    /// Fails if the script function fails, a value is not finite, or a displacement jumps.
     pub fn over(&self, start: f64, end: f64, duration: f64) -> Result<MotionInStep, LoadError> {
         match self {
             Self::Position(schedule) => {
@@ -177,10 +177,10 @@ impl PrescribedMotion {
     /// Initial rate and acceleration of a motion that starts at a time.
     ///
     /// A prescribed rate is read from its schedule. All other derivatives are computed over several decreasing time spans, because the time scale of the function is unknown.
-    /// The result for each derivative is its value over the shorter of the two consecutive time spans whose values differ least.
+    /// All time spans are evaluated. The result for each derivative is its value over the shorter of the two consecutive spans whose values differ least.
     ///
     /// # Errors
-    /// Fails if the script function fails or a value is not finite just after the start.
+    /// Fails if a prescribed rate has no finite value at the start, or if a displacement has no finite values in any of the time spans.
     pub fn beginning(&self, time: f64) -> Result<MotionAtStart, LoadError> {
         let spans = (0..SPANS).scan(1.0, |span, _| Some(std::mem::replace(span, *span * SHRINKS)));
         match self {

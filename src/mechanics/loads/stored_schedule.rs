@@ -16,7 +16,7 @@ pub(super) enum StoredTerm {
 }
 
 impl Schedule {
-    /// Returns true if the schedule can be stored, that is, if it contains no script function.
+    /// Returns true if the schedule can be stored, that is, if it contains no script function and no controller.
     pub fn can_be_stored(&self) -> bool {
         self.append_terms(&mut Vec::new()).is_some()
     }
@@ -43,7 +43,7 @@ impl Schedule {
     }
 }
 
-/// Schedules without script functions are equal if their terms are equal. A schedule with a script function differs from all others.
+/// Schedules that can be stored are equal if their terms are equal. A schedule with a script function or a controller differs from all others.
 impl PartialEq for Schedule {
     fn eq(&self, other: &Self) -> bool {
         let [mut own, mut others] = [Vec::new(), Vec::new()];

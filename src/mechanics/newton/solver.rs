@@ -89,7 +89,7 @@ impl NewtonReport {
     }
 }
 
-/// Newton's method with preallocated memory. A solution allocates no memory unless it fails.
+/// Newton's method with preallocated memory. A solution allocates no memory unless it fails or uses joint elimination.
 #[derive(Debug, Clone)]
 pub struct Newton {
     tolerance: Tolerance,

@@ -34,7 +34,7 @@ pub(super) struct Adaptive {
 
 pub(super) struct StepPlan {
     pub(super) interval: Interval,
-    /// True if the step was shortened to end at an event, such as a jump of a load.
+    /// True if the step was shortened because of the next required end time, such as a jump of a load or the end of a run.
     pub(super) is_cut: bool,
     pub(super) is_least: bool,
 }

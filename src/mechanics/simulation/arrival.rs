@@ -32,7 +32,7 @@ pub struct Arrival {
     pub time: f64,
     /// Index of the slider.
     pub slider: usize,
-    /// End of the master at which the slider arrived; `None` for a take-off or a landing.
+    /// End of the master at which the slider arrived; `None` for a take-off, a landing, or another event on the axis of the master.
     pub end: Option<MasterEnd>,
     /// Index of the beam on which a slider on a track arrived; `None` for other sliders.
     pub beam: Option<usize>,

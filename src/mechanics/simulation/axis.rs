@@ -43,7 +43,7 @@ impl<'a> Axes<'a> {
         self.drawn.meshes().iter().enumerate().map(of_beam).collect()
     }
 
-    /// Returns the axis at a station of a beam; `None` for a particle.
+    /// Returns the axis at a station of a beam; `None` for a particle or a rigid body.
     ///
     /// # Errors
     /// Fails if the station lies outside its beam.

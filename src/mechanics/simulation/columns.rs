@@ -9,7 +9,7 @@ pub struct Column {
     pub name: &'static str,
     /// Dimension of the values of the column.
     pub dimension: &'static str,
-    /// True if the values describe the motion of the scene. False if they describe the computation of the motion.
+    /// True if the values describe the motion of the scene. False for the time, and for values that describe the computation of the motion.
     pub is_of_motion: bool,
     /// Function that reads the value of the column from a row.
     pub value: fn(&Sample) -> f64,

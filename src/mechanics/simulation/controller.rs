@@ -15,10 +15,11 @@ const LEAST_GROWTH: f64 = 0.2;
 
 const SECOND_REJECTION_FACTOR: f64 = 0.5;
 
-/// Exponent of the error of the last step in the formula for the next step size (PI controller).
+/// Exponent of the PI controller. It multiplies the step size by `e^(-NOW/p) f^(BEFORE/p)`, where `e` is the error of the last accepted step,
+/// `f` is the error of the accepted step before it, and `p` is the order of the error, see [`StepController::order`].
 const NOW: f64 = 0.7;
 
-/// Exponent of the error of the second last step in the formula for the next step size (PI controller).
+/// Second exponent of the PI controller, see [`NOW`].
 const BEFORE: f64 = 0.4;
 
 /// Smallest error that the controller uses, as a fraction of the allowed error. Smaller errors are replaced by this value.

@@ -6,8 +6,8 @@ use crate::system::{Along, Branch, System};
 /// Linear segments of the laws of springs with sharp corners, at the start, in the middle and at the end of a step.
 ///
 /// A whole step and its two halves may give nearly equal positions but different impact times with a stiff bumper.
-/// If a spring changes its segment in a step, the error estimate is increased. The increase is the step length times the difference
-/// of the velocities after the whole step and after the two half steps.
+/// If a spring changes its segment in a step, the error estimate is at least the step length times the difference
+/// of the rates of the elongation after the whole step and after the two half steps.
 #[derive(Default)]
 pub(super) struct CornerCrossings {
     start: Vec<Branch>,

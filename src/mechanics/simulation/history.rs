@@ -25,7 +25,7 @@ pub struct Sample {
 /// Quantity that is constant if the energy, momentum or angular momentum supplied by loads and supports is subtracted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Invariant {
-    /// Energy `E` of the scene minus the work `W` of loads and drives plus the dissipated energy `D` [energy].
+    /// Energy `E` of the scene minus the work `W` of loads, drives and wind plus the dissipated energy `D` [energy].
     Energy,
     /// Momentum `p` minus the impulse of all external forces [mass·length/time].
     Momentum,
@@ -192,7 +192,7 @@ impl History {
     /// Difference of an invariant from its value in the first row, divided by a scale.
     /// For the gap, the gap of each row is returned without a scale [length].
     ///
-    /// The scale of the energy is the largest energy or work of all rows.
+    /// The scale of the energy is the largest energy or work of all rows, at least the rounding error of the strain energy.
     /// The scale of the momentum is the larger of the exchanged impulses and `sqrt(2 m K)`, with the mass `m` and the largest kinetic energy `K`.
     /// The scale of the angular momentum is the largest of the angular momenta, the exchanged angular impulses, and `sqrt(2 m K)` times a length.
     pub fn drifts(&self, invariant: Invariant) -> Vec<f64> {
@@ -235,7 +235,7 @@ impl History {
     }
 
     /// Largest increase of the energy balance `E - W + D` above an earlier value, divided by the scale of [`drifts`](Self::drifts).
-    /// `E` is the energy, `W` the work of loads and drives and `D` the dissipated energy.
+    /// `E` is the energy, `W` the work of loads, drives and wind, and `D` the dissipated energy.
     /// The largest increase is NaN if an energy is NaN or the history has no rows.
     pub fn energy_growth(&self) -> f64 {
         let Some(first) = self.samples.first().map(|row| row.measures) else { return f64::NAN };

@@ -79,6 +79,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the step size or a method parameter is out of range, or if the scene cannot be built.
+    /// Also fails if the method does not support an object or a sensor of the scene, or if a controller would be sampled too often in a step.
     pub fn start(scene: Scene, settings: SimulationSettings) -> Result<Self, SimulationError> {
         Self::start_while(scene, settings, &mut || true)
     }
@@ -101,11 +102,10 @@ impl Simulation {
     }
 
     /// Starts a simulation from an equilibrium with zero velocities, at t = 0.
-    /// If the equilibrium includes prescribed positions, the simulation starts at the time for which the equilibrium was computed.
+    /// If a drive is not at its position for t = 0, the simulation starts at the time for which the equilibrium was computed.
     ///
     /// # Errors
-    /// Fails if the step size or a method parameter is out of range.
-    /// Also fails if the position of a drive in the equilibrium differs from its function.
+    /// Fails in the same cases as [`start`](Self::start), or if the position of a drive in the equilibrium differs from its function.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -242,7 +242,7 @@ impl Simulation {
     /// Takes one step to the next end time of the grid.
     ///
     /// # Errors
-    /// Fails if the equations of the step have no solution, an arrival has ended the run, or the monitor stops the run.
+    /// Fails if the equations of the step have no solution, a load or a drive has no value, an arrival has ended the run, or the monitor stops the run.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         if let Some(ending) = self.ending() {
             return Err(SimulationError::Ended { ending });
@@ -256,7 +256,7 @@ impl Simulation {
     /// Runs until `end`, where the last step ends, or until a slider ends the run.
     ///
     /// # Errors
-    /// Fails if `end` is in the past, the equations of a step have no solution, or the monitor stops the run.
+    /// Fails if `end` is in the past or not finite, the equations of a step have no solution, a load or a drive has no value, or the monitor stops the run.
     pub fn run_to(&mut self, end: f64, monitor: &mut dyn Monitor) -> Result<(), SimulationError> {
         self.check_end(end)?;
         let now = self.time();
@@ -284,7 +284,7 @@ impl Simulation {
 
     /// Advances the time without solving equations (dry run). The history receives the rows of a motionless scene.
     ///
-    /// Dry runs check scripts. In a dry run with very many steps, only the first and the last step are recorded.
+    /// Dry runs check scripts. In a dry run with very many steps, a single long step to `end` replaces all steps after the first 9999.
     ///
     /// # Errors
     /// Fails if `end` is in the past or not finite, or if the monitor stops the run.

@@ -58,7 +58,8 @@ impl Sensitivities {
     /// Creates the derivatives of a run at its start.
     ///
     /// # Errors
-    /// Fails if the method has no derivatives, or if a perturbed scene cannot be built or has a different structure.
+    /// Fails if the method has no derivatives, if the steps are variable, or if the scene has a controller or a sensor of accumulated means.
+    /// Also fails if a perturbed scene cannot be built, or has a different structure or different times of jumps or releases.
     pub(super) fn new(
         run: &mut Simulation,
         variations: Vec<Variation>,

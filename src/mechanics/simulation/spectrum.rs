@@ -59,7 +59,7 @@ impl TimeSeries {
     /// Vibrations with fewer than about four periods are not detected.
     ///
     /// # Errors
-    /// Fails if there are too few or unevenly spaced rows, or if a value is NaN.
+    /// Fails if there are too few or unevenly spaced rows, or if a value is not finite.
     pub fn spectrum(&self, most: usize) -> Result<Vec<SpectrumPeak>, SpectrumError> {
         let count = self.values.len();
         if count < FEWEST {

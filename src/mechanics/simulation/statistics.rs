@@ -31,7 +31,7 @@ pub struct Summary {
 }
 
 impl TimeSeries {
-    /// Extremes, means and integral of the column; `None` if the column is empty. If any value is NaN, all results are NaN.
+    /// Extremes, means and integral of the column; `None` if the column is empty. If any value is NaN, all results except the times are NaN.
     pub fn summary(&self) -> Option<Summary> {
         let first = (*self.values.first()?, *self.times.first()?);
         let rows = || self.values.iter().copied().zip(self.times.iter().copied());
@@ -62,8 +62,9 @@ impl TimeSeries {
 
     /// First derivative with respect to time at every row, accurate to second order also for uneven spacing.
     /// The derivative at a row is the slope of the parabola through the row and its neighbours.
-    /// In the first and the last row, the derivative is a one-sided difference quotient.
-    /// A jump consists of two rows of equal time. Each row of a jump uses the difference quotient on its side of the jump.
+    /// In the first and the last row, the parabola passes through the row and the next two rows on its side.
+    /// A jump consists of two rows of equal time. Each row of a jump uses the rows on its side of the jump.
+    /// With two rows only, the derivative is their difference quotient. For a single row, it is NaN.
     pub fn derivative(&self) -> Vec<f64> {
         let count = self.values.len();
         let slope = |a: usize, b: usize| {

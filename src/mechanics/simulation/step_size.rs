@@ -23,7 +23,7 @@ pub struct StepControl {
     ///
     /// In one step of a method of order `p`, the allowed error is the tolerance to the power `(p + 1)/p`.
     pub tolerance: f64,
-    /// Size of the first step, and of the first step after a jump of a load [time]. The default is derived from the scene.
+    /// Size of the first step, and largest size of the first step after a jump of a load or a release [time]. The default is derived from the scene.
     pub first: Option<f64>,
     /// Smallest step size [time]. The default is a millionth of the first step.
     pub smallest: Option<f64>,

@@ -11,7 +11,8 @@ const ROUNDINGS: f64 = 4.0;
 const MOST_POINTS: u64 = 1 << 60;
 
 /// Times at which steps end: `t_n = t_0 + n dt`, and additional times called cuts.
-/// Cuts are the jumps of schedules and of their derivatives, and the times at which digital controllers sample and act.
+/// Cuts are the jumps of schedules and of their derivatives, release times, and times that the caller requests.
+/// Steps also end at the times at which digital controllers sample and act.
 /// With variable steps, the grid consists of cuts only.
 #[derive(Debug, Clone, Default)]
 pub struct TimeGrid {

@@ -16,7 +16,7 @@ pub(super) const MOST_SPANS: f64 = 1.0;
 /// Factor by which the severity of a warning must increase before the warning is repeated.
 const REPEAT_FACTOR: f64 = 2.0;
 
-/// Factor by which the warning recommends to reduce the step size if a bounce lasted at most three steps.
+/// Factor by which the warning recommends to reduce the step size or the tolerance if a bounce lasted at most three steps.
 const BOUNCE: f64 = 5.0;
 
 /// Number of steps per period of a vibration with the step size that a warning recommends.
@@ -24,7 +24,7 @@ const RESOLVED_STEPS_PER_PERIOD: f64 = 20.0;
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum RateChangeCause {
-    /// Name of a damper, a damped material, or a drag element.
+    /// Name of the element that dissipated the most energy, such as a damper, a damped material, or a drag element.
     Damping(String),
     /// Description of a load or drive with a controller that is sampled once per step.
     Controller(String),
@@ -94,7 +94,7 @@ pub enum Warning {
         /// Initial rate with its unit.
         rate: String,
     },
-    /// Alternating long and short steps in a scene with rigid links or strong damping.
+    /// Alternating long and short steps in a scene with rigid links or dissipation.
     Uneven {
         /// Length of the shortest recent step [time].
         shortest: f64,

@@ -13,7 +13,7 @@ use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
 use crate::system::{MasterEnd, Scene, System, UnknownKind};
 
-/// Largest number of times that a step is halved because no equilibrium is found.
+/// Largest number of times that a step is halved because no equilibrium is found, or because the equilibrium may lie on another part of the path.
 const MOST_HALVINGS: u32 = 8;
 
 /// Largest distance between two consecutive equilibria, as a multiple of the step length.
@@ -121,7 +121,7 @@ impl<'s> Continuation<'s> {
         let Loading { factor: goal, steps, .. } = self.loading;
         self.begin(goal / steps as f64, hold)?;
         if hold != InitialSupport::Itself && steps > 1 {
-            // If only loads restrain the scene, the path starts from the equilibrium under a small load.
+            // If only loads restrain the scene, the first load step does not follow a path. A second load step gives the direction of the path.
             self.solve_for_factor(goal * (2.0 / steps as f64), MOST_HALVINGS)?;
         }
         let mut trial = PathStep::new(&self.model, &self.loading);
@@ -206,7 +206,7 @@ impl<'s> Continuation<'s> {
         self.solve_for_factor(factor, halvings - 1)
     }
 
-    /// Returns true if the last point continues the path, or if the step cannot be halved again.
+    /// Returns true if the last point continues the path, if the step cannot be halved again, or with arc-length control.
     fn is_continuation(&mut self, halvings: u32) -> bool {
         if self.loading.control != Control::Load {
             return true;
@@ -272,7 +272,8 @@ impl<'s> Continuation<'s> {
         Err(StepFailure::FarSolution)
     }
 
-    /// Largest acceleration of a mass due to the unbalanced forces in the last configuration, divided by the size of the scene [1/time²].
+    /// Largest acceleration due to the unbalanced forces in the last configuration [1/time²].
+    /// Accelerations of displacements are divided by the size of the scene, and angular accelerations are not scaled.
     /// The result is 1 if no force is unbalanced, because dynamic relaxation may then start with any rate.
     pub(super) fn acceleration_by_size(&mut self, factor: f64) -> f64 {
         self.model.predict_unchanged(&mut self.unknowns);

@@ -21,7 +21,7 @@ pub enum Stability {
     Stable,
     /// At least one small disturbance of the equilibrium grows.
     Unstable,
-    /// The stability is undetermined, because the stiffnesses differ so much that the smallest ones are below the rounding error.
+    /// The stability is undetermined, because the stiffness of the lowest mode is below its rounding error.
     BelowRounding,
     /// The stability is undetermined, because a load is a follower load, which has no potential.
     Follower,
@@ -43,6 +43,7 @@ impl Equilibrium {
     ///
     /// # Errors
     /// Fails if the scene cannot be built, a load has no value, no load acts, no equilibrium is found, or the search is stopped.
+    /// Also fails if a number in `loading` is invalid, or if the scene has a brake, a controller, a prescribed rate, or with arc-length control a drive.
     pub fn find(
         scene: Scene,
         loading: Loading,
@@ -64,7 +65,7 @@ impl Equilibrium {
     /// Returns the initial configuration instead of the equilibrium, for the check of scripts (dry run).
     ///
     /// # Errors
-    /// Fails if [`find`](Self::find) would reject the scene or the loads: the scene cannot be built, a load has no value, or no load acts.
+    /// Fails in the same cases as [`find`](Self::find), except for the cases that depend on the search.
     pub fn dry_run(scene: Scene, loading: Loading) -> Result<Self, StaticsError> {
         let goes_on = &mut |_| true;
         let model = prepare(&scene, &loading, goes_on)?;
@@ -79,7 +80,7 @@ impl Equilibrium {
         &self.scene
     }
 
-    /// Load factor, load steps and control of the path.
+    /// Loading for which the equilibrium was computed.
     pub fn loading(&self) -> &Loading {
         &self.loading
     }
@@ -121,7 +122,7 @@ impl Equilibrium {
     /// Section forces and strains at a station of a beam in equilibrium.
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam, or if it belongs to a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle or a rigid body.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))
@@ -135,7 +136,8 @@ impl Equilibrium {
         self.model.section_forces_along(&self.scene, beam)
     }
 
-    /// Stability of the equilibrium, determined from the signs of the pivots of the stiffness.
+    /// Stability of the equilibrium, determined from the signs of the pivots of the stiffness, and from the lowest mode if a pivot is negative.
+    /// If the lowest mode cannot be computed, the equilibrium counts as unstable.
     pub fn stability(&self, goes_on: &mut dyn FnMut() -> bool) -> Stability {
         if self.model.follower().is_some() {
             return Stability::Follower;
@@ -153,7 +155,7 @@ impl Equilibrium {
     /// Lowest natural modes about the equilibrium.
     ///
     /// # Errors
-    /// Fails if there are too few modes, or if a load is a follower load.
+    /// Fails in the same cases as [`Modes::of`].
     pub fn modes(
         &self,
         count: usize,

@@ -13,7 +13,7 @@ pub struct Loading {
     pub time: f64,
     /// Final load factor [-]; 1 for the loads of the scene.
     pub factor: f64,
-    /// Number of equal load steps. With arc-length control, only the first load step has this size.
+    /// Number of equal load steps. With arc-length control, only the first load step has this size, or the first two if only loads restrain the scene.
     pub steps: usize,
     /// Quantity that is prescribed in each load step.
     pub control: Control,
@@ -39,7 +39,7 @@ pub enum Control {
 pub struct ArcLength {
     /// Longest distance between consecutive equilibria [-, rad].
     /// The distance between equilibria is the root mean square of displacements and rotations over all control points.
-    /// Displacements are divided by the length of the longest beam.
+    /// Displacements are divided by the length of the longest beam, or by the extent of a scene without beams.
     pub longest: f64,
     /// Largest number of points of the path.
     pub points: usize,

@@ -11,7 +11,7 @@ pub struct PathPoint {
     pub strain_energy: f64,
     /// Distance of the equilibrium from the previous equilibrium [-, rad].
     /// The distance between equilibria is the root mean square of displacements and rotations over all control points.
-    /// Displacements are divided by the length of the longest beam.
+    /// Displacements are divided by the length of the longest beam, or by the extent of a scene without beams.
     pub distance: f64,
     /// Number of Newton iterations from the previous point of the path.
     pub iterations: usize,

@@ -179,7 +179,7 @@ impl System {
     /// Evaluates the loads and prescribed positions of a static solution just after a time.
     ///
     /// # Errors
-    /// Returns the name of an element without a finite value, and the error of its schedule.
+    /// Returns the name of the load or drive without a finite value, and the error of its schedule.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
         self.elements.evaluate_after(time)

@@ -24,7 +24,8 @@ pub struct DampedMode {
 }
 
 impl DampedMode {
-    /// Damping ratio `δ/|λ|` of the vibration `exp(λ t)` with decay rate `δ` [-]; one for an overdamped vibration, zero for `λ = 0`.
+    /// Damping ratio `δ/|λ|` of the vibration `exp(λ t)` with decay rate `δ` [-]; negative if the vibration grows.
+    /// The damping ratio is one for an overdamped vibration, and zero for `λ = 0`.
     pub fn damping_ratio(&self) -> f64 {
         match hypot(self.decay_rate, self.angular_frequency) {
             0.0 => 0.0,
@@ -36,7 +37,7 @@ impl DampedMode {
     /// The vibrations are in increasing order of `|λ|`. Each conjugate pair of eigenvalues `λ` gives one vibration.
     ///
     /// # Errors
-    /// Fails if the model is too large, a degree of freedom has no inertia, or there are too few vibrations.
+    /// Fails if the model is too large or has sliders, a degree of freedom has no inertia, there are too few vibrations, or they are not found.
     /// Also fails in the same cases as [`Modes::of`](super::Modes::of), because undamped modes are computed first.
     pub fn of(
         model: &System,

@@ -1,4 +1,4 @@
-//! Computation of all modes of a small scene in one pass (docs/theory.md, section 15).
+//! Computation of all modes of a small scene together (docs/theory.md, section 15).
 //!
 //! One-sided Jacobi rotations compute large and small singular values to almost full accuracy (J. Demmel & K. Veselić 1992).
 

@@ -1,6 +1,6 @@
 //! Stiffness matrix of a configuration in factored form: derivatives of strains with respect to displacements, and section stiffnesses.
 //!
-//! Section forces are unknowns in addition to the displacements. Section stiffnesses multiply only the residuals of the strains.
+//! Section forces are unknowns in addition to the displacements. Section stiffnesses multiply only the residuals and corrections of the strains.
 //! Therefore the rounding errors of force residuals are proportional to section forces, not to stiffnesses.
 
 use pulp::{Arch, Simd, WithSimd};

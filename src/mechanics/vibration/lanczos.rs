@@ -19,7 +19,7 @@ const SETTLED: f64 = 1e-8;
 /// Largest ratio of the lengths of a vector after and before orthogonalisation for which the result consists of rounding errors.
 const ROUNDING_REDUCTION: f64 = 1e-11;
 
-/// Smallest ratio of the lengths of a vector after and before orthogonalisation that makes a second orthogonalisation unnecessary.
+/// Smallest ratio of the length of a vector after orthogonalisation to its largest removed component that makes a second orthogonalisation unnecessary.
 const SHRUNK: f64 = 1e-4;
 
 /// Largest component in the basis that may remain after orthogonalisation, as a fraction of the length of the vector.

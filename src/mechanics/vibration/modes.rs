@@ -22,8 +22,8 @@ pub struct Mode {
     /// Rounding error of the squared frequency `ω²` [1/time²].
     pub rounding: f64,
     /// Residual of the mode [-], a measure of its accuracy.
-    /// The residual is the energy of the next correction of the shape and its section forces, as a fraction of the energy of the shape.
-    /// The residual bounds the relative error of `ω² + ω₁²`, where `ω₁` is the angular frequency of the lowest bending mode.
+    /// The residual is the square root of a ratio: the energy of a correction of the shape and its section forces, divided by the energy of the shape.
+    /// The residual bounds the relative error of `ω² + σ`. The shift `σ` of the search is usually an estimate of `ω²` of the lowest bending mode.
     pub residual: f64,
     /// Mode shape: values of the unknowns, normalised with respect to the inertia [length, rad over the square root of a mass].
     pub shape: Vec<f64>,
@@ -72,7 +72,8 @@ impl Modes {
     /// The callback `goes_on` is called repeatedly. If the callback returns false, the search stops.
     ///
     /// # Errors
-    /// Fails if there are too few modes, a load is a follower load, or the search is stopped.
+    /// Fails if `count` is zero, there are too few modes, a load is a follower load, or the search is stopped.
+    /// Also fails if the stiffness is not finite, or if the search does not find all modes with the required accuracy.
     pub fn of(
         model: &System,
         count: usize,
@@ -115,7 +116,8 @@ impl Modes {
     }
 
     /// Decay rates of all modes [1/time].
-    /// The decay rates are exact if damping does not couple modes, for example for a material with one relaxation time for all strains.
+    /// The decay rates are exact if no mode is overdamped and damping does not couple modes.
+    /// Damping does not couple modes, for example, for a material with one relaxation time for all strains.
     /// If damping couples modes, the decay rates are accurate to first order in the damping.
     pub fn decay_rates(&self) -> &[f64] {
         &self.decay_rates
@@ -181,8 +183,8 @@ impl Modes {
     }
 }
 
-/// Number of degrees of freedom that are unrestrained in the present configuration without loads.
-/// The result is 0 for scenes without sliders that are too large for the computation.
+/// Number of degrees of freedom that are unrestrained or unstable in the present configuration without loads.
+/// The result is 0 for scenes without sliders that are too large for the computation, and if the count is unreliable.
 pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;

@@ -7,7 +7,7 @@ use crate::elementary::square;
 use crate::linalg::{LinearError, PreciseBand, STRIP_WIDTH, SymmetricFactors, SymmetricSparse};
 use crate::system::{StaticOrder, System, add_resistance};
 
-/// Largest accepted growth factor of an elimination. With a larger growth factor, more than half of the 32 digits are lost.
+/// Largest accepted growth factor of an elimination. With a larger growth factor, more than 12 of the 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
 /// Eigenvalue problem `K φ = ω² M φ` with the stiffness `K` and the inertia `M` of a model, for modes `φ` of angular frequency `ω`.

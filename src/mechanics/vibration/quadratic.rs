@@ -60,7 +60,7 @@ impl Quadratic {
     /// The `count` eigenvalues of smallest magnitude [1/time]. The eigenvalue with positive imaginary part represents a conjugate pair.
     ///
     /// # Errors
-    /// Fails if there are fewer eigenvalues, or if the search does not converge.
+    /// Fails if `count` is zero, there are fewer eigenvalues, or the search does not converge or is stopped.
     pub(super) fn slowest(
         &self,
         count: usize,
@@ -104,7 +104,8 @@ impl Quadratic {
             .collect())
     }
 
-    /// First shift of the search [1/time]. It is at most slightly larger than the smallest magnitude of an eigenvalue.
+    /// First shift of the search [1/time]. It is at most slightly larger than the smallest nonzero magnitude of an eigenvalue.
+    /// If some modes are unstable, the first shift is at least twice their largest growth rate without damping.
     fn slowest_shift(&self) -> f64 {
         let modes = || self.squares.iter().enumerate();
         let held = modes().filter(|(_, square)| **square != 0.0);

@@ -1,4 +1,4 @@
-//! Verification of pairs of eigenvalue and shape. Each pair is corrected with its section forces as additional unknowns.
+//! Verification of pairs of eigenvalue and shape: an estimate of their errors, or a correction with section forces as additional unknowns.
 
 use super::VibrationError;
 use super::elastic::{FourVectors, Shapes};
@@ -14,7 +14,8 @@ const MOST_CORRECTIONS: usize = 8;
 /// Largest ratio of two successive residuals that allows further corrections. With a larger ratio, corrections no longer help.
 const FALLING: f64 = 0.3;
 
-/// Largest ratio of the largest to the smallest eigenvalue for a common refinement. With a larger ratio, each pair is refined separately.
+/// Largest ratio of the largest to the smallest eigenvalue for which components of all pairs are removed only from the residual forces.
+/// With a larger ratio, these components are also removed from the corrections.
 const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
@@ -27,7 +28,7 @@ pub(super) struct RefinedPair {
 }
 
 /// Corrects the first `count` pairs of a search, with section forces as additional unknowns.
-/// Components of other pairs are removed from each correction, because the inverted stiffness would amplify them.
+/// Components of all pairs are removed from the residual forces of each correction, because the inverted stiffness would amplify them.
 pub(super) fn refine(
     pencil: &Pencil,
     factors: &SymmetricFactors,

@@ -11,7 +11,7 @@ use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
 /// Largest number of unknowns for which all modes are computed together.
 const SMALL: usize = 240;
 
-/// Largest number of unknowns for which all modes are computed together if more than a quarter of them is requested.
+/// Largest number of unknowns for which all modes are computed together if the number of requested modes is at least a quarter of the unknowns.
 const MEDIUM: usize = 2000;
 
 /// Peak memory for the computation of all modes, as a multiple of the memory of a dense stiffness matrix.

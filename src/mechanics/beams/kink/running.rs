@@ -4,7 +4,7 @@ use super::SplineString;
 use crate::beams::Mesh;
 use crate::geometry::{GaussRule, PiecewisePolynomial, Span, Vec2, lower_splines};
 
-/// Largest number of spans over which the factor of the kinetic energy is averaged.
+/// Largest number of spans over which the factor [`inertia`](SplineString::inertia) of the kinetic energy of a moving kink is averaged.
 const SAMPLES: usize = 16;
 
 impl SplineString {

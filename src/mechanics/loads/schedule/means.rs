@@ -1,7 +1,7 @@
 //! Means of schedules over steps.
 //!
-//! Constants and tables are integrated exactly by a three-point Gauss rule.
-//! Sines, smooth pulses and their products are integrated in closed form.
+//! Constants and tables, and their sums and products up to degree five, are integrated exactly by a three-point Gauss rule.
+//! Sines and smooth pulses, and their sums and products with each other and with tables, are integrated in closed form.
 //! All other schedules are sampled at five points, for two quadrature rules that are exact for cubic polynomials.
 //! The difference between the results of the two quadrature rules is an estimate of the sampling error.
 

@@ -11,7 +11,8 @@ impl Simulation {
     /// Starts a simulation with derivatives. `variations` contains the scenes at perturbed parameters.
     ///
     /// # Errors
-    /// Fails in the same cases as [`start`](Self::start), if the method provides no derivatives, or if the scenes differ in more than numbers.
+    /// Fails in the same cases as [`start`](Self::start), if the method provides no derivatives, or if the steps are variable.
+    /// Also fails if the scene has a controller or a sensor of accumulated means, or if the scenes differ in more than numbers or have different times.
     pub fn start_with_derivatives(
         scene: Scene,
         settings: SimulationSettings,

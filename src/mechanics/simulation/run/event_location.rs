@@ -12,7 +12,7 @@ use crate::system::{
     Arriving, ContactChange, END_TOLERANCE, MasterEnd, MasterLimit, SliderEvent, SliderState,
 };
 
-/// Largest number of attempts to find the time of an arrival. A few attempts are usual.
+/// Largest number of attempts to find the time of a slider event. A few attempts are usual.
 const MOST_TRIES: usize = 60;
 
 /// Largest distance from an end at which an approaching slider counts as having reached the end, as a fraction of the length of the master.

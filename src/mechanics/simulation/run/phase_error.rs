@@ -30,7 +30,7 @@ impl Simulation {
     /// Warning about the accumulated phase error of fixed steps.
     /// The phase error is that of a single vibration, which has the measured mean frequency and a part of the kinetic energy.
     ///
-    /// Scenes with drives and controllers are not checked, because drives and controllers impose the phase of the motion.
+    /// Scenes with drives or controllers are not checked, because drives and controllers impose the phase of the motion.
     pub(super) fn phase_error(&self) -> Option<Warning> {
         let StepSize::Fixed(dt) = self.settings.dt else { return None };
         let is_imposed = !self.scene.drives.is_empty()

@@ -8,7 +8,7 @@ impl Simulation {
     /// Section forces and strains at a station in the present configuration: see [`System::section_forces`](crate::system::System::section_forces).
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam, or if it belongs to a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle or a rigid body.
     pub fn section_forces(&self, station: &Station) -> Result<SectionForces, SystemError> {
         let at = self.model.cross_section(&self.scene, station)?;
         Ok(self.model.section_forces(&at))

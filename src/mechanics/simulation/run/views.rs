@@ -81,7 +81,7 @@ impl Simulation {
         Ok(Some(Outline::draw(self.outlines()?, self.record.trajectory.times()[index], &bodies)))
     }
 
-    /// Time at which an object was released, or at which a slider left its master [time]; `None` if neither occurred.
+    /// Time at which an object was released, or at which a slider was released at an end of its master [time]; `None` if neither occurred.
     pub fn release_of(&self, hold: Releasable) -> Option<f64> {
         let is_release = |arrival: &&Arrival| {
             Releasable::Slider(arrival.slider) == hold && arrival.kind == ArrivalKind::Released

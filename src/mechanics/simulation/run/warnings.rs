@@ -56,7 +56,7 @@ const ALTERNATION: f64 = 0.1;
 /// Smallest number of alternations of the step length among the recent steps that causes a warning.
 const MOST_TURNS: usize = 20;
 
-/// Smallest number of adaptive steps that can cause a warning.
+/// Smallest number of adaptive steps for which a warning about many steps is given.
 const MANY_STEPS: usize = 5000;
 
 /// Largest factor, without a warning, by which the mean step is shorter than a step that resolves the motion of the whole scene [-].
@@ -214,7 +214,7 @@ impl Simulation {
         })
     }
 
-    /// Warning about alternating long and short steps in scenes with persistent velocity errors.
+    /// Warning about alternating long and short steps in scenes with rigid links or dissipation, whose velocity errors persist.
     /// In steps of different lengths, position errors due to velocity errors of alternating sign do not cancel.
     fn uneven_steps(&self) -> Option<Warning> {
         let keeps = self.model.has_rigid_links() || self.scene.dissipating().next().is_some();

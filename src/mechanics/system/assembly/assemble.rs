@@ -37,7 +37,8 @@ impl System {
     /// Builds the mechanism of a scene in its initial state.
     ///
     /// # Errors
-    /// Fails if the scene is empty, a beam does not fit its mesh, or start velocities contradict the joints.
+    /// Fails if the scene has no bodies or nothing that can move, an object does not fit its body or mesh, or constraints are redundant.
+    /// Also fails if a motion or a contact direction is undetermined, a drive has no value, or start velocities contradict joints, drives or sliders.
     pub fn assemble(scene: &Scene) -> Result<Self, SystemError> {
         Self::assemble_while(scene, &mut || true)
     }
@@ -84,7 +85,8 @@ impl System {
     /// Velocities of slaves across their masters are checked at the slider positions of the static state, not at the initial positions.
     ///
     /// # Errors
-    /// Fails in the same cases as [`assemble`](Self::assemble), or if a drive has no value at the given time.
+    /// Fails in the same cases as [`assemble`](Self::assemble), except for undetermined contact directions.
+    /// Also fails if the scene has a sleeve, or if a drive has no value at the given time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,

@@ -6,7 +6,7 @@ use crate::system::Scene;
 use crate::system::scene::Ties;
 use crate::system::sliders::SliderContact;
 
-/// Smallest number of sliders for block-wise elimination of contacts.
+/// Smallest number of sliders for block-wise elimination of contacts in scenes without contact between bodies.
 /// For fewer sliders, the contact unknowns in a dense border of the band matrix are faster (docs/studies.md).
 const MANY: usize = 4;
 

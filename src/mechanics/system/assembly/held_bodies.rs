@@ -8,7 +8,7 @@ use crate::system::{Scene, System, SystemError};
 impl System {
     /// Rejects a rigid body with a degree of freedom that has neither inertia nor a restraint, because its acceleration is undetermined.
     ///
-    /// A restraint is a support, a drive, a tied degree of freedom, a mass at a point, or an element at a point.
+    /// A restraint is a support, a drive or a tied degree of freedom, or a mass, spring, drag or slider at a point of the body.
     pub(super) fn check_movements_held(&self, scene: &Scene) -> Result<(), SystemError> {
         let inertia = self.diagonal_of_inertia();
         let first = scene.first_rigid_body();

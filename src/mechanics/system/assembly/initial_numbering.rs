@@ -18,10 +18,11 @@ pub struct InitialNumbering {
 }
 
 impl InitialNumbering {
-    /// Numbers the free components (x, y, angle) of the control points of a scene. Tied components share one number.
+    /// Numbers the free components (x, y, angle) of the control points of a scene, and the forces of rigid links and inclined rollers.
+    /// Tied components share one number.
     ///
     /// # Errors
-    /// Fails if all degrees of freedom are fixed.
+    /// Fails if all degrees of freedom are fixed and the scene has no drive.
     pub fn new(scene: &Scene, tied: &mut TiedComponents) -> Result<Self, SystemError> {
         let all = tied.count();
         let held = tied.links.iter().map(|link| tied.component(*link, Component::X));

@@ -11,7 +11,8 @@ const UNDETERMINED: f64 = 1e11;
 impl System {
     /// Rejects redundant constraints of rigid links and inclined rollers.
     ///
-    /// The check assigns a unit mass to every degree of freedom and computes the constraint forces that close given gaps at all constraints.
+    /// The check assigns a unit mass to every position and the rotary inertia of a unit mass at the longest arm to every rotation.
+    /// It computes the constraint forces that close given gaps at all constraints.
     /// A unique constraint force is at most the gap times the square of the number of bodies in a chain. Redundant forces are much larger.
     pub(super) fn check_links(&self, scene: &Scene) -> Result<(), SystemError> {
         if self.links().forces() == 0 {

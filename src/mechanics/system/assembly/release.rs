@@ -33,7 +33,8 @@ impl System {
         Ok(())
     }
 
-    /// Marks the given objects as released and all others as attached, before a state is restored.
+    /// Marks the given joints, drives and springs as released and all others as attached, before a state is restored.
+    /// Releases of sliders are part of the state.
     ///
     /// # Errors
     /// Fails if a station lies outside its beam, which cannot occur in a checked scene.

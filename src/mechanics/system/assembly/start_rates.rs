@@ -8,6 +8,7 @@ use crate::system::errors::{rounded, written};
 use crate::system::{Scene, StartMotion, StationVelocity, SystemError, Turning};
 
 /// Largest difference between the start velocities of two joined bodies that counts as zero, as a fraction of the velocities.
+/// The same limit applies to the velocity across an inclined roller.
 const SAME_VELOCITY: f64 = 1e-9;
 
 /// Largest accepted difference between a start velocity and the velocity that a drive or a joint requires, as a fraction of the larger one.
@@ -80,7 +81,7 @@ impl RequestedRate<'_> {
 }
 
 impl Assembly<'_> {
-    /// Rates of the unknowns at the start, compatible with joints, drives and start velocities [length/time, 1/time].
+    /// Rates of the unknowns at the start, compatible with joints, drives and start velocities [length/time, rad/time].
     ///
     /// The argument `prescribed` contains `constraints` zeros for the contact unknowns, followed by the initial rates of the drives.
     pub fn start_rates(

@@ -19,7 +19,7 @@ pub struct Bodies {
     /// Mass of the beams [mass].
     mass: f64,
     pub(super) threads: usize,
-    /// Division of the bodies into two halves that two threads process; `None` if there are too few bodies.
+    /// Division of the bodies into two halves that two threads process; `None` if a division saves no time.
     pub(super) halves: Option<BodyHalves>,
 }
 

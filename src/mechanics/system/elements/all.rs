@@ -79,7 +79,7 @@ impl Elements {
     /// Prepares all elements for a step that starts with the given rates of the unknowns.
     ///
     /// # Errors
-    /// Returns the name of the first element without a finite value, and the error of its schedule.
+    /// Returns the name of the first element whose schedule has no valid value, and the error of the schedule.
     pub fn begin_step(
         &mut self,
         (interval, stages): (Interval, &[Stage]),
@@ -103,7 +103,7 @@ impl Elements {
     /// Evaluates all loads just after a time. If a load jumps at this time, the value after the jump is used.
     ///
     /// # Errors
-    /// Returns the name of the first element without a finite value, and the error of its schedule.
+    /// Returns the name of the first element whose schedule has no valid value, and the error of the schedule.
     pub fn evaluate_after(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.forces.iter_mut().try_for_each(|force| {
             force.evaluate_after(time).map_err(|error| (force.name().to_owned(), error))

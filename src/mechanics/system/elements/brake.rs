@@ -36,7 +36,7 @@ impl BrakeLaw {
     /// Checks the friction limit and the deflection.
     ///
     /// # Errors
-    /// Fails if the deflection is not positive, or a constant friction limit is negative.
+    /// Fails if the deflection is not positive and finite, or a constant friction limit is negative.
     pub(super) fn check(&self, object: &str) -> Result<(), SystemError> {
         let refused = |name, value, allowed| {
             Err(SystemError::Value { object: object.to_owned(), name, value, allowed })

@@ -12,7 +12,7 @@ use crate::geometry::larger;
 /// The limit `ROUNDING` applies to forces at zero rate, and to forces that add energy.
 const ROUNDING: f64 = 1e-12;
 
-/// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and opposes the motion otherwise.
+/// Damping force as a function of the rate `q̇` of an elongation. The force is zero at zero rate and never acts in the direction of the motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum DampingLaw {
     /// Linear law `c q̇` with the coefficient `c` ≥ 0 [force·time/length; for torsion force·length·time/rad].
@@ -33,13 +33,13 @@ impl From<f64> for DampingLaw {
     }
 }
 
-/// Range of rates in which a damping law adds energy.
+/// Rates at which a damping law adds energy or has a force at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NegativeDamping {
     /// Point of the law at which the force adds energy, or is not zero although the rate is zero.
     /// The variant contains the rate [length/time, rad/time] and the force [force, force·length] of this point.
     At { rate: f64, force: f64 },
-    /// The law is extrapolated linearly beyond its last rate `end`. The extrapolated force adds energy at rates beyond `from`.
+    /// The law is extrapolated linearly beyond its first or last rate `end`. The extrapolated force adds energy at rates beyond `from`.
     Extrapolated { end: f64, from: f64 },
 }
 
@@ -97,7 +97,7 @@ impl DampingLaw {
         }
     }
 
-    /// Returns true if the law has a nonzero force at some rate.
+    /// Returns false for the linear law with a zero coefficient, and true for all other laws.
     pub fn is_active(&self) -> bool {
         *self != Self::Linear(0.0)
     }

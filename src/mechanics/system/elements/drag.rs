@@ -23,7 +23,7 @@ pub enum Dragged {
         /// Force per length along the axis.
         tangent: SpeedLaw,
     },
-    /// A particle or a station of a beam, with the same drag law in every direction.
+    /// A particle, or a station of a beam or a rigid body, with the same drag law in every direction.
     Point {
         /// Station with drag.
         station: Station,

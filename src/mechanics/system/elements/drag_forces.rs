@@ -1,6 +1,7 @@
 //! Drag in a step (docs/theory.md, section 9.3).
 //!
-//! The dissipated power is computed from the force alone by means of the drag law, so that rounding cannot change its sign.
+//! Without wind, the dissipated energy is minus the work of the drag force on the body.
+//! With wind, the dissipated power is computed from the force alone by means of the drag law, so that rounding cannot change its sign.
 //! The work of the wind is the work of the drag force plus the dissipated energy, so that the energy balance is exact.
 
 use super::drag_law::DragLaw;

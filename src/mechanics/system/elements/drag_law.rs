@@ -53,7 +53,8 @@ pub fn in_space(t: Vec2, components: Vec2) -> Vec2 {
 }
 
 impl DragLaw {
-    /// Force on the medium at a velocity of the body relative to the medium, for a line with unit tangent `t`. For a point, `t` has no effect.
+    /// Force on the medium at a velocity of the body relative to the medium, for a line with unit tangent `t`.
+    /// For a point, `t` only defines the directions of the components.
     pub fn force(&self, velocity: Vec2, t: Vec2) -> DragResponse {
         let n = perpendicular(t);
         let (across, along) = (n.dot(&velocity), t.dot(&velocity));

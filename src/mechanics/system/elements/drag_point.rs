@@ -248,7 +248,7 @@ impl DragPoint {
         law.power(self.force) * self.weight
     }
 
-    /// Displacement of the point in the step, minus `duration` times the velocity for which the drag law is evaluated [length].
+    /// Displacement of the point in the step, minus `duration` times the velocity of the point for which the drag law is evaluated [length].
     pub fn displacement_remainder(&self, movement: Vec2, duration: f64) -> Vec2 {
         let Some(rates) = self.rates else { return Vec2::zeros() };
         movement * (1.0 - rates.by_change * duration)

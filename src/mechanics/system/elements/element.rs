@@ -21,7 +21,7 @@ pub enum Element {
     PointMass(PointMass),
     /// Force, moment or force per length that follows a schedule.
     Load(Load),
-    /// Spring, damper or tendon.
+    /// Spring, damper, tendon or brake.
     Spring(Spring),
     /// Material damping of a beam.
     Damping(MaterialDamping),

@@ -1,4 +1,5 @@
-//! Elongations: the length of a polygonal path over several points, or the angle between two sections (docs/theory.md, section 9.1).
+//! Elongations: the length of a polygonal path over several points, the angle between two sections, or a component of the vector between two points
+//! (docs/theory.md, section 9.1).
 //!
 //! Forces act along secants, so the work of a step is exactly the force times the elongation change.
 //! Positions are updated by increments, so their rounding error does not depend on the distance from the origin.
@@ -50,7 +51,7 @@ enum Measure {
     Component(usize),
 }
 
-/// Length or angle between the terminals of a spring: its value at the start of a step, and its change in the present iterate.
+/// Length, angle or component of the vector between the ends of a spring: its value at the start of a step, and its change in an iterate.
 /// The increments on which an elongation depends are called its coordinates.
 #[derive(Debug, Clone)]
 pub struct Elongation {

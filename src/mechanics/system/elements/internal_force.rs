@@ -1,4 +1,4 @@
-//! Interface of elements that resist motion: springs, dampers, brakes, drag, obstacles and contacts between bodies.
+//! Interface of elements that resist motion: springs, dampers, brakes, material damping, drag, obstacles and contacts between bodies.
 
 use super::{
     Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, WorkAndImpulse,
@@ -102,7 +102,7 @@ pub trait InternalForce {
         None
     }
 
-    /// Elongation and force of a spring; `None` for elements that are not springs.
+    /// Elongation and force of a spring, damper or brake; `None` for other elements.
     fn stretched(&self) -> Option<SpringTrialState> {
         None
     }

@@ -79,7 +79,7 @@ impl MixedForce {
 const MOST_TRIES: usize = 120;
 
 impl ForceTarget {
-    /// Target force and slope at the intersection of an increasing law with a line of negative slope.
+    /// Tangent of an increasing law at its intersection with a line of negative slope: the slope of the tangent, and its force at `change`.
     /// The line of negative slope represents the response of all other objects of the scene: its slope is minus their impedance.
     /// Without the intersection, Newton's method would alternate between the segments at a corner of a stiff law.
     pub fn intersection(

@@ -29,7 +29,7 @@ struct Driven {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct PresentMotion {
-    /// Prescribed acceleration at the end of the last step [length/time², 1/time²].
+    /// Prescribed acceleration at the end of the last step [length/time², rad/time²].
     acceleration: f64,
     /// Largest jump of the prescribed rate in the steps before the present step. The jump in the present step is stored in `step_curvature`.
     curvature: MotionCurvature,
@@ -214,7 +214,7 @@ impl PrescribedMovements {
         })
     }
 
-    /// Evaluates the prescribed increments in a step, and the prescribed rates at the start of the step.
+    /// Evaluates the prescribed increments in a step, the prescribed rates at its end, and the prescribed accelerations.
     ///
     /// # Errors
     /// Returns the name of the drive whose function has no finite value, and the error of the function.

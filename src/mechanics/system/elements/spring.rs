@@ -1,4 +1,4 @@
-//! Definitions of springs, dampers and tendons in a scene.
+//! Definitions of springs, dampers, tendons and brakes in a scene.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ use crate::system::{SystemError, Turning};
 /// Attachment of a spring.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Anchor {
-    /// Station of a beam, or a particle.
+    /// Station of a beam or a rigid body, or a particle.
     Station(Station),
     /// Point of the ground [length].
     Ground(Vec2),
@@ -62,14 +62,14 @@ pub enum Origin {
     AsBuilt,
 }
 
-/// Spring, damper, or both in parallel.
+/// Spring, damper, or both in parallel, or a brake.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// Name in messages and columns.
     pub name: String,
     /// Quantity on which the forces depend.
     pub kind: SpringKind,
-    /// Force as a function of the length or angle; `None` for a pure damper.
+    /// Force as a function of the length or angle; `None` for a pure damper or a brake.
     pub law: Option<SpringLaw>,
     /// Configuration of zero elongation in the law.
     pub origin: Origin,
@@ -280,7 +280,7 @@ impl Spring {
         })
     }
 
-    /// Rejects springs whose terminals are the same station, and springs with all points on the ground.
+    /// Rejects springs with two consecutive points at the same station, and springs with all points on the ground or on one rigid body.
     fn check_movable(&self, setting: &dyn SceneChecks) -> Result<(), SystemError> {
         let idle = |[from, to]: [&Anchor; 2], why| {
             let [from, to] = [from, to].map(|anchor| match anchor {

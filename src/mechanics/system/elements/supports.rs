@@ -22,7 +22,8 @@ impl Support {
     }
 }
 
-/// Supported degrees of freedom of a model. They are numbered after the unknowns: first the prescribed, then the fixed degrees of freedom.
+/// Supported degrees of freedom of a model. They are numbered after the unknowns and the contact unknowns:
+/// first the prescribed, then the fixed degrees of freedom.
 pub struct Supports {
     prescribed: PrescribedMovements,
     held: Vec<Support>,

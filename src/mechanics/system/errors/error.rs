@@ -133,7 +133,7 @@ pub enum Turning {
     Load,
     /// Initial angular velocity.
     Spin,
-    /// Torsion spring.
+    /// Torsion spring, torsion damper or brake.
     TorsionSpring,
     /// Prescribed angle.
     Drive,

@@ -77,7 +77,7 @@ pub fn refusal(name: &str) -> Option<&'static str> {
 /// Checks the name of a scene, of one of its objects, or of a simulation.
 ///
 /// # Errors
-/// Fails if the name is empty or too long, begins like a formula, or has invisible or ambiguous characters.
+/// Fails if the name is empty or too long, begins or ends with a blank, begins like a formula, or has invisible or ambiguous characters.
 pub fn check_name(kind: &'static str, name: &str) -> Result<(), SystemError> {
     match refusal(name) {
         Some(why) => Err(SystemError::Unnamed { kind, name: name.to_owned(), reason: why }),

@@ -231,7 +231,7 @@ impl System {
     /// Computes the impact of rigid links and sliders due to jumps of prescribed rates at the start of a step.
     /// Without the impact at a jump, the violation of the velocity constraints would alternate in sign from step to step.
     /// The impact reverses the violation of the velocity constraints. It conserves energy except for the work of drives (theory.md 9.5).
-    /// The returned flag is true if a prescribed rate jumps.
+    /// The returned flag is true if the impact has been applied. It is false without a jump, without rigid links and sliders, or after an error.
     pub(crate) fn apply_drive_jumps(&mut self, interval: Interval) -> bool {
         if self.links.count() == 0 && self.sliders.iter().next().is_none() {
             return false;

@@ -42,7 +42,7 @@ impl System {
         forces.iter().zip(inertia).map(of).collect()
     }
 
-    /// Band matrix of the inertia, bordered by the constraints of rigid links [mass, mass·length, mass·length²].
+    /// Band matrix of the inertia, with the constraints of rigid links and inclined rollers at their force unknowns [mass, mass·length, mass·length²].
     pub(super) fn banded_inertia(&self) -> BandedMatrix {
         let mut inertia =
             BandedMatrix::zeros(self.unknowns.count(), self.unknowns.half_bandwidth());

@@ -13,10 +13,10 @@ use crate::system::SystemError;
 use crate::system::sliders::{KinkedAxis, SliderContact};
 
 impl System {
-    /// Initialises all kinks of a scene in its initial configuration. A kink is a jump of the tangent of a master under the force of a slider.
+    /// Initialises the kinks of all slow sliders in the initial configuration. A kink is a jump of the tangent of a master under the force of a slider.
     /// The contact forces are those of rigid contacts.
     ///
-    /// Each slave and its master are moved apart by the deflection that the kink adds at the contact point.
+    /// Each slave and its master are moved apart by the deflection that the kink adds at the contact point. If this is impossible, the kink is removed.
     /// The relative velocity of a slider at an end of its master is rotated from the smooth axis onto the kinked axis.
     /// If the contact forces cannot be computed, all kinks start without load, and the first step reports this failure.
     pub(in crate::system) fn start_kinks(&mut self) -> Result<(), SystemError> {

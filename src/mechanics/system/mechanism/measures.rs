@@ -14,7 +14,7 @@ pub struct Energy {
     pub strain: f64,
     /// Potential energy of gravity, relative to the origin [energy].
     pub potential: f64,
-    /// Potential energy of springs and tendons [energy].
+    /// Potential energy of springs, tendons, brakes, obstacles and contacts between bodies [energy].
     pub stored: f64,
 }
 
@@ -32,23 +32,23 @@ pub struct Measures {
     pub time: f64,
     /// Energy by type [energy].
     pub energy: Energy,
-    /// Work of loads and drives so far [energy].
+    /// Work of loads, drives and wind so far [energy].
     pub work: f64,
     /// Energy dissipated by dampers, drag and friction, and lost in impacts, so far [energy].
     pub dissipated: f64,
     /// Linear momentum [mass·length/time].
     pub momentum: Vec2,
-    /// Impulse of loads, gravity and supports so far [force·time].
+    /// Impulse of all external forces so far [force·time].
     pub impulse: Vec2,
     /// Angular momentum about the origin [mass·length²/time].
     pub angular_momentum: f64,
-    /// Angular impulse of loads, gravity and supports about the origin so far [force·length·time].
+    /// Angular impulse of all external forces about the origin so far [force·length·time].
     pub angular_impulse: f64,
-    /// Sum of the magnitudes of all impulses so far, added up separately for each load and support [force·time].
+    /// Sum of the magnitudes of all impulses so far, added up separately for each external force [force·time].
     pub gross_impulse: f64,
-    /// Sum of the magnitudes of all angular impulses so far, added up separately for each load and support [force·length·time].
+    /// Sum of the magnitudes of all angular impulses so far, added up separately for each external force [force·length·time].
     pub gross_angular_impulse: f64,
-    /// Largest distance between the partners of a joint, of a slider or of a rigid link [length].
+    /// Largest distance between the partners of a joint, of a slider or of a rigid link, or of an inclined roller from its line [length].
     pub gap: f64,
 }
 

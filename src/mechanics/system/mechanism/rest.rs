@@ -13,9 +13,9 @@ use crate::system::sliders::{AtRest, MasterEnd};
 /// Scales of the forces in a static iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StaticForces {
-    /// Largest section force or load [force].
+    /// Largest section force, element force, contact force or load [force].
     pub force: f64,
-    /// Largest section moment or moment of a load [force·length].
+    /// Largest section moment, element moment or moment of a load [force·length].
     pub moment: f64,
     /// Largest strain residual: strain of the configuration minus the strain that belongs to the section force [-].
     pub strain_mismatch: f64,

@@ -3,7 +3,8 @@
 //! A corner of a track is the limit of a rounded corner: the contact impulses are normal to the rotating tangent and do no work.
 //! The relative velocity of the slave rotates with the tangent. Angles are measured in a metric that depends on the masses.
 //! The rotation of the tangent is the change of the section angle plus the change of the shear angle from the first beam to the second.
-//! If the steps do not resolve the resulting vibrations, only the change of the shear angle is applied.
+//! The impulses of the change of the section angle excite no vibrations that the steps do not resolve.
+//! The impulses of the change of the shear angle may excite all vibrations. They are applied last.
 
 use super::System;
 use super::impact::{ImpactDirection, ImpactImpulses, ImpactLaw, ImpactProblem};

@@ -14,7 +14,7 @@ const APPROXIMATION: f64 = 1e-5;
 
 impl System {
     /// Name of the first contact whose force has no direction at the start, and the index of the body in the contact.
-    /// The contact force has no direction if the body lies on the axis of the body that it touches, or at the centre of a disc.
+    /// The contact force has no direction if a contact point lies on the axis or at the centre of the body that it touches. Obstacles are not checked.
     pub(in crate::system) fn undirected_contact(&self) -> Option<(&str, usize)> {
         self.elements.resistances().find_map(|contact| {
             let inside = contact.penetrations(&self.bodies);

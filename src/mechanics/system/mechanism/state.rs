@@ -20,7 +20,7 @@ pub struct SystemState {
 }
 
 impl SystemState {
-    /// Returns an empty state with the capacity of this state.
+    /// Returns an empty state with the capacity for the numbers and slider states of this state.
     pub fn blank(&self) -> Self {
         Self {
             numbers: Vec::with_capacity(self.numbers.len()),
@@ -74,7 +74,7 @@ impl System {
         state
     }
 
-    /// Writes the [`state`](Self::state) to a buffer. Nothing is allocated if the buffer already holds a state of this model.
+    /// Writes the [`state`](Self::state) to a buffer. If the buffer already holds a state of this model, only additional contacts are allocated.
     pub(crate) fn write_state(&self, state: &mut SystemState) {
         let SystemState { numbers, prediction: trend, knows_accelerations, sliders, contacts } =
             state;

@@ -11,7 +11,7 @@ use crate::linalg::{PreciseBand, SymmetricSparse};
 use crate::system::links::RigidLink;
 use crate::system::state::UnknownKind;
 
-/// Penalty stiffness of rigid links, as a multiple of the largest stiffness at their degrees of freedom.
+/// Penalty stiffness of rigid links, inclined rollers and sliders, as a multiple of the largest stiffness of the model.
 /// The penalty stiffness changes frequencies by a relative amount below 1/`RIGID`.
 /// Rounding of the penalty stiffness does not affect other stiffnesses, because the matrices have 32 digits.
 const RIGID: f64 = 1e8;
@@ -40,7 +40,7 @@ impl System {
         }
     }
 
-    /// Power that dampers, damped materials and drag dissipate at the given rates of the unknowns in the present configuration [energy/time].
+    /// Power that all elements dissipate at the given small rates of the unknowns in the present configuration [energy/time].
     pub(crate) fn dissipation(&self, rates: &[f64]) -> f64 {
         let mut power = 0.0;
         self.each_damped_rate(rates, &mut |damping, rate| power += damping * square(rate));

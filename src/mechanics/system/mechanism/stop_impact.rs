@@ -17,7 +17,8 @@ use crate::system::sliders::{AxialImpact, MasterLimit, SliderState};
 /// Largest distance from an end, as a fraction of the parameter range, at which sliders count as arriving simultaneously [-].
 const TOGETHER: f64 = 1e-12;
 
-/// Smallest number of steps per period of the vibrations that are included in an impact. Faster vibrations are suppressed.
+/// Time of the [`Deformation`] in an impact, as a multiple of the step length, or of the impact duration if there is a coefficient of restitution.
+/// Vibrations with much shorter periods are suppressed.
 pub(super) const RIGID: f64 = 4.0;
 
 /// Largest ratio of step length to impact duration for which the steps resolve the impact [-].

@@ -10,7 +10,7 @@ use crate::linalg::LinearError;
 use crate::system::SystemError;
 use crate::system::sliders::{ContactChange, SliderEvent};
 
-/// Largest tensile contact force that counts as zero, as a fraction of the forces of the step.
+/// Largest contact force that counts as zero, as a fraction of the forces of the step.
 const TENSILE: f64 = 1e-10;
 
 /// Largest distance from the axis, as a fraction of the contact's length scale, at which sliders count as landing simultaneously [-].
@@ -18,7 +18,7 @@ const TOGETHER: f64 = 1e-12;
 
 impl System {
     /// Checks the present contact forces of sliders that only push, at the end of a step that has converged.
-    /// A slider with a tensile contact force takes off.
+    /// A slider with a tensile contact force takes off. The step is then repeated with a shorter length.
     /// If a step has to end at the take-off of a slider, the contact force of this slider at the end of the step must be zero.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Queries of drives and named loads: work, forces and moments.
+//! Queries of drives, and of changes of prescribed motions and loads that the steps do not resolve.
 
 use crate::system::System;
 use crate::system::elements::{DriveState, MotionCurvature, UnsampledChange};

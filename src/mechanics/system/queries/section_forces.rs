@@ -25,7 +25,7 @@ impl System {
     /// Locates a station of a beam for queries of section forces. At a joint inside the beam, the position after the joint is used.
     ///
     /// # Errors
-    /// Fails if the station lies outside its beam, or if it belongs to a particle.
+    /// Fails if the station lies outside its beam, or if it belongs to a particle or a rigid body.
     pub(crate) fn cross_section(
         &self,
         scene: &Scene,

@@ -30,7 +30,7 @@ impl SensorReader {
     /// Locates sensors of a scene.
     ///
     /// # Errors
-    /// Fails if a station lies outside its beam, or if a section force of a particle is requested.
+    /// Fails if a station lies outside its beam, or if a section force of a particle or a rigid body is requested.
     pub fn of(sensors: &[Sensor], scene: &Scene, model: &System) -> Result<Self, SystemError> {
         let located =
             sensors.iter().map(|sensor| Ok((sensor.locate(scene, model)?, sensor.quantity)));

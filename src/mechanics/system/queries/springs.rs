@@ -1,4 +1,4 @@
-//! Queries of springs and dampers: elongations, forces and energies.
+//! Queries of springs, dampers and brakes: elongations, forces and energies.
 
 use crate::integrators::Mechanism;
 use crate::system::System;
@@ -7,7 +7,7 @@ use crate::system::elements::{Branch, InternalForce, OutsideLaw, ShortBounce, Sp
 /// Relative rounding error of an elongation [-].
 const ROUNDING: f64 = 1e-14;
 
-/// State of a spring or a damper.
+/// State of a spring, a damper or a brake.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringState {
     /// Length of the spring, not its change [length]; for a torsion spring, its angle [rad].
@@ -17,12 +17,12 @@ pub struct SpringState {
     pub force: f64,
     /// Stored energy of the spring [energy].
     pub stored: f64,
-    /// Energy that the damper has dissipated since the start [energy].
+    /// Energy that the damper or the brake has dissipated since the start, including the stored energy of a released spring [energy].
     pub dissipated: f64,
 }
 
 impl System {
-    /// States of all springs and dampers, in the order of the scene.
+    /// States of all springs, dampers and brakes, in the order of the scene.
     pub fn springs(&self) -> impl Iterator<Item = SpringState> {
         self.elements().resistances().filter_map(|spring: &dyn InternalForce| {
             let SpringTrialState { elongation, force, .. } = spring.stretched()?;

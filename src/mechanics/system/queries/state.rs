@@ -30,7 +30,7 @@ impl System {
         Some((link.body, link.point))
     }
 
-    /// Number of unknowns without contact multipliers: degrees of freedom and link forces.
+    /// Number of unknowns without contact multipliers: degrees of freedom, and forces of rigid links and inclined rollers.
     pub(crate) fn unknown_count(&self) -> usize {
         self.unknown_movements().count()
     }

@@ -110,7 +110,7 @@ impl Scene {
         })
     }
 
-    /// Springs, dampers and tendons, in the order of addition.
+    /// Springs, dampers, tendons and brakes, in the order of addition.
     pub fn springs(&self) -> impl Iterator<Item = &Spring> + Clone {
         self.elements.iter().filter_map(|element| match element {
             Element::Spring(spring) => Some(spring),
@@ -156,7 +156,7 @@ impl Scene {
     /// Adds a beam and returns its index.
     ///
     /// # Errors
-    /// Fails if the name of the beam is taken, empty or not printable.
+    /// Fails if the name of the beam is taken or invalid.
     pub fn add_beam(&mut self, beam: BeamDefinition) -> Result<usize, SystemError> {
         self.check_name("beam", &beam.name)?;
         self.beams.push(beam);
@@ -166,7 +166,7 @@ impl Scene {
     /// Adds a particle and returns its station.
     ///
     /// # Errors
-    /// Fails if the name is taken, empty or not printable, or if the mass is not positive and finite.
+    /// Fails if the name is taken or invalid, or if the mass is not positive and finite.
     pub fn add_particle(
         &mut self,
         particle: ParticleDefinition,
@@ -186,6 +186,7 @@ impl Scene {
     /// # Errors
     /// Fails if the name is taken, or if the slave is a station of the master, does not lie on it, or already slides on it.
     /// Fails if the sliding rule does not allow the track or the friction.
+    /// Fails if a sleeve or a unilateral contact is not available with the other options of the slider.
     /// Fails if a coefficient of restitution or friction is outside its range.
     pub fn add_slider(&mut self, slider: Slider) -> Result<usize, SystemError> {
         self.check_name("slider", &slider.name)?;
@@ -251,7 +252,8 @@ impl Scene {
     /// Joins a station to the ground or to another station.
     ///
     /// # Errors
-    /// Fails if the stations are equal or not at the same position, or if one of them is already joined.
+    /// Fails if the stations are equal or not at the same position, if a particle would be joined rigidly,
+    /// or if a tied component is already joined, fixed or prescribed.
     pub fn join(
         &mut self,
         kind: JointKind,
@@ -302,10 +304,10 @@ impl Scene {
         Ok(())
     }
 
-    /// Adds a spring, a damper or a tendon.
+    /// Adds a spring, a damper, a tendon or a brake.
     ///
     /// # Errors
-    /// Fails if the name is taken, a number is out of range, or a station does not exist.
+    /// Fails if the name is taken or invalid, a number is out of range, a station does not exist, a particle would rotate, or no end can move.
     pub fn add_spring(&mut self, spring: Spring) -> Result<(), SystemError> {
         self.check_name("spring", &spring.name)?;
         self.add_element(Element::Spring(spring))

@@ -18,8 +18,8 @@ impl Scene {
     /// Prescribes the motion of a station.
     ///
     /// # Errors
-    /// Fails if the name is taken, the station does not exist, or a component is already supported or prescribed.
-    /// Also fails if a motion is undefined at its start, does not start at the initial position of the station, or jumps.
+    /// Fails if the name is taken or invalid, the station does not exist, a particle would rotate, or a component is already supported or prescribed.
+    /// Also fails if a motion is undefined or has an infinite rate at its start, does not start at the initial position of the station, or jumps.
     pub fn add_drive(&mut self, drive: Drive) -> Result<(), SystemError> {
         self.check_name(drive.kind.name(), &drive.name)?;
         self.check_station("a drive", &drive.station)?;

@@ -13,10 +13,10 @@ impl Scene {
         self.choose_meshes_under(self.elements.len() - 1);
     }
 
-    /// Adds a named load. The history contains a column for the work of a named load.
+    /// Adds a named load. The history contains columns for the work and the value of a named load.
     ///
     /// # Errors
-    /// Fails if the name is taken or a number is out of range.
+    /// Fails if the name is taken or invalid, a number is not finite, or a station does not exist.
     pub fn add_named_load(
         &mut self,
         title: String,

@@ -27,7 +27,7 @@ impl Scene {
     /// Chooses the number of spans of a beam with an [automatic](Mesh::automatic) mesh. Other meshes do not change.
     ///
     /// A beam on which sliders slide has twice as many spans as a beam without sliders.
-    /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section.
+    /// The number of spans is doubled until two spans fit between concentrated forces, and the mesh represents the axis and the section, up to 64 spans.
     pub fn choose_mesh(&mut self, beam: usize) {
         if !self.beams[beam].mesh.is_automatic() {
             return;

@@ -5,7 +5,7 @@ use crate::joints::{Releasable, Release, Trigger};
 use crate::system::SystemError;
 
 impl Scene {
-    /// Adds a release during a run.
+    /// Adds a release, which occurs during a run.
     ///
     /// # Errors
     /// Fails if the object does not exist or is already released, or if the time is not positive and finite.

@@ -14,7 +14,7 @@ impl Scene {
         })
     }
 
-    /// Names of dissipative elements other than springs and dampers, in the order of addition.
+    /// Names of dissipative elements other than springs, dampers and brakes, in the order of addition, followed by dissipating sliders.
     /// Material damping has the name of its beam.
     pub fn dissipating(&self) -> impl Iterator<Item = &str> + Clone {
         let own = self.elements.iter().filter_map(|element| match element {
@@ -72,7 +72,8 @@ impl Scene {
     /// Adds contact between bodies.
     ///
     /// # Errors
-    /// Fails if the name is taken, a number is out of range, or a body does not exist or is listed twice.
+    /// Fails if the name is taken or invalid, a number is out of range, a body does not exist or is listed twice, or there are too few bodies.
+    /// Also fails if two particles would have friction.
     pub fn add_contact(&mut self, contact: PairContact) -> Result<(), SystemError> {
         self.check_name("contact", &contact.name)?;
         self.add_element(Element::Contact(contact))

@@ -64,7 +64,7 @@ impl Scene {
     /// Adds a column that the caller fills after every row of the history.
     ///
     /// # Errors
-    /// Fails if the column exists, or if the name has invisible characters or characters that cannot be typed.
+    /// Fails if the column exists, or if the name is invalid or contains a comma or a quotation mark.
     pub fn record_outside(&mut self, name: &str) -> Result<(), SystemError> {
         check_name(COLUMN, name)?;
         self.check_column(name)?;

@@ -77,7 +77,7 @@ impl Scene {
     /// Adds a rigid body without mass that is fixed to the ground and holds a new slider, and returns its station.
     ///
     /// # Errors
-    /// Fails if the name of the slider or of the body is taken, empty or not printable, or if the position is not finite.
+    /// Fails if the name of the slider or of the body is taken or invalid, or if the position is not finite.
     pub fn add_holder(&mut self, slider: &str, position: Vec2) -> Result<Station, SystemError> {
         self.check_name("slider", slider)?;
         let (name, motion) = (format!("{slider}_holder"), StartMotion::default());

@@ -14,7 +14,8 @@ impl Scene {
     /// If the first beam can be passed in both directions, the track leads from the start to the end of this beam.
     ///
     /// # Errors
-    /// Fails if the name is taken, or if a beam does not start at the end of the previous beam or is not joined to it.
+    /// Fails if the name is taken or invalid, if no beam is given, or if a beam is given twice.
+    /// Fails if a beam does not start at the end of the previous beam or is not joined to it. On a closed track, the last beam precedes the first.
     pub fn add_track(
         &mut self,
         name: String,

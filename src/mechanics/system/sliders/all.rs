@@ -293,7 +293,7 @@ impl Sliders {
         self.iter().map(|slider| slider.gap(bodies).norm()).fold(0.0, larger)
     }
 
-    /// Strain energy of kinks on one body, or on all bodies [energy].
+    /// Strain energy of kinks and energy stored in stops, on one body or on all bodies [energy].
     pub fn strain_energy(&self, of: Option<usize>) -> f64 {
         self.on_body(of).map(SliderContact::strain_energy).sum()
     }
@@ -308,7 +308,7 @@ impl Sliders {
     }
 
     /// Index of a slider and unit vector, for each component of a contact force that is an unknown at the present time [-].
-    /// The component of a contact force across the master is an unknown unless the axis is compliant.
+    /// The component of a contact force across the master is an unknown, unless the slider slides on a compliant axis.
     /// The component of a contact force along the master is an unknown if the slider is held or sticks.
     pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
         self.iter().enumerate().flat_map(|(at, slider)| {

@@ -24,7 +24,7 @@ impl MissedCompliance {
     /// Computes the compliance under a transverse force and a couple that a mesh does not represent.
     ///
     /// The missed compliance is positive except in small parts of the first and the last span, where reduced quadrature may make a mesh too soft.
-    /// The result is `None` if negative values are larger than positive ones: the mesh then has too few quadrature points.
+    /// The result is `None` if the stiffness is singular or negative values are larger than positive ones: the mesh then has too few quadrature points.
     ///
     /// # Errors
     /// Fails if the mesh has no quadrature, or if the axis has a point without a tangent.

@@ -40,7 +40,7 @@ pub struct SliderContact {
     pub state: SliderState,
     /// Energy stored in the stop that holds the slider [energy].
     pub stop_energy: f64,
-    /// Energy lost by the slider in impacts at stops and by friction so far [energy].
+    /// Energy lost by the slider in impacts at stops and landings, by friction, and by a release from a stop so far [energy].
     pub lost_energy: f64,
     /// Impulse on the master in the last impact [mass·length/time].
     pub impulse: Vec2,

@@ -2,7 +2,7 @@
 //!
 //! `docs/theory.md`, section 9.7, derives the mean force of a step.
 //! The friction force is the mean over the exact path in the step. It never exceeds the friction limit, and a sticking contact does not creep.
-//! If the coefficient of restitution is below 1, a viscous friction force acts in parallel with the elastic one.
+//! If the coefficient of restitution is below 1, and in brakes, a viscous friction force acts in parallel with the elastic one.
 
 use std::array::from_fn;
 
@@ -189,7 +189,7 @@ impl<const N: usize> PointFriction<N> {
         (self.deflection, self.force.last) = (0.0, 0.0);
     }
 
-    /// Sets the friction force of an open contact to zero. The deflection is kept until the end of the step.
+    /// Sets the friction force to zero, for an open contact or before a static increment. The deflection is kept.
     pub fn release(&mut self) {
         (self.force.force, self.force.mismatch, self.by_normal) = (0.0, 0.0, 0.0);
         (self.trial, self.linearised) = (SlipTrial::NONE, SlipTrial::NONE);

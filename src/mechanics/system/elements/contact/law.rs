@@ -89,7 +89,8 @@ pub const LEAST_RESTITUTION: f64 = 0.05;
 
 /// Factor `x` of the contact damping for a coefficient of restitution `e`: `(1 + e) x = ln((1 + x)/(1 - e x))`; zero for `e = 1`.
 ///
-/// A linear contact with the force `F (1 + x ġ/v)` rebounds with `e` times its approach speed `v`, for any mass and stiffness.
+/// A linear contact with the force `F (1 - x ġ/v)`, where `ġ` is the rate of the gap, rebounds with `e` times its approach speed `v`.
+/// This holds for any mass and stiffness.
 pub fn damping_factor(restitution: f64) -> f64 {
     if restitution >= 1.0 {
         return 0.0;

@@ -89,7 +89,7 @@ impl NormalForce {
         self.weight * law.elastic.stiffness()
     }
 
-    /// Sets the force of a contact to zero if no contact is possible in the present iterate.
+    /// Sets the contact force to zero. Callers use it if no contact is possible in the present iterate.
     pub fn open(&mut self) {
         self.tension.force = 0.0;
         self.tension.mismatch = 0.0;
@@ -106,7 +106,7 @@ impl NormalForce {
         ForceTarget { force: self.weight * law.force, stiffness: self.weight * law.stiffness }
     }
 
-    /// Tension that the contact law requires for a change of the gap. The tension is never positive, because a contact does not pull.
+    /// Tension that the contact law requires for a change of the gap. A contact does not pull, so the mean tension of the step is never positive.
     pub fn target(&self, law: &NormalLaw, time: ContactTime, change: f64) -> ForceTarget {
         let elastic = self.elastic(law, time.stage, change);
         let Some(rates) = time.rates.filter(|_| law.damping > 0.0) else { return elastic };

@@ -1,7 +1,7 @@
 //! Contact forces between the bodies of an element in a step.
 //!
 //! A pair of a contact point and a body is created in the first iterate with contact, and removed at the end of a step in which the contact opens.
-//! Every iterate looks for new pairs, so no contact is missed, whatever the step size.
+//! Every iterate looks for new pairs at its own positions. Bodies that pass through each other in a step are detected by `crosses`.
 
 use super::pair::{ContactPair, LocalRows, PairIndex};
 use super::shape::{Bounds, CrossingPath, Foot, NearestSearch, Shape};

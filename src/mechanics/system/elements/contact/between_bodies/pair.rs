@@ -327,7 +327,7 @@ impl ContactPair {
     }
 
     /// Adds the friction force to `out`, after elimination of the friction law.
-    /// Returns the derivatives of the friction force with respect to the local coordinates; `None` without friction.
+    /// Returns the derivatives of the friction force with respect to the local coordinates; `None` without friction, or for a static increment.
     pub(super) fn add_linearised_friction(
         &mut self,
         shapes: &[Shape],

@@ -60,7 +60,8 @@ impl Surface {
         positions.all(|at| normal.dot(&at) - offset >= self.radius)
     }
 
-    /// Gradient of the gap with respect to the position of a point [-]. The argument is the vector from the obstacle to the point.
+    /// Gradient of the gap with respect to the position of a point [-].
+    /// The argument is the vector from the centre of a disc to the point; for a half-plane, it has no effect.
     fn gradient(&self, from_obstacle: Vec2) -> Vec2 {
         let none = Vec2::zeros();
         GapTrial::new(self.shape, from_obstacle, none, RotationIncrement::Angle).slope
@@ -158,11 +159,11 @@ pub(super) struct ContactPoint {
     pub(super) place: BodyPoint,
     inertia: PointInertia,
     normal: NormalForce,
-    /// Vector from the obstacle to the contact point at the start of the step [length].
+    /// Vector from the centre of a disc to the contact point at the start of the step [length]; the normal of a half-plane [-].
     start: Vec2,
     trial: GapTrial,
     linearised: GapTrial,
-    /// Forces applied at the start of the step and in the present iterate [force].
+    /// Internal forces (minus the forces on the body) at the start of the step and in the present iterate [force].
     applied: [Vec2; 2],
     friction: Option<Box<PointFriction<3>>>,
     /// Friction moment applied in the present iterate, as an internal moment [force·length].
