@@ -105,7 +105,8 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails if the step size or a method parameter is out of range.
-    /// Also fails if the position of a drive in the equilibrium differs from its function.
+    /// Also fails if the position of a drive in the equilibrium differs from its function,
+    /// or if a scene with sleeves has no equilibrium without the compliance that its meshes do not represent.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -122,7 +123,11 @@ impl Simulation {
                 time,
             });
         }
-        let model = System::assemble_at_rest(&scene, &rest.model().state(), time)?;
+        let state = rest.state_in_motion().map_err(|source| {
+            let scene = scene.name.clone();
+            SimulationError::SleevesAtRest { scene, source: Box::new(source) }
+        })?;
+        let model = System::assemble_at_rest(&scene, &state, time)?;
         Self::of(scene, model, settings)
     }
 
