@@ -3,6 +3,7 @@
 use super::at;
 use super::body_scenes::add_body;
 use super::scenes::{add_beam, end_of, line, spaghetti_section};
+use super::sliding::moving_particle;
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::{Curve, Vec2};
 use withy::joints::{EndAction, Restraint, Slider, StartVelocities};
@@ -76,6 +77,33 @@ pub fn two_on_a_beam(mesh: &Mesh) -> Scene {
     scene
 }
 
+/// Beam through a sleeve on another beam, on which a bead slides and bounces.
+pub fn with_a_bead(mesh: &Mesh) -> Scene {
+    let mut scene = Scene { name: "sleeve and bead".to_owned(), ..on_a_beam(mesh) };
+    let bead = moving_particle(&mut scene, at(0.06, -0.2), at(-0.9, 3.0), 0.3);
+    let along = 0.8 * scene.beams[0].axis.length();
+    let (ends, velocities) = (EndAction::Bounce, StartVelocities::Project);
+    let slider = Slider::new("bead", bead, 0, along);
+    scene.add_slider(Slider { ends, velocities, ..slider }).unwrap();
+    scene
+}
+
+/// Flying beam that slides through sleeves on five free bodies.
+pub fn on_five_bodies(mesh: &Mesh) -> Scene {
+    let mut scene = Scene::new("sleeves on five bodies");
+    let rod = add_beam(&mut scene, line(at(-1.5, 0.0), at(1.5, 0.0)), mesh, soft());
+    moving(&mut scene, rod, at(0.2, 0.3), 0.5);
+    for number in -2..=2 {
+        let x = 0.07 + 0.5 * f64::from(number);
+        let body = add_body(&mut scene, at(x, 0.0), 0.0, (0.2, 0.02), &[]);
+        scene.rigid_bodies[body].motion.velocity = at(-0.4 * x, 0.2);
+        sleeve(&mut scene, Station::on_rigid_body(body, 0), rod, 1.5 + x);
+    }
+    scene
+}
+
 pub fn all(mesh: &Mesh) -> Vec<Scene> {
-    vec![on_a_beam(mesh), on_a_body(mesh), on_the_ground(mesh), two_on_a_beam(mesh)]
+    let of_beams = [on_a_beam(mesh), two_on_a_beam(mesh), with_a_bead(mesh)];
+    let of_bodies = [on_a_body(mesh), on_the_ground(mesh), on_five_bodies(mesh)];
+    of_beams.into_iter().chain(of_bodies).collect()
 }

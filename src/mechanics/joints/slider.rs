@@ -31,7 +31,7 @@ pub struct Slider {
     pub static_friction: Option<f64>,
     /// Movements of the slave that the slider restrains.
     pub restraint: Restraint,
-    /// Treatment of velocities of the slave across the master at the start.
+    /// Treatment of velocities of the slave across the master at the start. Velocities and spins of sleeves are always projected.
     pub velocities: StartVelocities,
 }
 

@@ -163,6 +163,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Checks the start velocity of each slave across its master or projects it to zero, depending on the option of the slider.
+    /// Velocities and spins of sleeves are always projected.
     /// A velocity counts as zero if it would cause a wave with a strain below the rounding error of strains.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
@@ -170,8 +171,10 @@ impl System {
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
             match described.velocities {
-                StartVelocities::Check => self.apply_start_velocity(index, negligible)?,
-                StartVelocities::Project => is_projected = true,
+                StartVelocities::Check if !described.is_sleeve() => {
+                    self.apply_start_velocity(index, negligible)?;
+                }
+                StartVelocities::Check | StartVelocities::Project => is_projected = true,
             }
         }
         self.clear_contact_events();

@@ -101,7 +101,7 @@ impl Sleeve {
         self.master.compliance.is_some()
     }
 
-    /// Selects the type of the rotation increments of the next step, or of the next static solution.
+    /// Selects the type of the rotation increments of the next step. A static solution has increments of angles.
     pub fn begin_step(&mut self, rotations: RotationIncrement) {
         self.rotations = rotations;
     }
