@@ -13,6 +13,7 @@ pub mod reference;
 pub mod release_scenes;
 pub mod roller_scenes;
 pub mod scenes;
+pub mod sleeve_scenes;
 pub mod sliding;
 pub mod sliding_scenes;
 pub mod steered_scenes;

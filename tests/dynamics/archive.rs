@@ -4,7 +4,9 @@
 use std::rc::Rc;
 
 use crate::common::steered_scenes::is_steered;
-use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes};
+use crate::common::{
+    Random, body_scenes, meshes, run, scenes, settings, sleeve_scenes, sliding_scenes,
+};
 use withy::beams::Mesh;
 use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
@@ -54,6 +56,7 @@ fn restored_scenes_continue_bit_for_bit() {
             let has_friction = entry.method != Method::FourthOrder;
             let friction = if has_friction { 0.1 } else { 0.0 };
             let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
+            let all = all.chain(sleeve_scenes::all(&mesh));
             let all = all.chain([scenes::crowded(&mesh, friction)]);
             // Controllers are functions, which files cannot store.
             for scene in all.filter(|scene| !is_steered(scene)) {

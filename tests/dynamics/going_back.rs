@@ -6,7 +6,9 @@ use std::num::NonZeroUsize;
 use std::rc::Rc;
 
 use crate::common::steered_scenes::reset;
-use crate::common::{Random, body_scenes, meshes, run, scenes, settings, sliding_scenes, step};
+use crate::common::{
+    Random, body_scenes, meshes, run, scenes, settings, sleeve_scenes, sliding_scenes, step,
+};
 use withy::beams::Mesh;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{EndAction, SlidingRule};
@@ -122,7 +124,8 @@ fn assert_walk_is_straight(
 #[test]
 fn rewinding_restores_the_states_of_every_scene() {
     for (number, (name, mesh)) in meshes(4).into_iter().enumerate() {
-        for scene in scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh)) {
+        let all = scenes::all(&mesh).into_iter().chain(body_scenes::all(&mesh));
+        for scene in all.chain(sleeve_scenes::all(&mesh)) {
             let entry = INTEGRATORS[number % INTEGRATORS.len()];
             let label = format!("{}, {}, {name}", entry.name, scene.name);
             assert_walk_is_straight(

@@ -3,7 +3,8 @@
 
 use crate::common::steered_scenes::is_steered;
 use crate::common::{
-    at, body_scenes, is_damped, orders, run, scenes, sci, settings, simulate, sliding_scenes,
+    at, body_scenes, is_damped, orders, run, scenes, sci, settings, simulate, sleeve_scenes,
+    sliding_scenes,
 };
 use withy::beams::{Mesh, Section, Station};
 use withy::geometry::Vec2;
@@ -34,8 +35,8 @@ fn with_all_sensors(mut scene: Scene) -> Scene {
 fn reading_changes_no_bit_of_the_motion() {
     let mesh = smooth(5);
     let sliding = sliding_scenes::all(&mesh, SlidingRule::Conserving);
-    let with_bodies = body_scenes::all(&mesh);
-    for scene in scenes::all(&mesh).into_iter().chain(with_bodies).chain(sliding) {
+    let others = body_scenes::all(&mesh).into_iter().chain(sleeve_scenes::all(&mesh));
+    for scene in scenes::all(&mesh).into_iter().chain(others).chain(sliding) {
         for entry in INTEGRATORS {
             let plain = simulate(scene.clone(), entry.method, 0.02, 0.2);
             let watched = with_all_sensors(scene.clone());

@@ -2,14 +2,14 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::probe::{self, STEP, differences};
-use crate::common::{Random, meshes, sliding_scenes};
+use crate::common::{Random, meshes, sleeve_scenes, sliding_scenes};
 use nalgebra::{DMatrix, DVector};
 use withy::beams::{Mesh, unresolved_kink};
 use withy::geometry::{ContactPath, Curve, PiecewisePolynomial, Vec2, cross, interpolate};
 use withy::integrators::{Constraints, Mechanism, Stage};
 use withy::joints::{
     Conserving, Contact, ContactUnknowns, Exact, Frozen, HeldSlider, Kink, KinkMotion, KinkState,
-    Kinked, Relaxed, Released, SLIDING_RULES, SlidingLaw, Unit,
+    Kinked, Relaxed, Released, SLIDING_RULES, SlidingLaw, SlidingRule, Unit,
 };
 use withy::linalg::BorderedMatrix;
 use withy::system::{MasterEnd, MasterLimit, System};
@@ -81,6 +81,7 @@ impl State {
             unknowns,
             kink,
             friction: None,
+            sleeve: None,
             length: self.length,
         };
         f(&contact, &passage)
@@ -333,7 +334,11 @@ fn constraint_border_of_every_scene_is_the_derivative_of_forces_and_equations() 
     let mut random = Random(77);
     for entry in SLIDING_RULES {
         for (mesh_name, mesh) in meshes(4) {
-            for scene in sliding_scenes::all(&mesh, entry.rule) {
+            let mut scenes = sliding_scenes::all(&mesh, entry.rule);
+            if entry.rule == SlidingRule::Conserving {
+                scenes.extend(sleeve_scenes::all(&mesh));
+            }
+            for scene in scenes {
                 let mut model = System::assemble(&scene).unwrap();
                 let first = random.vector(model.unknowns(), 0.05);
                 probe::settle(&mut model, Stage::Midpoint, &first);

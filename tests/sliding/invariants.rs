@@ -5,7 +5,7 @@ use crate::common::sliding::{
     PAPER_STEP, Support, free_sliding_mass, paper_meshes, sliding_particle,
 };
 use crate::common::{
-    assert_energy_never_grows, meshes, run, sci, settings, simulate, sliding_scenes,
+    assert_energy_never_grows, meshes, run, sci, settings, simulate, sleeve_scenes, sliding_scenes,
 };
 use withy::beams::Mesh;
 use withy::integrators::{EnergyClaim, INTEGRATORS, Interval, Method, StepError};
@@ -72,7 +72,8 @@ fn conserving_rule_keeps_the_claims_of_the_integrator_on_every_mesh_and_scene() 
         let keeps_energy = entry.claims.energy == EnergyClaim::Conserved;
         let mut worst = [0.0_f64; 4];
         for (mesh_name, mesh) in meshes(4) {
-            for scene in sliding_scenes::all(&mesh, SlidingRule::Conserving) {
+            let sliding = sliding_scenes::all(&mesh, SlidingRule::Conserving);
+            for scene in sliding.into_iter().chain(sleeve_scenes::all(&mesh)) {
                 let label = format!("{}, {}, {mesh_name}", entry.name, scene.name);
                 let flight = simulate(scene, entry.method, 0.01, 0.7);
                 let drifts = drifts(&flight);

@@ -19,6 +19,7 @@ mod moving_mass;
 mod one_impact;
 mod orders;
 mod relaxed;
+mod sleeves;
 mod stick_slip;
 mod together;
 mod tracks;

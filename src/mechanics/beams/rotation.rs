@@ -68,6 +68,14 @@ impl RotationIncrement {
         }
     }
 
+    /// Factor `σ` in the relation `Δω = tan(σ Δθ)/σ` between increment and angle; zero if they are equal.
+    pub(crate) fn tangent_factor(self) -> f64 {
+        match self {
+            Self::TangentScaled => 0.5,
+            Self::Angle => 0.0,
+        }
+    }
+
     pub(crate) fn tangent_scaled(self, increment: f64) -> f64 {
         match self {
             Self::TangentScaled => increment,

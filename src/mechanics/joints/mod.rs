@@ -5,6 +5,7 @@ mod release;
 mod slider;
 mod sliding;
 mod track;
+mod wrench;
 
 pub use joint::{Component, Components, Joint, JointKind, Partner};
 pub use release::{Releasable, Release, Trigger};
@@ -12,7 +13,9 @@ pub use slider::{EndAction, Restraint, Side, Slider, StartVelocities};
 pub use sliding::{
     AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
     FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,
-    MasterAtSleeve, PathVector, Relaxed, Released, Resting, RestingSleeve, RuleClaims, RuleEntry,
-    SLIDING_RULES, SleeveOffset, SlidingLaw, SlidingRule, Unit,
+    MasterAtSleeve, MovingSleeve, PathVector, Relaxed, Released, Resting, RestingSleeve,
+    RotationSlopes, RuleClaims, RuleEntry, SLIDING_RULES, SleeveOffset, SleeveTurn, SlidingLaw,
+    SlidingRule, Unit,
 };
 pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};
+pub use wrench::Wrench;

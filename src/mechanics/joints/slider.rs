@@ -32,7 +32,7 @@ pub struct Slider {
     pub static_friction: Option<f64>,
     /// Movements of the slave that the slider restrains.
     pub restraint: Restraint,
-    /// Treatment of initial velocities of the slave across the master.
+    /// Treatment of initial velocities of the slave across the master. Velocities and spins of sleeves are always projected.
     pub velocities: StartVelocities,
 }
 

@@ -2,6 +2,7 @@
 
 use super::{DerivativeError, StepSizeError};
 use crate::integrators::{MethodError, StepError};
+use crate::statics::StaticsError;
 use crate::system::{SystemError, rounded};
 
 /// Error of a run that cannot start or continue. The history up to the last successful step is kept.
@@ -36,6 +37,10 @@ pub enum SimulationError {
         "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rest_position), rounded(*function_value)
     )]
     StartMismatch { drive: String, rest_position: f64, function_value: f64, time: f64 },
+    #[error(
+        "the sleeves of scene '{scene}' are on the axis of the mesh in motion, and no equilibrium of this kind was found near the given one: {source}"
+    )]
+    SleevesAtRest { scene: String, source: Box<StaticsError> },
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]
     End { now: f64, end: f64 },
     #[error(

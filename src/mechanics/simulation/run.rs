@@ -106,6 +106,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Fails in the same cases as [`start`](Self::start), or if the position of a drive in the equilibrium differs from its function.
+    /// Also fails if a scene with sleeves has no equilibrium without the compliance that its meshes do not represent.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
@@ -122,7 +123,11 @@ impl Simulation {
                 time,
             });
         }
-        let model = System::assemble_at_rest(&scene, &rest.model().state(), time)?;
+        let state = rest.state_in_motion().map_err(|source| {
+            let scene = scene.name.clone();
+            SimulationError::SleevesAtRest { scene, source: Box::new(source) }
+        })?;
+        let model = System::assemble_at_rest(&scene, &state, time)?;
         Self::of(scene, model, settings)
     }
 

@@ -11,7 +11,7 @@ use crate::geometry::larger;
 use crate::integrators::{Constraints, Mechanism};
 use crate::linalg::{BorderShape, BorderedMatrix};
 use crate::newton::Newton;
-use crate::system::{MasterEnd, Scene, System, UnknownKind};
+use crate::system::{MasterEnd, Scene, System, SystemState, UnknownKind};
 
 /// Largest number of times that a step is halved because no equilibrium is found, or because the equilibrium may lie on another part of the path.
 const MOST_HALVINGS: u32 = 8;
@@ -317,6 +317,17 @@ impl<'s> Continuation<'s> {
 
     pub(super) fn append_point(&mut self, factor: f64, distance: f64, iterations: usize) {
         self.path.push(point(&mut self.model, factor, distance, iterations));
+    }
+
+    /// Solves for a load factor from the present configuration, and returns the state of the model in the solution.
+    pub(super) fn settle(mut self, factor: f64) -> Result<SystemState, StaticsError> {
+        match self.balance_from(factor, 0.0) {
+            Ok(_) => {
+                self.model.move_by(&self.unknowns, factor);
+                Ok(self.model.state())
+            }
+            Err(error) => Err(self.path_lost_error(error)),
+        }
     }
 
     fn undo_step(&mut self) {

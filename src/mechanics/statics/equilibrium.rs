@@ -6,9 +6,9 @@ use crate::beams::{BodyPoint, Section, SectionForces, Station};
 use crate::elementary::square;
 use crate::geometry::{Vec2, larger};
 use crate::integrators::{Constraints, Mechanism};
-use crate::joints::StartVelocities;
+use crate::joints::{Slider, StartVelocities};
 use crate::loads::PrescribedMotion;
-use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError};
+use crate::system::{Drive, Element, Scene, SectionSample, System, SystemError, SystemState};
 use crate::vibration::{Modes, VibrationError, loose_movements};
 
 /// Largest unbalanced force or moment that counts as zero, as a fraction of the largest internal force or moment.
@@ -106,6 +106,26 @@ impl Equilibrium {
             look(&model)
         };
         Ok(self.path.points().iter().map(at).collect())
+    }
+
+    /// State from which a motion starts in equilibrium.
+    /// A sleeve in motion is on the axis of the mesh, without the compliance that the mesh does not represent. This moves the equilibrium slightly.
+    ///
+    /// # Errors
+    /// Fails if the scene has no equilibrium near this one without the compliance of its sleeves.
+    pub(crate) fn state_in_motion(&self) -> Result<SystemState, StaticsError> {
+        if !self.scene.sliders.iter().any(Slider::is_sleeve) {
+            return Ok(self.model.state());
+        }
+        let goes_on = &mut |_| true;
+        let mut model = at_rest(&self.scene, goes_on)?;
+        model.restore(&self.model.state());
+        model
+            .evaluate_loads_at(self.loading.time)
+            .map_err(|(load, source)| StaticsError::Load { load, source })?;
+        model.neglect_sleeve_compliance();
+        let factor = self.path.load_factor();
+        Continuation::new(&self.scene, model, self.loading, goes_on).settle(factor)
     }
 
     /// Reaction of the supports at a point: force [force] and moment [force·length]; `None` without a support at the point.

@@ -55,6 +55,7 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             "find the equilibrium under the full loads, load_factor: 1, at a time at which the \
             drives are there".into()
         }
+        SimulationError::SleevesAtRest { .. } => "use more spans at the sleeves".into(),
         SimulationError::TooManyArrivals { .. } => "try ends: \"release\" or \"stop\"".into(),
         SimulationError::TooFewSteps { .. } => "sim.rewind(0) goes to the start".into(),
         SimulationError::OutsideRun { .. } => {

@@ -37,7 +37,7 @@ pub const TABLE: BindingTable = BindingTable {
         bending, potential. Joints, numbered by kind in the order of creation (hinge1, hinge2, \
         clamp1, rigid1): force, fx, fy, moment, force_angle (the direction of the force), on the \
         first station, and present_force, present_fx, present_fy, present_moment. Sliders: \
-        present_force, present_force_x, present_force_y, on the beam, and arc_length, from the \
+        present_force, present_force_x, present_force_y, present_couple (of a sleeve), on the beam, and arc_length, from the \
         start of the undeformed beam or track. Drives, motors and named loads: power, the work \
         of the last step divided by the step size. Scenes without sensors have no extra cost. \
         Forces are means of the last step unless their name begins with present_: contact_force \

@@ -1,11 +1,12 @@
-//! Sleeves without length, through which a beam slides without friction in equilibria.
+//! Sleeves without length, through which a beam slides without friction.
 //! A sleeve restrains the direction of the beam and its displacement across the sleeve.
 
 use rhai::Dynamic;
 
 use super::equilibria::EQUILIBRIUM;
 use super::scenes::{BEAM, SCENE, STATION};
-use super::sliding::{ENDS, SLIDER, SliderHandle, WHICH, meant, slider_error};
+use super::simulations::SIMULATION;
+use super::sliding::{ENDS, SLIDER, SliderHandle, WHICH, meant, slider_error, slider_value};
 use crate::beams::Station;
 use crate::geometry::Vec2;
 use crate::joints::{Restraint, Slider, StartVelocities};
@@ -26,8 +27,8 @@ use crate::system::{Scene, SystemError};
 pub const TABLE: BindingTable = BindingTable {
     name: "sleeves",
     doc: "A beam slides through a sleeve without length: a point that stays on the axis of the beam \
-        and keeps its angle to the beam. It is available in equilibria; mechanisms::sleeve of the \
-        standard library is a sleeve of two eyelets, for motion.",
+        and keeps its angle to the beam. The history has the columns of sliders and NAME.couple. \
+        mechanisms::sleeve of the standard library is a sleeve of two eyelets.",
     types: &[],
     setup: SLEEVED,
     constants: &[],
@@ -42,10 +43,13 @@ pub const TABLE: BindingTable = BindingTable {
                  hold it with a hinged body and scene.move(body.centre, #{ angle: … }). The \
                  sleeve exerts a force (contact_force) and a couple (sleeve_couple). In \
                  equilibrium a moment M at the mouth pushes the beam along the sleeve with \
-                 M²/2EI. The compliance of kink and jump of curvature at the sleeve, which the \
-                 mesh does not represent, is included in positions and forces, but not in \
-                 rest.strain. The beam must be uniform and not part of a track. scene.start \
-                 refuses scenes with sleeves. Default names: sleeve1, sleeve2, … \
+                 M²/2EI. In an equilibrium the compliance of kink and jump of curvature at the \
+                 sleeve, which the mesh does not represent, is included in positions and forces, \
+                 but not in rest.strain. In motion it is not: the beam is as stiff at the sleeve \
+                 as its mesh, results converge with the spans, and rest.start first solves for \
+                 the equilibrium without it. Energy, both momenta and the gap are kept to \
+                 rounding with energy_momentum(); initial velocities are made compatible. The \
+                 beam must be uniform and not part of a track. Default names: sleeve1, sleeve2, … \
                  docs/theory.md, section 14.2.",
             )
             .example(
@@ -54,9 +58,24 @@ pub const TABLE: BindingTable = BindingTable {
                  scene.move(hub.centre, #{ angle: |t| 0.1 * t });\n\
                  let guide = scene.sleeve(hub.centre, rod, #{ name: \"guide\" });\n\
                  let rest = scene.equilibrium(#{ time: 1 });\n\
-                 check(abs(rest.sleeve_couple(guide)) > 0.01);",
+                 check(abs(rest.sleeve_couple(guide)) > 0.01);\n\
+                 let sim = scene.start(#{ dt: 0.01 });\n\
+                 sim.run_to(0.1);\n\
+                 check(sim.history.drift(\"energy\") < 1e-12);\n\
+                 print(sim.sleeve_couple(guide));",
             )
             .with_related(&["slider", "sleeve_couple", "contact_force", "slider_arc_length", "equilibrium"]),
+        method(SIMULATION, "sleeve_couple", &[WHICH], |call| {
+            slider_value(call, |model, slider| model.sleeve_couple(slider).into())
+        })
+        .returns(Returns::NUMBER.unit("force·length"))
+        .summary("Returns the couple of a sleeve on its beam, counter-clockwise, as the mean of the \
+            last step; zero for other sliders.")
+        .doc("As contact_force: the mean belongs to the middle of the step, and before the first \
+            step it is the present couple. The column of the history is NAME.couple; \
+            scene.record(\"NAME.present_couple\") records the present couple.")
+        .example("let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(0.1);\ncheck(sim.sleeve_couple(mouth) == sim.history.last(\"mouth.couple\"));")
+        .with_related(&["sleeve", "contact_force"]),
         method(EQUILIBRIUM, "sleeve_couple", &[WHICH], |call| {
             let handle = call.receiver::<EquilibriumHandle>()?;
             let equilibrium = handle.equilibrium();
@@ -91,7 +110,7 @@ const SLEEVE_KEYS: &[Parameter] = &[
         .doc("initial position as a fraction of the undeformed length of the beam; default: the nearest place")
         .optional(),
     choice("ends", &[ENDS[0].0, ENDS[3].0])
-        .doc("stop: the sleeve is held at the ends of the beam; release: the beam may leave the sleeve, and then has no equilibrium")
+        .doc("stop: the sleeve is held at the ends of the beam in an equilibrium, and a run ends there; release: the beam leaves the sleeve, and then has no equilibrium")
         .or(Presence::Text("stop")),
     text("name").optional(),
 ];

@@ -28,8 +28,8 @@ pub const TABLE: BindingTable = BindingTable {
     doc: "A slider keeps a station (of a beam or a particle) on the axis of another beam, along \
         which it moves, with or without friction. A rule selects the discretisation. The history \
         has the columns NAME.position (from 0 to 1 along the beam), NAME.speed (length/time), \
-        NAME.force, NAME.force_x, NAME.force_y, with friction NAME.friction, and with a side \
-        NAME.gap.",
+        NAME.force, NAME.force_x, NAME.force_y, with friction NAME.friction, with a side \
+        NAME.gap, and for a sleeve NAME.couple.",
     types: &[RULE, SLIDER],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -441,7 +441,7 @@ pub(super) fn slider_error(error: SystemError, is_placed: bool) -> ScriptError {
     ScriptError::from(error).at(place)
 }
 
-fn slider_value(
+pub(super) fn slider_value(
     call: &Call,
     ask: impl FnOnce(&System, usize) -> Dynamic,
 ) -> Result<Dynamic, ScriptError> {

@@ -1,6 +1,6 @@
 //! Contact of a slider in a step: path along the master, and forces on slave and master.
 
-use super::{Equation, Friction, Unit};
+use super::{Equation, Friction, SleeveTurn, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
 /// Number of unknowns of a contact: two components of the force, two components of the couple, and the sliding increment.
@@ -13,7 +13,7 @@ pub struct ContactUnknowns {
     pub force: Vec2,
     /// Factor of additional forces on the control points of the master [force]: `η`, or `χ` with a kink (docs/theory.md, sections 10 and 10.1).
     /// The sum of these forces is zero. Their moment balances the moment of the contact forces, so that angular momentum is conserved.
-    /// For a sleeve in an equilibrium, the components are moments divided by a length instead (see [`super::RestingSleeve`]).
+    /// For a sleeve, the components are moments divided by a length instead (see [`super::RestingSleeve`] and [`super::MovingSleeve`]).
     pub couple: Vec2,
     /// Sliding increment: change of the position of the slave in the step, measured by the parameter of the master [-].
     pub increment: f64,
@@ -107,6 +107,8 @@ pub struct Contact<'a> {
     pub kink: Option<Kink>,
     /// Friction of the slider along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
+    /// Rotations of a sleeve and its master in the step; `None` for other sliders.
+    pub sleeve: Option<SleeveTurn>,
     /// Mean length of the master per unit of its parameter [length]. The contact equations are divided by this length.
     pub length: f64,
 }
@@ -144,10 +146,15 @@ impl Contact<'_> {
     }
 
     /// Product of the contact force on the master, the tangent of the master at the end of the step, and `outward` [force·length].
-    /// The product is positive if the slave pushes the master outwards, at the end of the master at which the slider is.
+    /// For a sleeve, the product of the couple and the derivative of the angle of the master is added.
+    /// The result is positive if the slave pushes the master outwards, at the end of the master at which the slider is.
     /// The argument `outward` is the sign of the parameter change towards this end.
     pub fn outward_push(&self, outward: f64) -> f64 {
-        self.unknowns.force.dot(&self.end_point().by_end) * outward
+        let push = self.unknowns.force.dot(&self.end_point().by_end) * outward;
+        match &self.sleeve {
+            Some(turn) => push + self.unknowns.couple.x * self.length * turn.end_slope() * outward,
+            None => push,
+        }
     }
 
     pub(super) fn end_bend(&self) -> Vec2 {
@@ -179,14 +186,20 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    fn couple_factor(&self) -> f64 {
-        self.kink.map_or(self.unknowns.increment, |_| 1.0)
+    /// Couple that forces on the master represent, and the factor of the divided differences in these forces.
+    fn spread_couple(&self) -> (Vec2, f64) {
+        let couple = self.unknowns.couple;
+        match (&self.sleeve, &self.kink) {
+            (Some(_), _) => (Vec2::zeros(), 0.0),
+            (None, Some(_)) => (couple, 1.0),
+            (None, None) => (couple, self.unknowns.increment),
+        }
     }
 
     /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
-        let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let share = self.couple_factor();
+        let force = self.unknowns.force;
+        let (couple, share) = self.spread_couple();
         let weights = self.path.mean().iter().zip(self.path.difference());
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
@@ -195,8 +208,8 @@ impl Contact<'_> {
     /// The first two numbers of a tuple, times the identity matrix, are the derivatives with respect to `force` and `couple`.
     /// The vector is the derivative with respect to the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
-        let ContactUnknowns { force, couple, .. } = self.unknowns;
-        let share = self.couple_factor();
+        let force = self.unknowns.force;
+        let (couple, share) = self.spread_couple();
         let weights = self.path.mean().iter().zip(self.path.difference());
         let slopes = self.path.slope().iter().zip(self.path.change());
         weights.zip(slopes).map(move |((mean, difference), (slope, change))| {

@@ -1,7 +1,9 @@
 //! Law of a sleeve without length in an equilibrium: the axis of the master passes through the slave, at a constant angle to it.
 
 use super::contact::AXES;
-use super::{AtStop, CONTACT_UNKNOWNS, Contact, Equation, Resting, SlidingLaw, Unit};
+use super::{
+    AtStop, CONTACT_UNKNOWNS, Contact, Equation, Resting, RotationSlopes, SlidingLaw, Unit,
+};
 use crate::geometry::{Vec2, cross, perpendicular};
 
 /// Angle between a sleeve and its master, and the missing compliance: the compliance of the master that its mesh does not represent.
@@ -139,19 +141,23 @@ impl RestingSleeve {
         contact.outward_push(outward) + self.work(contact, 1) * outward
     }
 
-    /// Derivatives of the equations with respect to the angle of the sleeve.
-    pub fn slopes_by_sleeve(&self, contact: &Contact<'_>) -> [f64; CONTACT_UNKNOWNS] {
+    /// Derivatives of the equations with respect to rotation increments.
+    pub fn rotation_slopes(&self, contact: &Contact<'_>) -> RotationSlopes {
         let (force, length) = (contact.unknowns.force, contact.length);
         let [offset, change] = [0, 1].map(|order| self.offset(contact, order));
         let (turned, rotated) = offset.turned;
         let along = if self.stop.is_some() { 0.0 } else { 1.0 };
-        [
-            -turned.x,
-            -turned.y,
-            length * (1.0 - rotated),
-            cross(turned, force) / length,
-            along * cross(change.displacement, force) / length,
-        ]
+        RotationSlopes {
+            by_slave: [
+                -turned.x,
+                -turned.y,
+                length * (1.0 - rotated),
+                cross(turned, force) / length,
+                along * cross(change.displacement, force) / length,
+            ],
+            by_end: [0.0, 0.0, -length, 0.0, 0.0],
+            by_twist: [0.0, 0.0, 0.0, 0.0, along * contact.unknowns.couple.x],
+        }
     }
 }
 

@@ -62,7 +62,6 @@ impl System {
         scene: &Scene,
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<Self, SystemError> {
-        scene.check_in_motion()?;
         let mut model = Self::with_start_velocities(scene, goes_on)?;
         model.start_kinks()?;
         model.begin();
@@ -92,7 +91,6 @@ impl System {
         state: &SystemState,
         time: f64,
     ) -> Result<Self, SystemError> {
-        scene.check_in_motion()?;
         let mut model = Self::as_drawn(scene, &mut || true)?;
         model.begin();
         model.restore(state);

@@ -14,17 +14,19 @@ const NO_RESPONSE: f64 = 1e-26;
 
 impl System {
     pub(super) fn check_determined(&self, scene: &Scene) -> Result<(), SystemError> {
-        let Ok(response) = self.response_across() else {
+        let across = self.across();
+        let Ok(response) = self.responses_to(&across) else {
             return Err(self.sliders().overdetermined());
         };
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(response.len());
-        for (slider, response) in response.iter().enumerate() {
-            let own = response[slider];
+        for (row_at, response) in response.iter().enumerate() {
+            let own = response[row_at];
+            let slider = across[row_at].0;
             if own * self.total_mass() <= NO_RESPONSE {
                 let parts = scene.parts(&scene.sliders[slider]);
                 return Err(SliderError::OverConstrained(parts).into());
             }
-            let mut row: Vec<f64> = Vec::with_capacity(slider + 1);
+            let mut row: Vec<f64> = Vec::with_capacity(row_at + 1);
             for (other, before) in rows.iter().enumerate() {
                 let sum: f64 = row.iter().zip(before).map(|(a, b)| a * b).sum();
                 row.push((response[other] - sum) / before[other]);
@@ -33,8 +35,11 @@ impl System {
             if left <= ROUNDING_PIVOT * own {
                 let takes_part =
                     |(_, entry): &(usize, &f64)| *entry * *entry > ROUNDING_PIVOT * own;
-                let others = row.iter().enumerate().filter(takes_part).map(|(other, _)| other);
-                let names = others.chain([slider]).map(|at| scene.sliders[at].name.as_str());
+                let others =
+                    row.iter().enumerate().filter(takes_part).map(|(other, _)| across[other].0);
+                let mut sliders: Vec<usize> = others.chain([slider]).collect();
+                sliders.dedup();
+                let names = sliders.iter().map(|at| scene.sliders[*at].name.as_str());
                 let sliders = names.collect::<Vec<_>>().join("', '");
                 return Err(SliderError::Overdetermined { sliders }.into());
             }

@@ -164,6 +164,7 @@ fn bar(beam: &BeamDefinition) -> ImpactBar {
 
 impl System {
     /// Checks the start velocity of each slave across its master or projects it to zero, depending on the option of the slider.
+    /// Velocities and spins of sleeves are always projected.
     /// Velocities count as zero up to `SAME_VELOCITY` times the fastest speed plus the speed whose axial wave has a strain of machine precision.
     pub(super) fn project_start_velocities(&mut self, scene: &Scene) -> Result<(), SystemError> {
         let negligible = self.negligible_velocity(scene);
@@ -171,8 +172,10 @@ impl System {
         let mut is_projected = false;
         for (index, described) in scene.sliders.iter().enumerate() {
             match described.velocities {
-                StartVelocities::Check => self.apply_start_velocity(index, negligible)?,
-                StartVelocities::Project => is_projected = true,
+                StartVelocities::Check if !described.is_sleeve() => {
+                    self.apply_start_velocity(index, negligible)?;
+                }
+                StartVelocities::Check | StartVelocities::Project => is_projected = true,
             }
         }
         self.clear_contact_events();

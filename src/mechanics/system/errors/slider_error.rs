@@ -97,10 +97,6 @@ pub enum SliderError {
     #[error("slider '{slider}': a sleeve is not available {what}; {remedy}")]
     SleeveWith { slider: String, what: &'static str, remedy: &'static str },
     #[error(
-        "slider '{slider}' is a sleeve, which is available in equilibria only; for motion use mechanisms::sleeve, a sleeve of two eyelets"
-    )]
-    SleeveInMotion { slider: String },
-    #[error(
         "slider '{}': {} is {} away from the {}, but not on its {side} side; move it there or choose the other side",
         parts.slider, parts.slave, rounded(*gap), parts.guide
     )]

@@ -38,7 +38,7 @@ impl System {
                 continue;
             }
             let across = slider.across(bodies);
-            let velocity = solver.response(|forces| slider.transmit(bodies, across, forces));
+            let velocity = solver.response(|forces| slider.transmit(bodies, across.into(), forces));
             let inertia = if velocity > 0.0 { 1.0 / velocity } else { 0.0 };
             slider.friction.iter_mut().for_each(|of| of.inertia_across = inertia);
         }
@@ -91,7 +91,7 @@ impl System {
     }
 
     fn stop_along(&mut self, stopping: &[usize]) -> Result<(), LinearError> {
-        let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies)));
+        let along = stopping.iter().map(|&at| (at, self.sliders[at].along(&self.bodies).into()));
         let along: Vec<ImpactDirection> = along.collect();
         let problem = self.impact_problem(&[(&along, Deformation::All)], -2.0)?;
         let impulses = problem.impulses(&vec![ImpactLaw::Ends; along.len()])?;

@@ -6,13 +6,14 @@
 
 use super::System;
 use super::rigidity::{Deformation, Rigidity};
-use crate::geometry::{Vec2, cross};
+use crate::geometry::cross;
 use crate::integrators::{Inertia, Interval, Mechanism};
+use crate::joints::Wrench;
 use crate::linalg::{BandedLu, LinearError, Pairing, complementary};
 use crate::system::SystemError;
 use crate::system::elements::WorkAndImpulse;
 
-pub(super) type ImpactDirection = (usize, Vec2);
+pub(super) type ImpactDirection = (usize, Wrench);
 
 pub(super) type ImpactSelection<'a> = (&'a [ImpactDirection], Deformation);
 
@@ -257,7 +258,7 @@ impl System {
 
     /// Velocity components of the slave and of the contact point of the master in an impact direction [length/time].
     pub(super) fn speeds(&self, (slider, unit): ImpactDirection, rates: &[f64]) -> (f64, f64) {
-        let slider = &self.sliders[slider];
+        let (slider, unit) = (&self.sliders[slider], unit.force);
         let (slave, relative) = (
             slider.slave_velocity(&self.bodies, rates),
             slider.relative_velocity(&self.bodies, rates),
@@ -275,10 +276,15 @@ impl System {
         slider.across(&self.bodies).dot(&slider.relative_velocity(&self.bodies, &self.motion.rates))
     }
 
-    fn across(&self) -> Vec<ImpactDirection> {
+    /// Indices of sliders, and the wrenches of impulses that their constraints transmit if all of them slide.
+    pub(in crate::system) fn across(&self) -> Vec<ImpactDirection> {
         let sliders = self.sliders.iter().enumerate();
         let closed = sliders.filter(|(_, slider)| slider.state.has_contact());
-        closed.map(|(at, slider)| (at, slider.across(&self.bodies))).collect()
+        let wrenches = closed.flat_map(|(at, slider)| {
+            let across = std::iter::once(slider.across(&self.bodies).into());
+            across.chain(slider.couple_direction(&self.bodies)).map(move |wrench| (at, wrench))
+        });
+        wrenches.collect()
     }
 
     fn transmitted(&self, (slider, unit): ImpactDirection) -> Vec<f64> {
@@ -392,7 +398,7 @@ impl System {
         let on_slaves = impulses.iter().zip(directions);
         let on_slaves = on_slaves.map(|(impulse, (slider, unit))| (slider, unit * *impulse));
         for (slider, impulse) in on_slaves.clone() {
-            self.sliders[slider].impulse -= impulse;
+            self.sliders[slider].impulse -= impulse.force;
         }
         self.add_impact_impulses(&change, &passed_on, on_slaves);
         // The entries for rigid links are impulses of the impact. They must not become forces of the next step.
@@ -408,9 +414,13 @@ impl System {
         }
     }
 
-    pub(in crate::system) fn response_across(&self) -> Result<Vec<Vec<f64>>, LinearError> {
+    /// Velocity responses to unit impulses in the given directions, one row per direction [1/mass].
+    pub(in crate::system) fn responses_to(
+        &self,
+        directions: &[ImpactDirection],
+    ) -> Result<Vec<Vec<f64>>, LinearError> {
         let mut inertia = self.banded_inertia();
-        let answers = self.impulse_responses(&inertia.factorise()?, &self.across());
+        let answers = self.impulse_responses(&inertia.factorise()?, directions);
         Ok(response(&answers))
     }
 }

@@ -7,8 +7,8 @@
 use super::rigidity::add_transmitted_impulses;
 use super::step_power::StepPower;
 use super::{Reactions, System};
-use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Solution, Stage};
+use crate::joints::Wrench;
 use crate::system::bodies::DegreesOfFreedom;
 use crate::system::elements::WorkAndImpulse;
 use crate::system::links::InclinedRoller;
@@ -107,7 +107,8 @@ impl System {
         }
         for at in 0..self.sliders.len() {
             let along = self.sliders[at].along(&self.bodies);
-            self.sliders[at].start_mean_force(now.contact(at));
+            let wrench = Wrench { force: now.contact(at), couple: now.couple(at) };
+            self.sliders[at].start_mean_force(wrench);
             self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());
@@ -176,7 +177,7 @@ impl System {
         &mut self,
         change: &[f64],
         passed_on: &[f64],
-        on_slaves: impl Iterator<Item = (usize, Vec2)>,
+        on_slaves: impl Iterator<Item = (usize, Wrench)>,
     ) {
         let Some(mut impulses) = self.exchanged.impulses.take() else { return };
         impulses.residual.fill(0.0);

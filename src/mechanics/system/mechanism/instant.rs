@@ -8,6 +8,7 @@ use super::{Reactions, System};
 use crate::beams::{BodyPoint, Movement};
 use crate::geometry::Vec2;
 use crate::integrators::{Inertia, Mechanism, Stage};
+use crate::joints::Wrench;
 use crate::linalg::{BandedLu, LinearError};
 use crate::system::elements::{TrialState, collocation};
 use crate::system::links::InclinedRoller;
@@ -19,8 +20,8 @@ use crate::system::{SliderState, SystemError};
 pub struct Instant {
     accelerations: Vec<f64>,
     reactions: Reactions,
-    /// Force of each slave on its master [force].
-    contacts: Vec<Vec2>,
+    /// Force and couple of each slave on its master [force, force·length].
+    contacts: Vec<Wrench>,
 }
 
 impl Instant {
@@ -36,7 +37,12 @@ impl Instant {
 
     /// Force of a slider on its master [force].
     pub fn contact(&self, slider: usize) -> Vec2 {
-        self.contacts[slider]
+        self.contacts[slider].force
+    }
+
+    /// Couple of a sleeve on its master [force·length]; zero for other sliders.
+    pub fn couple(&self, slider: usize) -> f64 {
+        self.contacts[slider].couple
     }
 }
 
@@ -148,12 +154,12 @@ impl System {
             self.add_inertia(1.0, prescribed, residual);
         }
         for slider in self.sliders.iter().filter(|slider| slider.is_compliant()) {
-            slider.transmit(&self.bodies, slider.force_of_state(), &mut present.residual);
+            slider.transmit(&self.bodies, slider.force_of_state().into(), &mut present.residual);
         }
         self.solve_accelerations(present).map_err(|error| self.no_instant(error.to_string()))?;
         for (contact, slider) in present.contacts.iter_mut().zip(self.sliders.iter()) {
             if slider.is_compliant() {
-                *contact += slider.force_of_state();
+                *contact += slider.force_of_state().into();
             }
         }
         Ok(())
@@ -177,7 +183,7 @@ impl System {
         inertia.solve(accelerations);
         accelerations.extend(prescribed.iter().skip(unknowns));
         contacts.clear();
-        contacts.resize(self.sliders.len(), Vec2::zeros());
+        contacts.resize(self.sliders.len(), Wrench::default());
         directions.clear();
         directions.extend(self.sliders.directions(&self.bodies));
         if !present.directions.is_empty() {
@@ -236,7 +242,7 @@ impl System {
             if ratio != 0.0 {
                 let (tangent, mut along) =
                     (self.sliders[*slider].along(&self.bodies), ContactResponse::default());
-                self.set_contact_response(inertia, (*slider, tangent), &mut along);
+                self.set_contact_response(inertia, (*slider, tangent.into()), &mut along);
                 response.add(ratio, &along);
                 slips = true;
             }

@@ -90,8 +90,9 @@ impl System {
         if self.links.count() > 0 {
             return None;
         }
-        let directions: Vec<ImpactDirection> =
-            (0..self.sliders.len()).flat_map(|at| [(at, Vec2::x()), (at, Vec2::y())]).collect();
+        let directions: Vec<ImpactDirection> = (0..self.sliders.len())
+            .flat_map(|at| [Vec2::x(), Vec2::y()].map(|unit| (at, unit.into())))
+            .collect();
         let mut inertia = self.banded_inertia();
         let responses = self.impulse_responses(&inertia.factorise().ok()?, &directions);
         let count = responses.len();
@@ -101,7 +102,8 @@ impl System {
                 matrix.add(row, column, response.velocity(&other.rates));
             }
         }
-        let gap = |(at, unit): &ImpactDirection| self.sliders[*at].gap(&self.bodies).dot(unit);
+        let gap =
+            |(at, unit): &ImpactDirection| self.sliders[*at].gap(&self.bodies).dot(&unit.force);
         let mut impulses: Vec<f64> = directions.iter().map(gap).collect();
         matrix.factorise().ok()?.solve(&mut impulses);
         let mut movements = vec![0.0; self.motion.rates.len()];

@@ -8,7 +8,7 @@ use crate::geometry::{Vec2, larger};
 use crate::integrators::Stage;
 use crate::linalg::BorderedMatrix;
 use crate::system::links::ArmRule;
-use crate::system::sliders::{AtRest, MasterEnd};
+use crate::system::sliders::{AtRest, MasterEnd, SliderContact};
 
 /// Scales of the forces in a static iterate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -49,7 +49,6 @@ impl System {
         let summary = self.add_internal_forces(Stage::End, movements, 1.0, out);
         let (force, moment) = self.subtract_static_loads(movements, load_factor, out);
         let contact = self.sliders.add::<AtRest>(&self.bodies, count, movements, contacts, out);
-        self.sliders.add_static_moments(&self.bodies, contacts, out);
         StaticForces {
             force: larger(larger(summary.force, load_factor.abs() * force), contact),
             moment: larger(summary.moment, load_factor.abs() * moment),
@@ -74,8 +73,6 @@ impl System {
         let Self { sliders, bodies, .. } = self;
         let border = tangent.border_mut();
         sliders.add_linearised::<AtRest>(bodies, count, movements, contacts, out, border);
-        sliders.add_static_moments(bodies, contacts, out);
-        sliders.add_static_rotations(bodies, (movements, count), contacts, border);
     }
 
     pub(crate) fn violation_at_rest(&self, residual: &[f64], force: f64) -> f64 {
@@ -121,6 +118,11 @@ impl System {
         self.bodies.advance(RotationIncrement::Angle);
         self.sliders.accept_static_positions(&self.bodies, &movements, contacts);
         self.motion.rates.fill(0.0);
+    }
+
+    /// Removes the compliance that the meshes of the masters of sleeves do not represent.
+    pub(crate) fn neglect_sleeve_compliance(&mut self) {
+        self.sliders.iter_mut().for_each(SliderContact::neglect_compliance);
     }
 
     /// Returns true if prescribed positions must be applied together with the loads.

@@ -40,7 +40,8 @@ pub(super) struct SeamCorner {
 
 impl SeamCorner {
     pub(super) fn directions(corners: &[Self]) -> Vec<ImpactDirection> {
-        let both = |Self { slider, .. }: &Self| [(*slider, Vec2::x()), (*slider, Vec2::y())];
+        let both =
+            |Self { slider, .. }: &Self| [Vec2::x(), Vec2::y()].map(|unit| (*slider, unit.into()));
         corners.iter().flat_map(both).collect()
     }
 

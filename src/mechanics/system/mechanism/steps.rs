@@ -264,7 +264,7 @@ impl Mechanism for System {
         let movements = supports.prescribed_mut();
         movements.begin_step(interval, rotations, &motion.rates).map_err(refused)?;
         links.begin_step(interval.duration());
-        sliders.begin_step(bodies, &motion.rates, interval);
+        sliders.begin_step(bodies, &motion.rates, (interval, rotations));
         elements.begin_step((interval, stages), bodies, &motion.rates).map_err(refused)?;
         bodies.begin_step();
         let knows_accelerations = motion.accelerations.known().is_some();

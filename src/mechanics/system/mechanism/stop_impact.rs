@@ -104,7 +104,7 @@ impl System {
 
     /// Duration of the impact of a slider at a limit [time]; infinite if slave and master are rigid.
     fn impact_duration(&self, limit: MasterLimit) -> Result<f64, LinearError> {
-        let direction = (limit.slider, self.stop_direction(limit));
+        let direction = (limit.slider, self.stop_direction(limit).into());
         let mut inertia = self.banded_inertia();
         let answers = self.impulse_responses(&inertia.factorise()?, &[direction]);
         let [answer] = &answers[..] else { return Ok(f64::INFINITY) };
@@ -326,11 +326,24 @@ impl System {
             };
             if stop.is_some() || !slider.is_compliant() {
                 let across = slider.normal_to(slider.along_contact(&self.bodies));
-                hits.push(ImpactContact { direction: (at, across), law: self.law_across(at) });
+                hits.push(ImpactContact {
+                    direction: (at, across.into()),
+                    law: self.law_across(at),
+                });
             }
             if let Some((limit, law)) = stop {
-                hits.push(ImpactContact { direction: (at, self.stop_direction(limit)), law });
+                hits.push(ImpactContact {
+                    direction: (at, self.stop_direction(limit).into()),
+                    law,
+                });
             }
+            let couple = slider.couple_direction(&self.bodies);
+            hits.extend(
+                couple.map(|couple| ImpactContact {
+                    direction: (at, couple),
+                    law: ImpactLaw::Elastic,
+                }),
+            );
         }
         hits
     }

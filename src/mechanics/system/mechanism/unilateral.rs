@@ -58,7 +58,7 @@ impl System {
     fn computed_push(&self, slider: usize) -> f64 {
         let across = self.sliders[slider].across(&self.bodies);
         let contacts = self.step.present.as_ref().map(|present| &present.contacts);
-        contacts.map_or(0.0, |contacts| -contacts[slider].dot(&across))
+        contacts.map_or(0.0, |contacts| -contacts[slider].force.dot(&across))
     }
 
     /// Distance of a slider in flight from the axis of its master, as a fraction of the length scale of the contact [-].
@@ -152,7 +152,7 @@ impl System {
         law: impl Fn(&Self, usize) -> ImpactLaw,
     ) -> Vec<ImpactContact> {
         let across = |at: &usize| ImpactContact {
-            direction: (*at, self.sliders[*at].across(&self.bodies)),
+            direction: (*at, self.sliders[*at].across(&self.bodies).into()),
             law: law(self, *at),
         };
         landing.iter().map(across).chain(self.impulse_directions(|_, _| None)).collect()

@@ -102,7 +102,9 @@ impl Located {
                 let (force, moment) = joint.read(reactions?);
                 read(force, moment)
             }
-            (Self::Source(Slider(at)), QuantityReader::Force(read)) => read(now?.contact(*at), 0.0),
+            (Self::Source(Slider(at)), QuantityReader::Force(read)) => {
+                read(now?.contact(*at), now?.couple(*at))
+            }
             (
                 Self::Source(Slider(at) | Drive(at) | Load(at) | InternalForce(at)),
                 QuantityReader::Index(read),

@@ -54,9 +54,19 @@ impl System {
         self.slider(slider).contact_force()
     }
 
-    /// Couple of a sleeve on its master [force·length], counter-clockwise; zero for other sliders.
+    /// Mean couple of a sleeve on its master in the last step [force·length], counter-clockwise; zero for other sliders.
+    ///
+    /// Before the first step, and in an equilibrium, the present couple is returned. After a release of the sleeve, the couple is zero.
     pub fn sleeve_couple(&self, slider: usize) -> f64 {
-        self.slider(slider).couple()
+        self.slider(slider).mean_couple()
+    }
+
+    /// Angle of a sleeve minus that of its master, relative to the initial difference [rad]; zero for other sliders.
+    ///
+    /// The angle of the master is interpolated from the rotations of its control points. It differs from the angle of the section
+    /// by an error of second order in the step size and in the span length.
+    pub fn sleeve_turn_gap(&self, slider: usize) -> f64 {
+        self.slider(slider).turn_gap()
     }
 
     /// Present contact force of a slider [force], determined from the kink of its master, if the kink varies with the contact force.

@@ -7,7 +7,7 @@ use crate::system::elements::{DriveKind, Element, SpringKind};
 use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
     COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, OBSTACLE_FRICTION,
-    SLIDER_FRICTION, STORED, TORQUE, WORK,
+    SLEEVE_COUPLE, SLIDER_FRICTION, STORED, TORQUE, WORK,
 };
 use crate::system::{Sensor, SensorSource};
 
@@ -17,7 +17,8 @@ impl Scene {
         for (at, slider) in self.sliders.iter().enumerate() {
             let friction = (slider.has_friction()).then_some(&SLIDER_FRICTION);
             let gap = slider.side().map(|_| &FLIGHT_GAP);
-            let own = COLUMNS_OF_SLIDERS.iter().chain(friction).chain(gap);
+            let couple = slider.is_sleeve().then_some(&SLEEVE_COUPLE);
+            let own = COLUMNS_OF_SLIDERS.iter().chain(couple).chain(friction).chain(gap);
             all.extend(own.map(|own| Sensor::of(&slider.name, own, SensorSource::Slider(at))));
         }
         let stores = self.springs().next().is_some()

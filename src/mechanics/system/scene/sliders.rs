@@ -55,6 +55,11 @@ fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemEr
             "use a uniform beam, or mechanisms::sleeve",
         ),
         (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
+        (
+            slider.ends.has_stop(),
+            "with ends that hold or reflect it",
+            "choose ends that stop the run or release it",
+        ),
     ];
     let mut refused = of_sleeves.into_iter().chain(refused_options(slider));
     match refused.find(|(is_given, ..)| *is_given) {
@@ -66,14 +71,6 @@ fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemEr
 }
 
 impl Scene {
-    /// Rejects sleeves, which are available in equilibria only.
-    pub(in crate::system) fn check_in_motion(&self) -> Result<(), SystemError> {
-        match self.sliders.iter().find(|slider| slider.is_sleeve()) {
-            Some(slider) => Err(SliderError::SleeveInMotion { slider: slider.name.clone() }.into()),
-            None => Ok(()),
-        }
-    }
-
     /// Adds a rigid body without mass that is fixed to the ground and holds a new slider, and returns its station.
     ///
     /// # Errors

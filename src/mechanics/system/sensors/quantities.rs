@@ -113,16 +113,20 @@ pub(in crate::system) static COLUMNS_OF_SLIDERS: [Quantity; 5] = [
     quantity("force_y", "force", StepMean, Index(|model, at| model.contact_force(at).y)),
 ];
 
+pub(in crate::system) static SLEEVE_COUPLE: Quantity =
+    quantity("couple", "force·length", StepMean, Index(System::sleeve_couple));
+
 pub(in crate::system) static SLIDER_FRICTION: Quantity =
     quantity("friction", "force", StepMean, Index(friction));
 
 pub(in crate::system) static FLIGHT_GAP: Quantity =
     quantity("gap", "length", Present, Index(flight_gap));
 
-pub(in crate::system) static OF_SLIDERS: [Quantity; 4] = [
+pub(in crate::system) static OF_SLIDERS: [Quantity; 5] = [
     quantity("present_force", "force", Instant, Force(|force, _| force.norm())),
     quantity("present_force_x", "force", Instant, Force(|force, _| force.x)),
     quantity("present_force_y", "force", Instant, Force(|force, _| force.y)),
+    quantity("present_couple", "force·length", Instant, Force(|_, moment| moment)),
     quantity("arc_length", "length", Present, Index(System::slider_arc_length)),
 ];
 

@@ -5,10 +5,10 @@ use std::ops::{Deref, DerefMut};
 use super::master_curve::END_TOLERANCE;
 use super::slider_contact::FrictionTransition;
 use super::{MasterEnd, MasterLimit, Passing, SliderContact, SliderEvent, SliderState};
-use crate::beams::SpanStiffness;
-use crate::geometry::{Vec2, larger};
+use crate::beams::{RotationIncrement, SpanStiffness};
+use crate::geometry::larger;
 use crate::integrators::{Interval, IntervalEnd, Overshoot};
-use crate::joints::{CONTACT_UNKNOWNS, EndAction};
+use crate::joints::{CONTACT_UNKNOWNS, EndAction, Wrench};
 use crate::linalg::{BlockLayout, Border, BorderShape};
 use crate::system::bodies::Body;
 use crate::system::errors::{SliderError, SystemError};
@@ -60,8 +60,13 @@ impl Sliders {
         }
     }
 
-    pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
-        self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, interval));
+    pub fn begin_step(
+        &mut self,
+        bodies: &[Body],
+        rates: &[f64],
+        step: (Interval, RotationIncrement),
+    ) {
+        self.iter_mut().for_each(|slider| slider.begin_step(bodies, rates, step));
     }
 
     pub fn freeze_contacts(&mut self) -> bool {
@@ -149,26 +154,6 @@ impl Sliders {
         for slider in self.iter_mut() {
             slider.turn_sleeve(bodies, movements);
             slider.accept_static_position(unknowns);
-        }
-    }
-
-    /// Adds the moments of sleeves on masters and slaves.
-    pub fn add_static_moments(&mut self, bodies: &[Body], unknowns: &[f64], out: &mut [f64]) {
-        for slider in self.iter_mut() {
-            slider.add_static_moments(bodies, unknowns, out);
-        }
-    }
-
-    /// Adds the derivatives of the moments of sleeves, and the derivatives of the equations of sleeves with respect to rotations.
-    pub fn add_static_rotations(
-        &mut self,
-        bodies: &[Body],
-        (movements, count): (&[f64], usize),
-        unknowns: &[f64],
-        border: &mut Border,
-    ) {
-        for slider in self.iter_mut() {
-            slider.add_static_rotations(bodies, (movements, count), unknowns, border);
         }
     }
 
@@ -307,10 +292,11 @@ impl Sliders {
         self.iter().filter(move |slider| body.is_none_or(|body| slider.connection.master == body))
     }
 
-    /// Index of a slider and unit vector, for each component of a contact force that is an unknown at the present time [-].
+    /// Index of a slider and unit wrench, for each component of a contact force that is an unknown at the present time [-].
     /// The component of a contact force across the master is an unknown, unless the slider slides on a compliant axis.
     /// The component of a contact force along the master is an unknown if the slider is held or sticks.
-    pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Vec2)> {
+    /// The couple of a sleeve is an unknown.
+    pub fn directions(&self, bodies: &[Body]) -> impl Iterator<Item = (usize, Wrench)> {
         self.iter().enumerate().flat_map(|(at, slider)| {
             let (has_across, has_along) = match slider.state {
                 SliderState::Released | SliderState::Separated => (false, false),
@@ -318,8 +304,10 @@ impl Sliders {
                 SliderState::Sliding => (true, slider.sticks()),
                 SliderState::Held(_) => (true, true),
             };
-            let across = has_across.then(|| (at, slider.across(bodies)));
-            across.into_iter().chain(has_along.then(|| (at, slider.along(bodies))))
+            let across = has_across.then(|| slider.across(bodies).into());
+            let along = has_along.then(|| slider.along(bodies).into());
+            let couple = slider.couple_direction(bodies);
+            [across, along, couple].into_iter().flatten().map(move |wrench| (at, wrench))
         })
     }
 

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::missed_compliance::MissedCompliance;
-use crate::beams::{BeamError, Mesh, Section, StraightBeam, unresolved_kink};
+use crate::beams::{BeamError, Mesh, RotationIncrement, Section, StraightBeam, unresolved_kink};
 use crate::geometry::{ContactPath, PiecewisePolynomial, Span, Vec2, cross, unit};
-use crate::joints::MasterAtSleeve;
+use crate::joints::{MasterAtSleeve, SleeveTurn};
 
 /// Number of points per span, minus the degree of the mesh, at which the curvature of the undeformed axis is interpolated.
 const MORE_POINTS: usize = 4;
@@ -32,6 +32,8 @@ pub struct Sleeve {
     turned: Vec<f64>,
     /// Rotation of the sleeve since the start [rad].
     own: f64,
+    /// Type of the rotation increments of the present step.
+    rotations: RotationIncrement,
 }
 
 impl SleevedMaster {
@@ -57,7 +59,8 @@ impl Sleeve {
     /// Creates a sleeve at the end of a path of zero length, with the angle of the undeformed axis there [rad].
     pub fn new(master: Arc<SleevedMaster>, path: &ContactPath, direction: f64) -> Self {
         let [start, ..] = path.at_end(&master.angle);
-        Self { start, direction, turned: vec![0.0; path.basis().functions()], own: 0.0, master }
+        let (turned, rotations) = (vec![0.0; path.basis().functions()], RotationIncrement::Angle);
+        Self { master, start, direction, turned, own: 0.0, rotations }
     }
 
     /// Angle and compliance of the master at the end of a path of zero length.
@@ -99,10 +102,62 @@ impl Sleeve {
         self.master.compliance.is_some()
     }
 
-    /// Adds rotations of all control points of the master, and of the sleeve [rad].
+    /// Selects the type of the rotation increments of the next step. A static solution has increments of angles.
+    pub fn begin_step(&mut self, rotations: RotationIncrement) {
+        self.rotations = rotations;
+    }
+
+    /// Rotations of sleeve and master in a step.
+    /// The arguments are rotation increments: of the control points on the path, and of the sleeve [rad].
+    pub fn in_step(
+        &self,
+        path: &ContactPath,
+        turned: impl Iterator<Item = f64>,
+        own: f64,
+    ) -> SleeveTurn {
+        let drawn = path.along(&self.master.angle);
+        let at_end = path.end().iter().zip(path.slope());
+        let along = path.difference().iter().zip(path.change());
+        let (mut end, mut twist) = ([0.0; 2], [0.0; 2]);
+        let mut bend = [drawn.difference, drawn.change];
+        let before = &self.turned[path.first()..];
+        for (((at_end, along), turned), before) in at_end.zip(along).zip(turned).zip(before) {
+            let add = |sum: &mut [f64; 2], (value, change): (&f64, &f64), by: f64| {
+                *sum = [sum[0] + value * by, sum[1] + change * by];
+            };
+            add(&mut end, at_end, turned);
+            add(&mut twist, along, turned);
+            add(&mut bend, along, *before);
+        }
+        let tangent_factor = self.rotations.tangent_factor();
+        SleeveTurn { tangent_factor, own, end, twist, bend }
+    }
+
+    /// Adds rotation increments of all control points of the master, and of the sleeve [rad].
     pub fn turn(&mut self, turned: impl Iterator<Item = f64>, own: f64) {
-        self.turned.iter_mut().zip(turned).for_each(|(sum, more)| *sum += more);
-        self.own += own;
+        let rotations = self.rotations;
+        let sums = self.turned.iter_mut().zip(turned);
+        sums.for_each(|(sum, more)| *sum += rotations.angle(more));
+        self.own += rotations.angle(own);
+    }
+
+    /// First and second derivative of the angle of the master with respect to its parameter, at the end of a path of zero length [rad].
+    pub fn slopes(&self, path: &ContactPath) -> [f64; 2] {
+        self.master_at_sleeve(path, std::iter::repeat(0.0), 0.0).slopes
+    }
+
+    /// Angle of the sleeve minus that of the master, relative to the initial difference, at the end of a path of zero length [rad].
+    /// The angle of the master is interpolated from the rotations of its control points.
+    pub fn gap(&self, path: &ContactPath) -> f64 {
+        self.master_at_sleeve(path, std::iter::repeat(0.0), 0.0).gap
+    }
+
+    /// Removes the compliance of the master that its mesh does not represent.
+    pub fn neglect_compliance(&mut self) {
+        if self.is_compliant() {
+            let angle = self.master.angle.clone();
+            self.master = Arc::new(SleevedMaster { angle, compliance: None });
+        }
     }
 
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {

@@ -3,11 +3,12 @@
 use super::{
     Connection, ImpactBar, KinkedAxis, MasterCurve, MasterEnd, Sleeve, SliderState, TrackPath,
 };
+use crate::beams::RotationIncrement;
 use crate::geometry::{Basis, ContactPath, Vec2, larger};
 use crate::integrators::{Interval, IntervalEnd};
 use crate::joints::{
-    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Frozen, HeldSlider, KinkState, Released,
-    Slider, SlidingLaw, SlidingRule, Unit,
+    CONTACT_UNKNOWNS, Contact, ContactUnknowns, EndAction, Frozen, HeldSlider, KinkState,
+    MovingSleeve, Released, Slider, SlidingLaw, SlidingRule, Unit, Wrench,
 };
 use crate::linalg::Border;
 use crate::system::bodies::Body;
@@ -52,8 +53,8 @@ pub struct SliderContact {
     /// Parameter of the master at the slider [-].
     pub parameter: f64,
     pub unknowns: ContactUnknowns,
-    /// Mean contact force on the master in the last step [force].
-    mean_force: StepMean<Vec2>,
+    /// Mean contact force and couple on the master in the last step [force, force·length].
+    mean_force: StepMean<Wrench>,
     /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
     /// Largest ratio of step length to impact duration at a bounce of the slider [-].
@@ -177,11 +178,13 @@ impl SliderContact {
     }
 
     fn law(&self) -> &'static dyn SlidingLaw {
-        match self.state {
-            SliderState::Sliding if self.is_frozen() => &Frozen,
-            SliderState::Sliding => self.rule.law(),
-            SliderState::Held(_) => &HeldSlider,
-            SliderState::Released | SliderState::Separated => &Released,
+        match (self.state, &self.sleeve) {
+            (SliderState::Released | SliderState::Separated, _) => &Released,
+            (SliderState::Sliding, Some(_)) => &MovingSleeve::Sliding,
+            (SliderState::Held(_), Some(_)) => &MovingSleeve::Held,
+            (SliderState::Sliding, None) if self.is_frozen() => &Frozen,
+            (SliderState::Sliding, None) => self.rule.law(),
+            (SliderState::Held(_), None) => &HeldSlider,
         }
     }
 
@@ -208,11 +211,16 @@ impl SliderContact {
 
     /// Mean contact force on the master in the last step [force].
     pub fn contact_force(&self) -> Vec2 {
-        self.mean_force.value
+        self.mean_force.value.force
     }
 
-    /// Sets the mean contact force before the first step [force].
-    pub fn start_mean_force(&mut self, force: Vec2) {
+    /// Mean couple of a sleeve on its master in the last step [force·length]; zero for other sliders.
+    pub fn mean_couple(&self) -> f64 {
+        self.mean_force.value.couple
+    }
+
+    /// Sets the mean contact force and couple before the first step [force, force·length].
+    pub fn start_mean_force(&mut self, force: Wrench) {
         self.mean_force = StepMean::at_start(force);
     }
 
@@ -269,8 +277,14 @@ impl SliderContact {
         ContactUnknowns::of(own)
     }
 
-    pub fn begin_step(&mut self, bodies: &[Body], rates: &[f64], interval: Interval) {
+    pub fn begin_step(
+        &mut self,
+        bodies: &[Body],
+        rates: &[f64],
+        (interval, rotations): (Interval, RotationIncrement),
+    ) {
         self.before.clear();
+        self.sleeve.iter_mut().for_each(|sleeve| sleeve.begin_step(rotations));
         if self.kinked_axis.is_some() {
             let rate = self.rate(bodies, rates);
             self.kinked_axis.iter_mut().for_each(|axis| axis.begin_step(interval.duration(), rate));
@@ -296,7 +310,8 @@ impl SliderContact {
     fn evaluate(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
         self.path.set_interval(self.parameter, self.parameter + unknowns.increment);
-        self.contact(bodies, increments, unknowns)
+        let sleeve = self.sleeve_in_step(bodies, increments);
+        Contact { sleeve, ..self.contact(bodies, increments, unknowns) }
     }
 
     fn contact(
@@ -333,6 +348,7 @@ impl SliderContact {
             unknowns,
             kink,
             friction: friction.and_then(|friction| friction.in_step(window)),
+            sleeve: None,
             length: *length,
         }
     }
@@ -350,6 +366,7 @@ impl SliderContact {
         let (contact, equations) = P::iterate_values(self, bodies, increments, unknowns);
         let values = equations.map(|(value, _)| value);
         connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
+        let couple = contact.unknowns.couple;
         let (pressing, chord) = (contact.unknowns.force, P::chord(&contact));
         let friction = contact.friction.as_ref().map(|friction| contact.friction_forces(friction));
         let force = pressing.norm();
@@ -361,6 +378,7 @@ impl SliderContact {
         (self.size, self.chord) = (contact.length + contact.slave_movement.norm(), chord);
         self.units = equations.map(|(_, unit)| unit);
         (self.push, self.contact_force) = (push, force);
+        self.add_moments(bodies, couple, out);
         self.record_friction(friction);
         self.push_beyond = self.seam_push(bodies, increments, pressing);
         self.follow_master(bodies, increments);
@@ -383,6 +401,12 @@ impl SliderContact {
         connection.add_values(bodies, &contact, P::forces(&contact), values, movements, out);
         let slopes = P::slopes(&contact);
         connection.add_derivatives(bodies, &contact, slopes, &equations, movements, border);
+        let couple = contact.unknowns.couple;
+        if self.couples_rotations() {
+            self.add_moments(bodies, couple, out);
+            let slopes = P::rotation_slopes(self, bodies, increments, unknowns);
+            self.add_rotations(bodies, slopes, (couple.x * P::MOMENT_SLOPE, movements), border);
+        }
     }
 
     pub fn violation(&self, equations: &[f64]) -> (f64, f64) {
@@ -410,6 +434,7 @@ impl SliderContact {
             self.dissipate(increment);
         }
         self.follow_master(bodies, increments);
+        self.turn_sleeve(bodies, increments);
         if self.kinked_axis.is_none() {
             return;
         }
@@ -419,7 +444,8 @@ impl SliderContact {
 
     pub fn advance(&mut self, unknowns: &[f64], interval: Interval) {
         self.unknowns = self.read(unknowns);
-        self.mean_force.add(self.unknowns.force, interval.duration());
+        let wrench = Wrench { force: self.unknowns.force, couple: self.couple() };
+        self.mean_force.add(wrench, interval.duration());
         let before = self.parameter;
         let passed = self.path.spans_between(before, before + self.unknowns.increment);
         self.most_spans = self.most_spans.max(passed);

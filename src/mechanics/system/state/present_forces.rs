@@ -1,7 +1,7 @@
 //! Vectors for the accelerations and contact forces at the present time. They are kept between steps to avoid allocation.
 
 use crate::beams::Movement;
-use crate::geometry::Vec2;
+use crate::joints::Wrench;
 use crate::linalg::{BandedLu, BandedMatrix, LinearError};
 
 /// Accelerations and contact forces at the present time, and the vectors for their computation.
@@ -13,10 +13,10 @@ pub struct PresentForces {
     pub prescribed: Vec<f64>,
     /// Accelerations, and forces of rigid links and rollers, in the order of the unknowns.
     pub accelerations: Vec<f64>,
-    /// Force of each slave on its master [force].
-    pub contacts: Vec<Vec2>,
-    /// Direction of each contact force, with the index of its slider.
-    pub directions: Vec<(usize, Vec2)>,
+    /// Force and couple of each slave on its master [force, force·length].
+    pub contacts: Vec<Wrench>,
+    /// Unit wrench of each contact force, with the index of its slider.
+    pub directions: Vec<(usize, Wrench)>,
     /// Responses to unit contact forces. There may be more entries than contact forces, because entries are reused.
     pub responses: Vec<ContactResponse>,
     /// Acceleration in each contact direction due to each unit contact force [1/mass].
@@ -27,8 +27,8 @@ pub struct PresentForces {
 #[derive(Default)]
 pub struct ContactResponse {
     forces: Vec<f64>,
-    /// Force on the slave per unit of the contact force, including friction [-].
-    pub direction: Vec2,
+    /// Force and couple on the slave per unit of the contact force, including friction [-, length].
+    pub direction: Wrench,
     /// Accelerations of the unknowns per unit of the contact force.
     pub rates: Vec<f64>,
 }
@@ -37,7 +37,7 @@ impl ContactResponse {
     /// Sets the response to a unit force. The callback `transmit` adds the generalised forces of the unit force to a zero vector.
     pub fn set(
         &mut self,
-        direction: Vec2,
+        direction: Wrench,
         inertia: &BandedLu<'_>,
         [unknowns, degrees_of_freedom]: [usize; 2],
         transmit: impl FnOnce(&mut [f64]),
@@ -82,7 +82,7 @@ impl Default for PresentForces {
 impl PresentForces {
     /// Computes the magnitudes of the contact forces.
     /// The callback `carried` returns the acceleration that the contact requires in each contact direction [length/time²].
-    pub fn solve(&mut self, carried: impl Fn(&(usize, Vec2)) -> f64) -> Result<(), LinearError> {
+    pub fn solve(&mut self, carried: impl Fn(&(usize, Wrench)) -> f64) -> Result<(), LinearError> {
         let Self { accelerations, directions, responses, matrix, magnitudes, .. } = self;
         let count = directions.len();
         let responses = &responses[..count];

@@ -6,7 +6,7 @@ use crate::beams::SpanStiffness;
 use crate::geometry::Vec2;
 use crate::joints::{
     AtStop, CONTACT_UNKNOWNS, Contact, ContactUnknowns, Equation, Released, Resting, RestingSleeve,
-    SlidingLaw,
+    RotationSlopes, SlidingLaw, Wrench,
 };
 use crate::system::bodies::Body;
 use crate::system::sliders::master_curve::END_TOLERANCE;
@@ -35,6 +35,18 @@ impl Passing for AtRest {
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c {
         contact.master_force_slopes_at_rest()
     }
+
+    fn rotation_slopes(
+        slider: &mut SliderContact,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> Option<RotationSlopes> {
+        let (contact, sleeve) = slider.evaluate_static(bodies, increments, unknowns);
+        sleeve.map(|sleeve| sleeve.rotation_slopes(&contact))
+    }
+
+    const MOMENT_SLOPE: f64 = 1.0;
 
     fn chord(_contact: &Contact<'_>) -> f64 {
         1.0
@@ -112,7 +124,7 @@ impl SliderContact {
         let place = self.distance_to_stop().map_or(found.increment, |way| way);
         self.set_parameter(self.parameter + place);
         self.unknowns = ContactUnknowns { increment: 0.0, ..found };
-        self.start_mean_force(found.force);
+        self.start_mean_force(Wrench { force: found.force, couple: self.couple() });
         self.kinked_axis.iter_mut().for_each(|axis| axis.set_static_kink(found.force));
     }
 

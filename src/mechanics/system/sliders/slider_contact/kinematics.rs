@@ -2,6 +2,7 @@
 
 use super::SliderContact;
 use crate::geometry::{Vec2, perpendicular};
+use crate::joints::Wrench;
 use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, KinkedAxis, MasterEnd, SliderState};
 
@@ -91,7 +92,11 @@ impl SliderContact {
 
     /// Adds the generalised forces of a contact impulse or a contact force on slave and master to `out`.
     /// The slave receives the impulse, and the master the opposite impulse.
-    pub fn transmit(&self, bodies: &[Body], impulse: Vec2, out: &mut [f64]) {
+    pub fn transmit(&self, bodies: &[Body], wrench: Wrench, out: &mut [f64]) {
+        let Wrench { force: impulse, couple } = wrench;
+        if self.couples_rotations() {
+            self.transmit_couple(bodies, couple, out);
+        }
         let on_master = self.start_path.end().iter().map(|weight| impulse * -*weight);
         self.connection.add_forces(bodies, impulse, self.start_path.first(), on_master, out);
     }
@@ -125,8 +130,8 @@ impl SliderContact {
         bodies[body].vector_at(point, rates)
     }
 
-    /// Part of the acceleration of the contact point that is due to its motion along the master [length/time²].
-    pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Vec2 {
+    /// Acceleration and angular acceleration of the contact point on the master due to sliding [length/time², 1/time²].
+    pub fn carried(&self, bodies: &[Body], rates: &[f64]) -> Wrench {
         let rate = self.rate(bodies, rates);
         let master = &bodies[self.connection.master];
         let points = master.dynamics.control_points();
@@ -134,11 +139,14 @@ impl SliderContact {
         let (first, last) = self.master.domain();
         let within = self.parameter.clamp(first, last);
         let Ok(values) = self.start_path.basis().evaluate(within) else {
-            return Vec2::zeros();
+            return Wrench::default();
         };
         let turning = values.slopes().iter().zip(values.first..);
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
-        turning * (2.0 * rate) + values.combine(2, points) * (rate * rate)
+        Wrench {
+            force: turning * (2.0 * rate) + values.combine(2, points) * (rate * rate),
+            couple: self.carried_turn(bodies, rates, rate),
+        }
     }
 
     /// Rate of the parameter of the slider on its master at the present velocities [1/time].

@@ -2,8 +2,9 @@
 
 use super::SliderContact;
 use crate::geometry::Vec2;
-use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, Unit};
+use crate::joints::{CONTACT_UNKNOWNS, Contact, Equation, MovingSleeve, RotationSlopes, Unit};
 use crate::system::bodies::Body;
+use crate::system::sliders::SliderState;
 
 /// Evaluation of a contact for trial values of the unknowns, in a time step ([`InStep`]) or between two equilibria ([`AtRest`]).
 pub trait Passing {
@@ -28,6 +29,17 @@ pub trait Passing {
     fn forces<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = Vec2> + 'c;
 
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c;
+
+    /// Derivatives of the equations with respect to rotations; `None` for sliders that are not sleeves, and for released ones.
+    fn rotation_slopes(
+        slider: &mut SliderContact,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> Option<RotationSlopes>;
+
+    /// Derivative of the weights of moments on the master by the sliding increment, as a fraction of the slopes of the basis functions [-].
+    const MOMENT_SLOPE: f64;
 
     /// Length of the chord of the slider's path, as a fraction of the length of the path along the undeformed axis [-].
     fn chord(contact: &Contact<'_>) -> f64;
@@ -77,6 +89,22 @@ impl Passing for InStep {
     fn slopes<'c>(contact: &'c Contact<'_>) -> impl Iterator<Item = (f64, f64, Vec2)> + 'c {
         contact.master_force_slopes()
     }
+
+    fn rotation_slopes(
+        slider: &mut SliderContact,
+        bodies: &[Body],
+        increments: &[f64],
+        unknowns: &[f64],
+    ) -> Option<RotationSlopes> {
+        let law = match slider.state {
+            SliderState::Sliding => MovingSleeve::Sliding,
+            SliderState::Held(_) => MovingSleeve::Held,
+            SliderState::Released | SliderState::Separated => return None,
+        };
+        law.rotation_slopes(&slider.evaluate(bodies, increments, unknowns))
+    }
+
+    const MOMENT_SLOPE: f64 = 0.5;
 
     fn chord(contact: &Contact<'_>) -> f64 {
         contact.tangent().value.norm() / contact.length

@@ -1,5 +1,7 @@
 //! State of a slider as a list of numbers.
 
+use std::iter::once;
+
 use super::SliderContact;
 use crate::geometry::Vec2;
 use crate::joints::{CONTACT_UNKNOWNS, ContactUnknowns};
@@ -15,7 +17,7 @@ impl SliderContact {
         let of_route = if self.is_on_track() { ROUTE } else { 0 };
         let of_friction = self.friction.as_ref().map_or(0, |friction| friction.numbers().count());
         let of_side = if self.unilateral.is_some() { UNILATERAL } else { 0 };
-        let of_sleeve = self.sleeve.as_ref().map_or(0, |sleeve| sleeve.numbers().count());
+        let of_sleeve = self.sleeve.as_ref().map_or(0, |sleeve| 1 + sleeve.numbers().count());
         13 + of_friction + of_side + of_sleeve + CONTACT_UNKNOWNS + of_route
     }
 
@@ -33,7 +35,7 @@ impl SliderContact {
         numbers.extend([self.parameter, self.most_spans, self.steps_per_impact]);
         numbers.extend(self.unknowns.to_array());
         let StepMean { value: mean, covered } = self.mean_force;
-        numbers.extend([mean.x, mean.y, covered]);
+        numbers.extend([mean.force.x, mean.force.y, covered]);
         let kink = self.kinked_axis.as_ref().map_or([0.0; 3], KinkedAxis::numbers);
         numbers.extend(kink);
         numbers.extend([
@@ -44,7 +46,8 @@ impl SliderContact {
         ]);
         numbers.extend(self.friction.iter().flat_map(|friction| friction.numbers()));
         numbers.extend(self.unilateral.iter().flat_map(|contact| contact.numbers()));
-        numbers.extend(self.sleeve.iter().flat_map(|sleeve| sleeve.numbers()));
+        let of_sleeve = self.sleeve.iter();
+        numbers.extend(of_sleeve.flat_map(|sleeve| once(mean.couple).chain(sleeve.numbers())));
         numbers.extend(self.track.iter().flat_map(|route| route.numbers()));
     }
 
@@ -53,7 +56,8 @@ impl SliderContact {
         let parameter = next();
         (self.most_spans, self.steps_per_impact) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
-        self.mean_force = StepMean { value: Vec2::new(next(), next()), covered: next() };
+        let mean = Vec2::new(next(), next()).into();
+        self.mean_force = StepMean { value: mean, covered: next() };
         let kink = std::array::from_fn(|_| next());
         self.kinked_axis.iter_mut().for_each(|axis| axis.restore(kink));
         (self.stop_energy, self.lost_energy, self.stop_left_at) = (next(), next(), next());
@@ -65,6 +69,7 @@ impl SliderContact {
             contact.restore(std::array::from_fn(|_| next()));
         }
         if let Some(sleeve) = &mut self.sleeve {
+            self.mean_force.value.couple = next();
             sleeve.restore(next);
         }
         if let Some(route) = &mut self.track {

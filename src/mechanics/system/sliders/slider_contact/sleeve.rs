@@ -1,10 +1,13 @@
-//! Sleeve without length in statics: its direction, its couple, and its stiffness.
+//! Sleeve without length: its moments, its direction of couples, and its stiffness in statics.
 
 use super::SliderContact;
 use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::geometry::{ContactPath, Vec2, cross, perpendicular};
-use crate::joints::{CONTACT_UNKNOWNS, MasterAtSleeve, RestingSleeve, SleeveOffset};
+use crate::joints::{
+    CONTACT_UNKNOWNS, MasterAtSleeve, RestingSleeve, RotationSlopes, SleeveOffset, SleeveTurn,
+    Wrench,
+};
 use crate::linalg::Border;
 use crate::system::bodies::Body;
 use crate::system::sliders::{Connection, Sleeve};
@@ -24,7 +27,7 @@ impl SliderContact {
         &self.start_path
     }
 
-    /// Couple of a sleeve on its master [force·length]; zero for other sliders.
+    /// Couple of a sleeve on its master in the last substep [force·length]; zero for other sliders.
     pub fn couple(&self) -> f64 {
         if self.sleeve.is_some() { self.unknowns.couple.x * self.length } else { 0.0 }
     }
@@ -42,74 +45,121 @@ impl SliderContact {
     ) -> Option<RestingSleeve> {
         let sleeve = self.sleeve.as_ref().filter(|_| self.state.has_contact())?;
         let value = |at: usize| increments.get(at).copied().unwrap_or(0.0);
-        let of_master = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
-        let turned = of_master.iter().map(|[.., at]| value(*at));
+        let turned = self.master_rotations(bodies).map(value);
         let own = value(self.rotation(bodies));
         let master = sleeve.master_at_sleeve(&self.path, turned, own);
         Some(RestingSleeve { master, stop: self.distance_to_stop() })
     }
 
-    /// Index of the rotation of each control point of the master on the path, value of its basis function, and derivative of the value.
-    fn master_rotations<'a>(
-        &'a self,
-        bodies: &'a [Body],
-    ) -> impl Iterator<Item = (usize, f64, f64)> + 'a {
-        let degrees = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
-        let weights = self.path.end().iter().zip(self.path.slope());
-        degrees.iter().zip(weights).map(|([.., at], (value, slope))| (*at, *value, *slope))
+    /// Rotations of a sleeve and its master for trial values, on the present path; `None` for sliders that are not sleeves.
+    pub(super) fn sleeve_in_step(&self, bodies: &[Body], increments: &[f64]) -> Option<SleeveTurn> {
+        let sleeve = self.sleeve.as_ref()?;
+        let value = |at: usize| increments.get(at).copied().unwrap_or(0.0);
+        let turned = self.master_rotations(bodies).map(value);
+        Some(sleeve.in_step(&self.path, turned, value(self.rotation(bodies))))
     }
 
-    /// Adds the moments of a sleeve on its master and its slave.
-    pub fn add_static_moments(&mut self, bodies: &[Body], unknowns: &[f64], out: &mut [f64]) {
+    /// Index of the rotation of each control point of the master on the path, and of the control points behind it.
+    fn master_rotations<'a>(&self, bodies: &'a [Body]) -> impl Iterator<Item = usize> + 'a {
+        let of_master = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
+        of_master.iter().map(|[.., at]| *at)
+    }
+
+    /// Adds the moments of a sleeve on its master and its slave, for given moments divided by the length of the contact [force].
+    pub(super) fn add_moments(&self, bodies: &[Body], couple: Vec2, out: &mut [f64]) {
         if self.sleeve.is_none() || !self.state.has_contact() {
             return;
         }
-        self.set_static_path(unknowns);
-        let couple = self.read(unknowns).couple * self.length;
+        let couple = couple * self.length;
         out[self.rotation(bodies)] += couple.x + couple.y;
-        for (at, value, _) in self.master_rotations(bodies) {
-            out[at] -= couple.x * value;
+        for (at, weight) in self.master_rotations(bodies).zip(self.path.mean()) {
+            out[at] -= couple.x * weight;
         }
     }
 
     /// Adds the derivatives of the moments of a sleeve, and of its equations with respect to rotations.
-    pub fn add_static_rotations(
-        &mut self,
+    /// `by_slope` is the derivative of a moment on the master by the slope of its weight, divided by the length of the contact [force].
+    pub(super) fn add_rotations(
+        &self,
         bodies: &[Body],
-        (increments, movements): (&[f64], usize),
-        unknowns: &[f64],
+        slopes: Option<RotationSlopes>,
+        (by_slope, movements): (f64, usize),
         border: &mut Border,
     ) {
-        if self.sleeve.is_none() {
-            return;
-        }
-        let (contact, Some(law)) = self.evaluate_static(bodies, increments, unknowns) else {
-            return;
-        };
-        let (by_sleeve, couple, length) =
-            (law.slopes_by_sleeve(&contact), contact.unknowns.couple.x, contact.length);
-        let along = if law.stop.is_some() { 0.0 } else { couple };
-        let first = CONTACT_UNKNOWNS * self.connection.index;
+        let Some(RotationSlopes { by_slave, by_end, by_twist }) = slopes else { return };
+        let (first, length) = (CONTACT_UNKNOWNS * self.connection.index, self.length);
         let mut add = |at: usize, forces: [f64; CONTACT_UNKNOWNS], by: [f64; CONTACT_UNKNOWNS]| {
             if at < movements {
                 border.add_couplings(at, first, &forces, &by);
             }
         };
-        add(self.rotation(bodies), [0.0, 0.0, length, length, 0.0], by_sleeve);
-        for (at, value, slope) in self.master_rotations(bodies) {
-            let by = [0.0, 0.0, -length * value, 0.0, along * slope];
-            add(at, [0.0, 0.0, -length * value, 0.0, -length * couple * slope], by);
+        add(self.rotation(bodies), [0.0, 0.0, length, length, 0.0], by_slave);
+        let weights = self.path.mean().iter().zip(self.path.slope());
+        let weights = weights.zip(self.path.end().iter().zip(self.path.difference()));
+        for (at, ((mean, slope), (end, difference))) in self.master_rotations(bodies).zip(weights) {
+            let forces = [0.0, 0.0, -length * mean, 0.0, -length * by_slope * slope];
+            let by = std::array::from_fn(|row| by_end[row] * end + by_twist[row] * difference);
+            add(at, forces, by);
         }
     }
 
-    /// Adds the rotations of a static solution to the rotations of the sleeve and of its master since the start.
-    /// `movements` are the increments of the unknown and prescribed degrees of freedom in the solution [length, rad].
+    /// Adds the rotations of a step or a static solution to the rotations of the sleeve and of its master since the start.
+    /// `movements` are the increments of the unknown and prescribed degrees of freedom [length, rad].
     pub fn turn_sleeve(&mut self, bodies: &[Body], movements: &[f64]) {
+        if self.sleeve.is_none() {
+            return;
+        }
         let value = |at: usize| movements.get(at).copied().unwrap_or(0.0);
         let Connection { master, .. } = self.connection;
         let own = value(self.rotation(bodies));
         let turned = bodies[master].degrees_of_freedom.iter().map(|[.., at]| value(*at));
         self.sleeve.iter_mut().for_each(|sleeve| sleeve.turn(turned.clone(), own));
+    }
+
+    /// Couple and force of a unit impulse of a sleeve against a difference of rotations; `None` for other sliders and released sleeves.
+    /// The wrench is that of a force with the length of the master as its arm, so that it has the unit of a force [-, length].
+    pub fn couple_direction(&self, bodies: &[Body]) -> Option<Wrench> {
+        let sleeve = self.sleeve.as_ref().filter(|_| self.state.has_contact())?;
+        let arm = self.master.length();
+        if !self.is_sliding() {
+            return Some(Wrench { force: Vec2::zeros(), couple: arm });
+        }
+        let (tangent, [bend, _]) = (self.tangent(bodies), sleeve.slopes(&self.start_path));
+        let force = tangent * (-arm * bend / tangent.norm_squared());
+        Some(Wrench { force, couple: arm })
+    }
+
+    /// Angular acceleration of the section of the master at the sleeve due to sliding at a rate of the parameter [1/time].
+    pub(super) fn carried_turn(&self, bodies: &[Body], rates: &[f64], rate: f64) -> f64 {
+        let Some(sleeve) = &self.sleeve else { return 0.0 };
+        let value = |at: usize| rates.get(at).copied().unwrap_or(0.0);
+        let of_master =
+            &bodies[self.connection.master].degrees_of_freedom[self.start_path.first()..];
+        let slopes = self.start_path.slope().iter().zip(of_master);
+        let turning: f64 = slopes.map(|(slope, [.., at])| slope * value(*at)).sum();
+        let [_, change] = sleeve.slopes(&self.start_path);
+        2.0 * rate * turning + square(rate) * change
+    }
+
+    /// Angle of a sleeve minus that of its master, relative to the initial difference [rad]; zero for other sliders.
+    pub fn turn_gap(&self) -> f64 {
+        let sleeve = self.sleeve.as_ref().filter(|_| self.state.has_contact());
+        sleeve.map_or(0.0, |sleeve| sleeve.gap(&self.start_path))
+    }
+
+    /// Removes the compliance that the mesh of the master of a sleeve does not represent.
+    pub fn neglect_compliance(&mut self) {
+        self.sleeve.iter_mut().for_each(|sleeve| sleeve.neglect_compliance());
+    }
+
+    /// Adds the couple of a wrench to the rotations of slave and master; `wrench` acts on the slave.
+    pub(super) fn transmit_couple(&self, bodies: &[Body], couple: f64, out: &mut [f64]) {
+        out[self.rotation(bodies)] += couple;
+        let of_master =
+            &bodies[self.connection.master].degrees_of_freedom[self.start_path.first()..];
+        for ([.., at], weight) in of_master.iter().zip(self.start_path.end()) {
+            out[*at] -= couple * weight;
+        }
     }
 
     /// Passes the stiffness of the contact of a sleeve, with its forces eliminated, to `take`.
