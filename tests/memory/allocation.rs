@@ -4,7 +4,9 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use crate::common::{at, body_scenes, meshes, run, scenes, settings, sliding, sliding_scenes};
+use crate::common::{
+    at, body_scenes, meshes, run, scenes, settings, sleeve_scenes, sliding, sliding_scenes,
+};
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner, Restraint, SLIDING_RULES, Side, Slider};
 use withy::simulation::{NoMonitor, Recording, Simulation, StepControl};
@@ -123,6 +125,20 @@ fn steps_with_sliders_take_no_allocations() {
                 let label = format!("{}, {}, {}, {name}", of.name, entry.name, scene.name);
                 // One further allocation for the columns of the sliders in the history.
                 assert_bounded(&label, scene, of.method, 4);
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_with_sleeves_take_no_allocations() {
+    for entry in INTEGRATORS {
+        for (name, mesh) in meshes(4) {
+            // An impact of a bead needs matrices.
+            let all = sleeve_scenes::all(&mesh).into_iter();
+            for scene in all.filter(|scene| scene.name != "sleeve and bead") {
+                let label = format!("{}, {}, {name}", entry.name, scene.name);
+                assert_bounded(&label, scene, entry.method, 4);
             }
         }
     }
