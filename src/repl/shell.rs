@@ -158,7 +158,8 @@ impl Shell {
         }
     }
 
-    /// Evaluates a program with the values `inputs` like typed input, and shows the result.
+    /// Evaluates a program with the values `inputs` of its script inputs, like typed input. The value of the last statement is not shown.
+    /// Shows errors and the names of written files.
     pub fn run_program(&mut self, program: Program, inputs: Inputs) -> CommandOutcome {
         let reply = self.session.load(program, inputs);
         match reply {

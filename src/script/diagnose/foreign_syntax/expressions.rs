@@ -75,7 +75,8 @@ fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Explains calls without parentheses: `print "hello"`, `sqrt 2`, `typeof x`, `new Scene()`.
+/// Explains calls without parentheses: `print "hello"`, `sqrt 2`, `typeof x`.
+/// Also explains the foreign words `new`, `null`, `nil` and `void`, as in `new Scene()`.
 fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
     if let ParseErrorType::Reserved(word) = spot.error {
         match word.as_str() {
