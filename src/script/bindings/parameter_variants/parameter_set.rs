@@ -105,7 +105,7 @@ impl ParameterSet {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and an optional perturbation. Returns the index of the parameter.
+    /// Adds a parameter with its value and an optional perturbation. Returns the value of the parameter in all variants.
     ///
     /// # Errors
     /// Fails if the name is already used, or if variants have been used.
