@@ -131,7 +131,7 @@ impl Meter {
         &self.limits
     }
 
-    /// Exceeded limit; `None` if no limit was exceeded.
+    /// Exceeded limit or other reason to stop, such as lost output; `None` if the run may continue.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),

@@ -14,7 +14,7 @@ fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(at, message, "write else if … { … }")
 }
 
-/// Explains operators that are words: `and`, `or`, `not`, `is`.
+/// Explains operators that are words: `and`, `or`, `not`, `is`, `xor`.
 fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, word) = spot.find_word(&["and", "or", "not", "is", "AND", "OR", "NOT", "xor"])?;
     let hint = match (word, spot.word(at + 1)) {

@@ -129,7 +129,7 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a product must be written with *", hint)
 }
 
-/// Explains `x++` where the parser reports only a missing token.
+/// Explains `x++` and `x--` where the parser reports only a missing token.
 fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     let sign = spot.word(0);
     (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;
