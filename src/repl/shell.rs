@@ -199,7 +199,7 @@ impl Shell {
         self.reported_files = written.len();
     }
 
-    /// Removes all variables, functions and imports of the session.
+    /// Removes all variables, functions and imports of the session, and the watched expressions.
     pub fn reset(&mut self) {
         self.session.reset();
         self.watched.clear();
@@ -290,7 +290,7 @@ fn without_position_in(input: &str, reply: Reply) -> Reply {
 const LATEST: &str = "latest_simulation()";
 
 impl Shell {
-    /// Simulation that was started, loaded, copied or stepped most recently.
+    /// Simulation that was started, loaded, copied, stepped or rewound most recently.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }

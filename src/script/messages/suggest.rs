@@ -23,7 +23,8 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
-/// Candidates that contain `wrong` as a word or start with it, for example `run_to` for `run`.
+/// At most five candidates that contain `wrong` as a word or start with it, for example `run_to` for `run`.
+/// There are none if `wrong` has fewer than three characters.
 pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     const MOST: usize = 5;
     const SHORTEST: usize = 3;
