@@ -163,7 +163,7 @@ impl Convergence {
 }
 
 impl RefinementLevels<'_> {
-    /// Estimated error; `None` if the two finest levels have no common times.
+    /// Estimated error; `None` if one of the two finest levels is missing or they have no common times.
     pub fn error(&self) -> Option<DiscretisationError> {
         let [fine, middle, coarse] = self.traces;
         let (fine, middle) = (fine?, middle?);
