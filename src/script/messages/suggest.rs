@@ -3,7 +3,7 @@
 /// Largest length of a misspelt name for which suggestions are searched [bytes].
 const LONGEST: usize = 200;
 
-/// Candidate that is most similar to `wrong`; `None` if no candidate is similar enough.
+/// Candidate that is most similar to `wrong`, but not equal; `None` if no candidate is similar enough, or if `wrong` is too long.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if wrong.len() > LONGEST {
         return None;

@@ -73,7 +73,7 @@ fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
 }
 
 /// Index of the brace that opens the body of a loop. `after` is the index of the keyword `in`.
-/// The result is `None` if the expression after `in` contains `if`, `switch` or a closure outside of brackets.
+/// The result is `None` if there is no such brace, or if the expression after `in` contains `if`, `switch` or a closure outside of brackets.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {

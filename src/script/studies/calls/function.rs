@@ -162,7 +162,7 @@ impl RunFunction {
     }
 
     /// First of the names that the function does not read from its map of values, and that are not the names of inputs that it reads.
-    /// The result is `None` if all names are read, or if the function passes its map on.
+    /// The result is `None` if there is no such name, if the function passes its map on, or if its definition is unknown.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,
