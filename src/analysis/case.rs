@@ -42,7 +42,8 @@ impl Monitor for CaseMonitor<'_> {
 }
 
 impl Case {
-    /// Serialised case, without user-defined columns. `None` if a load depends on a script function.
+    /// Serialised case, without user-defined columns.
+    /// The result is `None` if a schedule, of a load or drive for example, depends on a script function, or if a release has no fixed time.
     pub fn to_bytes(&self) -> Option<Vec<u8>> {
         let is_data = self.scene.schedules().all(|(_, schedule)| schedule.can_be_stored())
             && self.scene.release_times().count() == self.scene.releases.len();

@@ -41,7 +41,9 @@ impl Refinement {
         self.counts_for_order(rung).then(|| (self.sizes[rung], deviation.distance))
     }
 
-    /// Observed order `ln(e₁/e₂) / ln(h₁/h₂)` between the step or mesh sizes `h₁` and `h₂`, with the errors `e₁` and `e₂`.
+    /// Observed order `ln(e₁/e₂) / ln(h₁/h₂)` at the index `rung` of the sizes.
+    /// The result is `None` if one of the errors is unknown, or at most twice the estimated error of the reference.
+    /// `h₂` is the step or mesh size at `rung`, and `h₁` is the next coarser size. Their errors are `e₂` and `e₁`.
     pub fn order(&self, rung: usize) -> Option<f64> {
         let ((coarse, large), (fine, small)) =
             (self.point(rung.checked_sub(1)?)?, self.point(rung)?);

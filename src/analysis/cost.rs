@@ -57,7 +57,7 @@ impl StepCost {
 }
 
 /// Measures the time per step of several cases; `None` if `is_wanted` returns false.
-/// Steps of the cases are measured alternately, so that other load on the machine affects all cases equally.
+/// The cases are run in turn, several times, so that other load on the machine affects all cases equally.
 pub fn step_costs(
     cases: &[CostCase],
     limits: RunLimits,

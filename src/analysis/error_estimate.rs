@@ -77,7 +77,7 @@ impl ErrorVerdict {
 pub struct DiscretisationError {
     /// Times of the run [time] with the error at each time [dimension of the quantity].
     pub over_time: Vec<(f64, f64)>,
-    /// Observed order; `None` if the runs agree to rounding or do not converge.
+    /// Observed order; `None` if it would be at most 0.05, the runs agree to rounding, or the coarsest level is missing.
     pub order: Option<f64>,
     pub verdict: ErrorVerdict,
 }
@@ -163,7 +163,7 @@ impl Convergence {
 }
 
 impl RefinementLevels<'_> {
-    /// Estimated error; `None` if the two finest levels have no common times.
+    /// Estimated error; `None` if one of the two finest levels is missing or they have no common times.
     pub fn error(&self) -> Option<DiscretisationError> {
         let [fine, middle, coarse] = self.traces;
         let (fine, middle) = (fine?, middle?);
@@ -220,7 +220,7 @@ impl RefinementLevels<'_> {
         }
     }
 
-    /// Order and correlation exponent, computed from the differences of successive levels; `None` if the differences do not decrease.
+    /// Order and correlation exponent, computed from the differences of successive levels; `None` if the order would be at most 0.05.
     fn convergence(&self, differences: Differences) -> Option<Convergence> {
         let ratio = differences.far / differences.near;
         let with = |decorrelation: f64| {

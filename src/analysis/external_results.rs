@@ -38,8 +38,8 @@ const SETTING: [(&str, &str); 4] =
     [("integrator", ""), ("elements", "elements "), ("dof", "unknowns "), ("dt", "dt = ")];
 
 impl ExternalResult {
-    /// Reads runs from a table with the columns peer, series, run_time_s, t, energy_drift, machine, and positions such as xA and yA.
-    /// The columns integrator, elements, dof and dt are optional.
+    /// Reads runs from a table with the columns peer, series, run_time_s, t, machine, and positions such as xA and yA.
+    /// The columns energy_drift, integrator, elements, dof and dt are optional.
     pub fn of_sheet(
         sheet: &ParsedCsv,
         observables: &[Observable],

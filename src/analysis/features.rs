@@ -15,7 +15,7 @@ const SMALL: f64 = 1e-3;
 pub struct Feature {
     /// Name of the feature.
     pub name: &'static str,
-    /// Function that adds the part to the first beam of a scene.
+    /// Function that adds the part to a scene, mostly to its first beam.
     pub add: fn(&mut Scene) -> Result<(), SystemError>,
 }
 

@@ -29,7 +29,7 @@ impl Deviation {
         }
     }
 
-    /// Larger of two deviations. NaN counts as larger than any number.
+    /// Larger of two deviations, with the larger of their estimated errors of the reference. NaN counts as larger than any number.
     pub fn larger_deviation(self, other: Self) -> Self {
         if larger(self.distance, other.distance) == self.distance || self.distance.is_nan() {
             Self { estimated_error: self.estimated_error.max(other.estimated_error), ..self }

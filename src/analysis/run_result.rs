@@ -19,7 +19,7 @@ pub struct RunResult {
     pub factorisations: usize,
     pub retries: usize,
     pub drifts: [f64; 4],
-    /// Energy drift during the last part of the run, in which no load does work; NaN if loads do work until the end.
+    /// Energy drift during the last part of the run, in which the history column `work` is constant; NaN if it changes until the end.
     pub free_energy_drift: f64,
 }
 

@@ -12,7 +12,8 @@ use crate::system::Scene;
 pub struct StabilityVerdict {
     pub outcome: CaseOutcome,
     /// Largest increase of the energy minus the work of the loads above any earlier value of this difference.
-    /// The increase is given as a fraction of the largest energy, and is measured after the last jump or kink of a schedule.
+    /// The increase is given as a fraction of the largest energy, and is measured after the last jump or kink of a schedule,
+    /// or over the whole run if it ends before.
     /// It is NaN if the run did not start or if an energy is NaN.
     pub energy_growth: f64,
     pub steps: usize,

@@ -173,7 +173,7 @@ impl Sweep {
     }
 
     /// Fraction of the variance of a result that each parameter explains.
-    /// The fractions are `None` if the result is constant, some rows of a grid failed, or there are too few points.
+    /// The fractions are `None` if the result is unknown or constant, some rows of a grid failed, or there are too few points.
     pub fn variance_fractions(&self, result: &str) -> Option<Vec<VarianceShare>> {
         let results = self.results.column(result)?;
         let parameters = &self.design.parameters;

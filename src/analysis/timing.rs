@@ -16,7 +16,7 @@ pub struct Timing {
     pub repeats: usize,
 }
 
-/// Total run time of the repetitions of a case after which it is not repeated again.
+/// Total time of the repetitions of a case, including their setup, after which it is not repeated again.
 pub const LONGEST_REPETITION: Duration = Duration::from_secs(10);
 
 /// Processor time of this thread on Linux.

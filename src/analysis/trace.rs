@@ -109,6 +109,7 @@ impl Trace {
     }
 
     /// Returns the value at a time, by cubic interpolation between recorded times; `None` outside the trace.
+    /// If one of these times is that of an event with several rows, the interpolation is linear.
     fn at(&self, time: f64) -> Option<Vec2> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let slack = SAME_TIME * (last - first);

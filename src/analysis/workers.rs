@@ -13,7 +13,7 @@ use crate::simulation::{HAS_THREADS, cores};
 const PULSE: Duration = Duration::from_millis(50);
 
 /// Runs cases on all processor cores, and returns the results in the order of the cases.
-/// Cases whose loads call script functions run last, on the calling thread, because such functions cannot be sent to other threads.
+/// Cases that cannot be serialised ([`Case::to_bytes`]), because they call script functions, run last, on the calling thread.
 /// `heed` is called on the calling thread with the index and result of each completed case, and periodically with `None`.
 /// If `heed` returns `Break`, `stop` is set, and cases that have not ended get no result.
 /// The result of a case that panics is the panic message.

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// The command succeeded, or the reader of its output closed the pipe.
     Success = 0,
-    /// A call of `check` in the script failed, or a client ended the language server without the request `shutdown`.
+    /// A call of `check` in the script failed, an exercise is not passed, or a client ended the language server without the request `shutdown`.
     CheckFailed = 1,
     /// The script or the arguments contain an error, or output could not be written.
     Failure = 2,

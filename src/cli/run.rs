@@ -78,7 +78,8 @@ fn run_once(options: &RunOptions, interrupt: &Arc<AtomicBool>, files_read: Files
 }
 
 /// Error estimation of a run, as selected by the options.
-/// With `auto`, errors are estimated only on a terminal: output that programs read must not depend on the run time.
+/// With `auto`, errors are estimated only if stderr is a terminal and the closing lines are shown.
+/// Output that programs read must not depend on the run time.
 fn error_estimation(options: &RunOptions) -> ErrorEstimation {
     match options.error {
         ErrorChoice::Always => ErrorEstimation::Always,

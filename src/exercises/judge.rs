@@ -1,4 +1,5 @@
-//! Parses the header of a judge's script, which contains the required variables and the hints:
+//! Parses the `//!` lines at the start of the script of a judge. They contain the required variables and the hints.
+//! A line that does not begin with `needs:` or `hint:` continues the entry before it:
 //!
 //! ```text
 //! //! needs: sim (simulation), rod (beam)

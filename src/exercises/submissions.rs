@@ -15,7 +15,7 @@ pub struct Submission {
 }
 
 impl Submission {
-    /// Returns the submissions in a folder, sorted by name: its subfolders, or the folder itself if it contains attempts.
+    /// Returns the submissions in a folder, sorted by name: its subfolders that are not hidden, or the folder itself if it contains attempts.
     ///
     /// # Errors
     /// Fails if the folder cannot be read, or if it contains nothing to grade.

@@ -168,7 +168,7 @@ impl LeastSquares {
     }
 
     /// Minimises the sum of squares of the residuals.
-    /// Derivatives are central differences, which rank-one corrections update as long as the sum of squares decreases.
+    /// Derivatives are finite differences, central except near bounds. Rank-one corrections update them as long as the sum of squares decreases.
     ///
     /// # Errors
     /// Returns an error of `evaluate`.

@@ -22,6 +22,7 @@ impl SearchRange {
     }
 
     /// Size of a parameter: `|x|`, but at least 1/100 of the distance of its bounds or, if one is infinite, 1/1000 of the start value.
+    /// The size is 1 if it would be zero.
     pub fn size(self, x: f64) -> f64 {
         let range = self.high - self.low;
         let least = if range.is_finite() { 0.01 * range } else { 1e-3 * self.start.abs() };

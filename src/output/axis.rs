@@ -196,7 +196,7 @@ pub fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     )
 }
 
-/// Smallest number of at least `step` that is 1, 2 or 5 times a power of ten.
+/// Digit 1, 2 or 5 and exponent of the power of ten whose product is the smallest of at least 0.8 times `step`.
 fn round_step(step: f64) -> (u8, i32) {
     let power = log10(step).floor() as i32;
     match step / ten_to(power) {

@@ -14,7 +14,7 @@ use super::{
 
 const LINE: f64 = 2.0;
 const MARK: f64 = 3.5;
-/// Line width and marker radius of faint series [pixels], and the fraction of the colour in its mixture with white.
+/// Line width of pale series, marker radius of pale and thin series [pixels], and argument `part` of [`tint`] for pale series.
 const FAINT: (f64, f64, f64) = (0.9, 2.4, 0.15);
 const THIN: f64 = 1.3;
 const NOTE: f64 = 12.0;

@@ -6,7 +6,7 @@ use crate::elementary::hypot;
 /// Width of the vertical strips in which a long curve is thinned [pixels].
 const STRIP: f64 = 0.5;
 
-/// Largest number of points of a curve that is not thinned.
+/// Smallest number of points of a curve that is thinned.
 const LONG: usize = 2000;
 
 /// Splits a curve [pixels] at its gaps and at the sides of `window`, and thins it if it is long.

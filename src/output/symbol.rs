@@ -1,4 +1,4 @@
-//! Symbols of mechanics: supports, joints, sliders, loads and obstacles.
+//! Symbols of mechanics: supports, motors, joints, sliders, loads, springs, dampers and obstacles.
 
 mod obstacle;
 mod symbol_frame;

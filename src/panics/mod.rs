@@ -1,4 +1,4 @@
-//! Catches and reports panics, which are internal errors.
+//! Catches panics, which are internal errors.
 
 mod caught;
 

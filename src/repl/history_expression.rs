@@ -21,7 +21,8 @@ pub struct Followed {
     pub text: String,
 }
 
-/// Evaluates an expression at every earlier state of a simulation that can be restored, without changing the simulation.
+/// Evaluates an expression at earlier states of a simulation that can be restored, without changing the simulation.
+/// Of more than [`MOST_STATES`] states, an evenly distributed part is used.
 ///
 /// # Errors
 /// Fails if the expression fails, is interrupted, or advances or rewinds the simulation. The error has already been printed.

@@ -159,7 +159,8 @@ impl Shell {
         }
     }
 
-    /// Evaluates a program with the values `inputs` like typed input, and shows the result.
+    /// Evaluates a program with the values `inputs` of its script inputs, like typed input. The value of the last statement is not shown.
+    /// Shows errors and the names of written files.
     pub fn run_program(&mut self, program: Program, inputs: Inputs) -> CommandOutcome {
         let reply = self.session.load(program, inputs);
         match reply {
@@ -199,7 +200,7 @@ impl Shell {
         self.reported_files = written.len();
     }
 
-    /// Removes all variables, functions and imports of the session.
+    /// Removes all variables, functions and imports of the session, and the watched expressions.
     pub fn reset(&mut self) {
         self.session.reset();
         self.watched.clear();
@@ -290,7 +291,7 @@ fn without_position_in(input: &str, reply: Reply) -> Reply {
 const LATEST: &str = "latest_simulation()";
 
 impl Shell {
-    /// Simulation that was started, loaded, copied or stepped most recently.
+    /// Simulation that was started, loaded, copied, stepped or rewound most recently.
     pub fn latest(&self) -> Option<SimulationHandle> {
         self.session.context().latest_simulation()?.try_cast()
     }

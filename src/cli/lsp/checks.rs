@@ -59,7 +59,7 @@ pub fn publish(uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>
     send(lsp_server::Notification::new(method.into(), shown));
 }
 
-/// Error of a script, or a warning if the check was stopped; `None` if there is no error.
+/// Error of a script, or a warning if the check exceeds its time limit; `None` if there is no error.
 fn check(program: &Program, stopped: &Arc<AtomicBool>) -> Option<lsp::Diagnostic> {
     let settings = RunSettings {
         interrupt: Arc::clone(stopped),

@@ -1,4 +1,4 @@
-//! Configurations as text: beams as lines; point masses, sliders and supports as characters.
+//! Configurations as text: beams as lines; point masses, sliders, joints and supports as characters.
 
 use super::TerminalStyle;
 use super::character_grid::{CharacterGrid, TerminalColour};

@@ -4,6 +4,7 @@ const MOST_ROWS: usize = 3000;
 
 /// Indices of the rows that are kept. A short history is kept completely.
 /// A long history is divided into pieces. Of each piece, the first row and the rows with the smallest and largest value of every column are kept.
+/// The last row of the history is also kept.
 pub fn rows_to_keep(rows: usize, columns: &[&[f64]]) -> Vec<usize> {
     if rows <= MOST_ROWS {
         return (0..rows).collect();

@@ -3,7 +3,7 @@
 use super::{Command, HELP, QUIT, find};
 
 /// Command and operand of an input without a colon, such as `quit`, `exit()`, `help sine` or `sim?`; `None` for other inputs.
-/// A word is not a command if a variable has this name, for which `is_variable` returns true.
+/// The words `quit`, `exit`, `bye` and `help` are not commands if `is_variable` returns true for them.
 pub fn meant(text: &str, is_variable: impl Fn(&str) -> bool) -> Option<(&'static Command, &str)> {
     let text = text.trim_end_matches(';').trim_end();
     let asked = text.trim_end_matches('?').trim_end();

@@ -16,7 +16,8 @@ impl Candidate {
         Self { display: word.to_owned(), replacement: word.to_owned(), summary: summary.to_owned() }
     }
 
-    /// Candidate for a function, displayed with its arguments, such as `(from, to)`, that inserts the opening parenthesis.
+    /// Candidate for a function, displayed with its arguments, such as `(from, to)`.
+    /// It inserts the opening parenthesis, and also the closing one for a function without arguments.
     pub fn call(name: &str, arguments: &str, summary: &str) -> Self {
         let brackets = if arguments == "()" { "()" } else { "(" };
         Self {

@@ -35,7 +35,8 @@ impl Hint {
     }
 }
 
-/// Hint after the cursor, if it is at the end of `line`: the rest of the only matching name, or the signature or option keys of a call.
+/// Hint after the cursor, if it is at the end of `line`: the rest of the only matching name, the signature or option keys of a call,
+/// or the summary of a command.
 pub fn hint(line: &str, position: usize, surroundings: &CompletionContext) -> Option<Hint> {
     if position != line.len() || line.trim().is_empty() {
         return None;

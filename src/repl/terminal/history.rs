@@ -11,7 +11,8 @@ pub const MOST_ENTRIES: usize = 5000;
 /// Maximum length of a stored entry [bytes]. Longer inputs are usually pasted.
 pub const LONGEST_ENTRY: usize = 64 << 10;
 
-/// Path of the history file, by default in the user's state folder; `None` if the environment variable, `setting`, is empty.
+/// Path of the history file, by default in the user's state folder; `None` if `setting`, the value of
+/// the environment variable, is empty, or if there is no such folder.
 pub fn file(setting: Option<OsString>) -> Option<PathBuf> {
     match setting {
         Some(name) if name.is_empty() => None,

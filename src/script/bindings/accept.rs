@@ -155,7 +155,7 @@ fn is_infinite_or_nan(value: &Dynamic) -> bool {
     as_number(value).is_some_and(|x| !x.is_finite())
 }
 
-/// Sets the position of an error to the argument `number`, unless the error already refers to a key.
+/// Sets the position of an error to the argument `number`, unless the error already refers to an argument or a key.
 pub fn at_argument(error: ScriptError, number: usize) -> ScriptError {
     match error {
         ScriptError::Failure(failure) if failure.place == CallPart::Call => {

@@ -9,7 +9,8 @@ use crate::script::state::context::Context;
 mod jumps;
 mod search;
 
-/// Warns once about each branch whose condition contains the argument of the function and a variable that depends on a parameter.
+/// Warns about the first branch of each function whose condition contains the argument of the function and a variable that depends on a parameter.
+/// The warning is given once for each position. `given` may contain the functions in arrays and maps.
 pub fn warn_once(native: &NativeCallContext, context: &Context, given: &[Dynamic]) {
     given.iter().for_each(|value| warn_about(native, context, value));
 }

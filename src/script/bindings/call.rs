@@ -145,7 +145,7 @@ impl<'c, 'r> Call<'c, 'r> {
         StoredFunction::new(function, self.native, self.context, role.to_owned())
     }
 
-    /// Returns an error if the run was interrupted. Long native loops must call this function regularly.
+    /// Returns an error if the run was interrupted or has exceeded a limit. Long native loops must call this function regularly.
     pub fn proceed(&self) -> Result<(), ScriptError> {
         self.context.proceed()
     }

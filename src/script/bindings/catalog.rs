@@ -44,7 +44,7 @@ impl Catalog {
         self.rows().filter(move |row| row.name == name)
     }
 
-    /// Names that can be called as functions.
+    /// Names of the bindings that are functions. Methods and functions of Rhai are not included.
     pub fn function_names(&self) -> impl Iterator<Item = &'static str> {
         self.rows().filter(|row| matches!(row.form, CallSyntax::Function)).map(|row| row.name)
     }

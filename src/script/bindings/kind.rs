@@ -213,7 +213,7 @@ impl Kind {
         }
     }
 
-    /// Returns true if values of the native type with this name may be accepted.
+    /// Returns true if values of the type with this display name may be accepted.
     pub fn takes(&self, type_name: &str) -> bool {
         match self {
             Self::Number(_) | Self::Integer(_) | Self::Numeric => {

@@ -42,7 +42,7 @@ impl FromOption for Dynamic {
     }
 }
 
-/// Implements [`FromOption`] for types that the engine stores without conversion.
+/// Implements [`FromOption`] for types that checked options contain in this form.
 macro_rules! held_as_they_are {
     ($($held:ty),*) => {
         $(impl FromOption for $held {

@@ -44,7 +44,7 @@ impl ValueKind {
         PLAIN.iter().find(|kind| kind.type_name() == Some(name)).copied()
     }
 
-    /// Type name in scripts; `None` if several types are possible.
+    /// Type name in scripts; `None` if several types are possible or nothing is returned.
     pub const fn type_name(&self) -> Option<&'static str> {
         Some(match self {
             Self::Nothing | Self::Any | Self::OneOf(_) => return None,

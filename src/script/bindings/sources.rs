@@ -111,7 +111,8 @@ impl Sources {
         self.inputs.borrow().in_imports.contains(name)
     }
 
-    /// File that contains the function `name`; `None` for a native function. If several files contain the function, `claimed` is preferred.
+    /// File that contains the function `name`; `None` for a native function.
+    /// The result is `claimed` if this file contains the function, or if no functions are known yet.
     pub fn find(&self, name: &str, claimed: &str) -> Option<String> {
         let known = self.functions.borrow();
         if known.is_empty() {

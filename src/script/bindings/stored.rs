@@ -26,10 +26,10 @@ impl StoredFunction {
         Self { function, surroundings, context: context.clone(), role }
     }
 
-    /// Calls the function with the call depth and error position of the running native call.
+    /// Calls the function at the call depth of the running native call, so that the limit of the depth applies.
     ///
     /// # Errors
-    /// Fails if the script fails, or if the run was stopped.
+    /// Fails if the function fails, or if the run was stopped or has ended.
     pub fn call(&self, arguments: impl AsMut<[Dynamic]>) -> Result<Dynamic, Box<EvalAltResult>> {
         self.context.proceed().map_err(|error| error.into_engine(Position::NONE))?;
         let Some(engine) = self.context.engine() else {

@@ -215,7 +215,7 @@ impl FunctionBinding {
         }
     }
 
-    /// Signature with optional parameters in brackets, for example `line(from, to)` or `sim.step([count])`.
+    /// Signature with optional parameters in brackets, for example `line(from, to)` or `simulation.step([count])`.
     pub fn signature(&self) -> String {
         let names = self.parameters.iter().map(|parameter| match parameter.is_required() {
             true => parameter.name.to_owned(),

@@ -288,7 +288,7 @@ impl UnknownName<'_> {
         self.catalog.built_ins().filter(move |known| known.is_of(of)).map(BuiltIn::name)
     }
 
-    /// Text before the dot at this position; empty unless it is a name, a number or an expression in parentheses.
+    /// Text before the dot at this position; `…` unless it is a name, a number or an expression in parentheses.
     fn before_dot(&self, at: Position) -> &str {
         let (Some(line), Some(column)) = (at.line(), at.position()) else { return "…" };
         let before = self.program.text[..self.program.offset(line, column)].trim_end();

@@ -1,5 +1,5 @@
-//! Check of the values of `switch`: numbers, texts, booleans, and arrays and maps of these.
-//! For values of other types, such as functions, Rhai would silently execute the default case.
+//! Check of the values of `switch`: numbers, texts, characters, booleans, `()`, functions, and arrays and maps of these.
+//! For values of other types, such as vectors, Rhai would silently execute the default case.
 
 use rhai::{Array, Dynamic, Engine, FnPtr, Map};
 

@@ -24,7 +24,7 @@ const PULSE: u64 = 256;
 
 /// Creates an engine for the language of `catalog` that reports to `context`.
 ///
-/// Fails if a token hook of Rhai does not work as required.
+/// Fails if Rhai rejects a custom operator of the language.
 pub fn build(catalog: &Catalog, context: &Context) -> Result<Engine, String> {
     let mut engine = foundation::engine();
     // The optimiser of Rhai is off, because it would replace shadowed names by constants and drop statements with side effects.

@@ -25,7 +25,7 @@ use crate::script::state::settings::{ErrorEstimation, RunMode, RunSettings};
 pub enum Ending {
     /// The script completed.
     Finished,
-    /// The script has an error.
+    /// The script has an error or exceeded a limit, or an internal error occurred.
     Failed(Diagnostic),
     /// A dry run reached a loop that waits for the result of a simulation, without an error before it.
     Undecided,

@@ -23,7 +23,8 @@ pub fn functions_of_time(scene: &Scene) -> Vec<&StoredFunction> {
 /// Repeats a computation that calls script functions.
 ///
 /// # Errors
-/// Fails with the error of the computation, or if a function has changed a captured variable, whose value is then restored.
+/// Fails with the error of the computation, if a function reads a simulation of the script through a captured variable,
+/// or if a function has changed a captured variable, whose value is then restored.
 /// A repetition would start from the changed value and not be the same computation.
 pub fn repeat_unchanged<T>(
     functions: &[&StoredFunction],

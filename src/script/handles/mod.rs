@@ -1,4 +1,4 @@
-//! Handles of scenes, beams, stations, simulations and histories for scripts. Clones of a handle refer to the same object.
+//! Handles of scenes and their parts, equilibria, simulations and histories for scripts. Clones of a handle refer to the same object.
 
 pub mod beam;
 pub mod captured_variables;

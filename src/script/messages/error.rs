@@ -82,7 +82,7 @@ impl ScriptError {
         self
     }
 
-    /// Converts the index of an argument to its index in a method call, which does not count the value before the dot.
+    /// Declares the index of an argument to be counted after the dot of a method call. The index itself is unchanged.
     pub fn of_method(mut self) -> Self {
         if let Self::Failure(Failure { place, .. }) = &mut self
             && let CallPart::Argument(number) = *place

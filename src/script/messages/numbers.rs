@@ -13,7 +13,7 @@ pub fn as_number(value: &Dynamic) -> Option<f64> {
     value.as_float().ok().or_else(|| value.as_int().ok().map(|n| n as f64))
 }
 
-/// Converts a script value to an integer; `None` if it has a fractional part or another type.
+/// Converts a script value to an integer; `None` if it has a fractional part or another type, or is a float above 2^53.
 pub fn as_integer(value: &Dynamic) -> Option<INT> {
     value.as_int().ok().or_else(|| {
         let x = value.as_float().ok()?;

@@ -7,7 +7,7 @@ use rhai::Dynamic;
 
 /// Object that contributes to the report of a run, such as a simulation.
 pub trait Reporter {
-    /// Entry of the object in the report. Called when the run ends, for any reason.
+    /// Entry of the object in the report. Called when the run ends, for any reason, or when the object is released.
     fn report(&self) -> serde_json::Value;
 
     /// Script value of the object.
@@ -79,6 +79,7 @@ impl Reports {
     }
 
     /// Unique names and contents of the rescue files for the first simulations of a run, about `bytes` in total.
+    /// The second value is a note if there are more simulations.
     pub fn remains(&self, bytes: u64) -> (Vec<(String, String)>, Option<String>) {
         let entries = self.0.borrow();
         let all = entries.all.len();

@@ -3,7 +3,7 @@
 /// Largest length of a misspelt name for which suggestions are searched [bytes].
 const LONGEST: usize = 200;
 
-/// Candidate that is most similar to `wrong`; `None` if no candidate is similar enough.
+/// Candidate that is most similar to `wrong`, but not equal; `None` if no candidate is similar enough, or if `wrong` is too long.
 pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if wrong.len() > LONGEST {
         return None;
@@ -23,7 +23,8 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, candidate)| candidate)
 }
 
-/// Candidates that contain `wrong` as a word or start with it, for example `run_to` for `run`.
+/// At most five candidates that contain `wrong` as a word or start with it, for example `run_to` for `run`.
+/// There are none if `wrong` has fewer than three characters.
 pub fn related<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     const MOST: usize = 5;
     const SHORTEST: usize = 3;

@@ -89,7 +89,7 @@ pub(super) struct Missing {
     pub instead: &'static str,
 }
 
-/// Reports that the states of a run after `time` cannot be computed again.
+/// Reports that the states of a run from `time` on cannot be computed again.
 /// The report is an error if the data were requested explicitly, otherwise a note.
 pub(super) fn report_diverged_rerun(
     call: &Call,

@@ -247,7 +247,7 @@ fn study(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(SweepHandle(table.into_swept())))
 }
 
-/// Rejects a result with the name of a parameter, because parameters and results are columns of one table.
+/// Rejects a result with the name of a parameter or of the column of failures, because they are columns of the same table.
 fn expect_other_names(call: &Call, sweep: &Sweep) -> Result<(), ScriptError> {
     let own = |name: &&String| sweep.design.parameters.iter().any(|of| of.name == **name);
     let wrong = sweep.results.names.iter().find(|name| own(name) || *name == FAILURE);

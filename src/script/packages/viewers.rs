@@ -130,7 +130,8 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Fields for colouring beams, computed from states of a simulation that are restored from snapshots or computed again.
-/// If the repeated run differs from the original, the result is `None` after a note, or an error for explicitly requested fields.
+/// If the repeated run differs from the original, the result is empty after a note, or an error for explicitly requested fields.
+/// The result is also empty in a dry run.
 fn inside(
     call: &Call,
     of: &SimulationHandle,

@@ -1,4 +1,4 @@
-//! VTK grids of a simulation, with beams as lines through their knots and three points between them, and point masses as dots.
+//! VTK grids of a simulation, with beams as lines through their knots and three points between them, and point masses and rigid bodies as dots.
 
 use crate::beams::BodyPoint;
 use crate::geometry::Vec2;

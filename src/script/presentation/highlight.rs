@@ -23,14 +23,14 @@ pub const COMMENT: HighlightStyle = HighlightStyle("2");
 pub const FUNCTION: HighlightStyle = HighlightStyle("34");
 /// Constants.
 pub const CONSTANT: HighlightStyle = HighlightStyle("36");
-/// Style of members that a value of the type cannot have.
+/// Style of members that a value of the type cannot have, and of functions that a module does not have.
 pub const UNKNOWN_MEMBER: HighlightStyle = HighlightStyle("4");
 /// Style of the bracket at the cursor, and of its matching bracket.
 pub const PARTNER: HighlightStyle = HighlightStyle("1;4");
 /// Style of closing brackets without a matching bracket.
 pub const UNMATCHED: HighlightStyle = HighlightStyle("31");
 
-/// Names with their colours, collected once for many texts.
+/// Known names, which determine the styles of words. They are collected once for many texts.
 pub struct Vocabulary {
     functions: HashSet<String>,
     constants: HashSet<String>,

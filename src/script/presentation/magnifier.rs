@@ -125,7 +125,8 @@ impl<'a> Magnifier<'a> {
         Ok(bodies)
     }
 
-    /// Rigid motion of a body, computed from its joints if there are several, otherwise from all its points.
+    /// Rigid motion of a body. Its translation is that of the mean position of its joints, or of all its points if there are no joints.
+    /// Its rotation is computed from its joints if there are several, otherwise from all its points.
     fn motion(
         &self,
         body: usize,

@@ -37,7 +37,7 @@ pub struct MotionOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {
     Yes,
-    /// All symbols, except types of symbols that are too numerous for the picture.
+    /// All symbols, but no supports, joints and sliders if there are too many of them (see [`uncrowded`]).
     IfFew,
     None,
 }

@@ -1,4 +1,4 @@
-//! Symbols of a scene at a time: supports, joints, sliders, loads and obstacles.
+//! Symbols of a scene at a time: supports, joints, sliders, springs, loads and obstacles.
 
 use crate::beams::Station;
 use crate::elementary::atan2;
@@ -77,7 +77,8 @@ impl<'a> SceneAt<'a> {
     }
 }
 
-/// Symbols of a scene at a time, except for zero loads. `places` returns the positions of stations.
+/// Symbols of a scene at a time, without zero loads and without released joints, sliders and springs.
+/// `places` returns the positions of stations.
 pub fn symbols(
     at: &SceneAt,
     places: impl FnOnce(&[Station]) -> Result<Vec<Vec2>, SystemError>,

@@ -44,7 +44,7 @@ pub struct ViewerOptions<'a> {
 /// Creates the viewer data of the recorded frames.
 ///
 /// # Errors
-/// Fails if nothing is recorded in the interval, a station lies outside its beam, or the function of a load fails.
+/// Fails if a station lies outside its beam, the axis of a beam has no tangent at a point, or the function of a load fails.
 pub fn viewer_data(
     simulation: &Simulation,
     options: ViewerOptions,

@@ -77,7 +77,7 @@ pub fn nesting(token: &Token) -> isize {
     }
 }
 
-/// Index of the bracket that closes the bracket at `open`, or the number of tokens if there is none.
+/// Index of the token after the bracket that closes the bracket at `open`, or the number of tokens if there is none.
 pub fn closing(tokens: &[Lexeme], open: usize) -> usize {
     let mut depth = 0;
     for (index, (token, _)) in tokens.iter().enumerate().skip(open) {

@@ -72,7 +72,8 @@ fn is_interpolation(tokens: &[Lexeme], index: usize) -> bool {
     matches!(tokens.get(index.wrapping_sub(1)), Some((Token::InterpolatedString(_), _)))
 }
 
-/// Brace that opens the body of a loop with the keyword `in` at `after`; `None` if the expression after `in` contains blocks.
+/// Index of the brace that opens the body of a loop. `after` is the index of the keyword `in`.
+/// The result is `None` if there is no such brace, or if the expression after `in` contains `if`, `switch` or a closure outside of brackets.
 fn opening(tokens: &[Lexeme], after: usize) -> Option<usize> {
     let mut depth = 0_usize;
     for (index, (token, _)) in tokens.iter().enumerate().skip(after) {

@@ -90,7 +90,8 @@ impl TokenReader {
 
 const PULSE: u32 = 64;
 
-/// Registers the tokens of the language. `stop` returns a reason for stopping the parser. The result must be reset before each text.
+/// Registers the tokens of the language. `stop` returns a reason for stopping the parser, or `None` if the parser continues.
+/// The returned reader must be reset with [`TokenReader::begin`] before each text.
 pub fn install(
     engine: &mut Engine,
     stop: impl Fn() -> Option<Stop> + 'static,

@@ -159,7 +159,7 @@ impl Context {
         &self.0.journals
     }
 
-    /// Reserves the name of a study. Returns false if it is in use, in either letter case.
+    /// Reserves the name of a study. Returns false if it is in use.
     pub fn claim_study(&self, name: &str) -> bool {
         self.0.study_names.borrow_mut().insert(PathBuf::from(name))
     }

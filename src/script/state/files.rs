@@ -79,7 +79,8 @@ impl OutputFolder {
         Ok(WrittenFile { path, kept })
     }
 
-    /// Opens the output folder, for each file again, because it may be moved during a session.
+    /// Writes a file after opening the output folder, which is opened again for each file, because it may be moved during a session.
+    /// Returns the new path of an older file of others with the same name; `None` if there was no such file.
     fn open_folder(
         &self,
         name: &str,
@@ -133,7 +134,7 @@ impl OutputFolder {
     /// Reads the file `name` of at most `most` bytes in the output folder or, if it is not there, in the folder of the script.
     ///
     /// # Errors
-    /// Fails if the file does not exist, is too large, or is not a regular file.
+    /// Fails if the name leads out of these folders, or if the file does not exist, is too large, or is not a regular file.
     pub fn read(&self, name: &str, most: Option<u64>) -> Result<Vec<u8>, ScriptError> {
         if let Some(content) = self.pretended.borrow().get(&self.folder.join(name)) {
             return Ok(content.clone());

@@ -9,7 +9,7 @@ use std::time::SystemTime;
 #[derive(Clone, Debug, Default)]
 pub struct FilesRead(Arc<Mutex<BTreeMap<PathBuf, FileState>>>);
 
-/// Time of the last change and size of a file; `None` if there is no such file.
+/// Time of the last change and size of a file; `None` if there is no such file, or if the system does not provide them.
 type FileState = Option<(SystemTime, u64)>;
 
 fn state_of(path: &Path) -> FileState {

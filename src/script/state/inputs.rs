@@ -58,7 +58,7 @@ pub enum InputValue {
 }
 
 impl InputValue {
-    /// Converts a script value to the value of an input; `None` if inputs cannot have its type.
+    /// Converts a script value to the value of an input; `None` if inputs cannot have its type, or if a number in it is not finite.
     pub fn of(value: &Dynamic) -> Option<Self> {
         if let Ok(truth) = value.as_bool() {
             return Some(Self::Boolean(truth));
@@ -75,7 +75,7 @@ impl InputValue {
         finite(value).map(Self::Number)
     }
 
-    /// Converts a script value to the type of `self`; `None` if it has another type.
+    /// Converts a script value to the type of `self`; `None` if it has another type, or if a number in it is not finite.
     pub fn convert(&self, value: &Dynamic) -> Option<Self> {
         match self {
             Self::Number(_) => finite(value).map(Self::Number),

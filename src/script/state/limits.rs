@@ -131,7 +131,7 @@ impl Meter {
         &self.limits
     }
 
-    /// Exceeded limit; `None` if no limit was exceeded.
+    /// Exceeded limit or other reason to stop, such as lost output; `None` if the run may continue.
     pub fn passed(&self) -> Option<Stop> {
         match self.alarm.load(Ordering::Relaxed) {
             TOO_LATE => self.limits.time.map(Stop::Time),
@@ -148,7 +148,7 @@ impl Meter {
         self.pretended.set(self.pretended.get() + 1);
     }
 
-    /// Returns true if the script depends on results that a dry run does not compute.
+    /// Returns true if a dry run has skipped a call that would advance a simulation, so that results may be missing.
     pub fn depends_on_dry_run(&self) -> bool {
         self.pretended.get() > 0
     }

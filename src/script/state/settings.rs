@@ -37,7 +37,7 @@ pub struct RunSettings {
     pub limits: Limits,
     /// Writer for the output of `print`.
     pub printed: Box<dyn Write + Send>,
-    /// Writer for failed checks and `debug`.
+    /// Writer for messages to the user, failed checks and `debug`.
     pub diagnostics: Box<dyn Write + Send>,
     /// Progress display.
     pub progress: Box<dyn Progress + Send>,
@@ -78,7 +78,7 @@ pub enum ErrorEstimation {
     Never,
     /// Errors are not estimated, but a remark explains how to request an estimate.
     Remark,
-    /// Errors are estimated after runs of less than a second.
+    /// Errors are estimated after runs of less than a second without a limit of steps.
     Auto,
     /// Errors are estimated after every run.
     Always,

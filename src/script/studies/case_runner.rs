@@ -65,10 +65,10 @@ impl CaseTask<'_> {
 }
 
 impl<'c> CaseRunner<'c> {
-    /// Starts a study, and opens its journal if requested. `name` is also the name of its files.
+    /// Starts a study, and opens its journal if requested, or the journals of the parts that are merged. `name` is also the name of its files.
     ///
     /// # Errors
-    /// Fails if the name is not valid for a file in the output folder, or the journal cannot be read.
+    /// Fails if the name is not valid for a file in the output folder, if a merged part is missing, or if a journal cannot be read.
     pub fn open(context: &'c Context, name: &str) -> Result<Self, ScriptError> {
         let options = context.studies();
         let path = |file: String| context.output().path_of(&file);
@@ -95,7 +95,8 @@ impl<'c> CaseRunner<'c> {
     /// If the run computes a part of the study, the result is `None` after computing this part.
     ///
     /// # Errors
-    /// Fails if the run is stopped, or if a merged part lacks a case. After a stop, finished cases are in the journal.
+    /// Fails if the run is stopped, if the journal cannot be written, or if a case is missing in all merged parts.
+    /// After a stop, finished cases are in the journal.
     pub fn in_parallel<R: CaseResult + Clone + Send>(
         &self,
         task: CaseTask,
@@ -165,7 +166,7 @@ impl<'c> CaseRunner<'c> {
     /// `work` receives a function that returns false if the case must stop.
     ///
     /// # Errors
-    /// Fails if the run is stopped; finished cases are then in the journal.
+    /// Fails if the run is stopped or the journal cannot be written. Finished cases are then in the journal.
     pub fn run_sequentially<R: CaseResult>(
         &self,
         task: CaseTask,

@@ -11,7 +11,7 @@ pub fn table(study: &Convergence) -> String {
     format!("{}{tables}{}", head(study), failures(study))
 }
 
-/// Report of a convergence study without tables for single stations.
+/// Report of a convergence study with the table of the errors of all positions, and only the fitted orders of the other quantities.
 pub fn summary(study: &Convergence) -> String {
     let positions = table_of(study, ALL_POSITIONS);
     format!("{}\n\n{positions}{}{}", head(study), other_orders(study), failures(study))

@@ -21,7 +21,7 @@ const PLAIN: [&str; 2] = ["the scene alone", "the same again"];
 
 const TRUSTED_RATIO: f64 = 1.1;
 
-/// Settings of all rows of a cost study, unless a row varies them.
+/// Settings of all cases of a cost study. The cases that compare other integrators have another `method`.
 #[derive(Clone, Copy)]
 pub struct CostStepping {
     pub method: Method,

@@ -31,7 +31,8 @@ pub const FREQUENCIES: &str = "frequencies";
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
 
-/// Smallest number of spans of the shortest beam that allows two coarser meshes in the estimate.
+/// Smallest number of spans of a beam that allows two coarser meshes in the estimate.
+/// The beam of the scene with the fewest spans is decisive.
 /// With fewer spans, at least one of the two additional meshes is finer than the mesh of the simulation.
 const SPANS_TO_COARSEN: usize = 4;
 
@@ -42,8 +43,9 @@ const LEAST_RATIO: f64 = 1.1;
 pub struct ErrorEstimate {
     pub name: String,
     /// Time of a simulation, with the tolerance of adaptive steps, or load factor of an equilibrium, as text after its name.
+    /// The text is empty for modes.
     pub moment: String,
-    /// Largest errors of all stations, followed by the errors of each station and recorded column.
+    /// Largest errors of all stations or of all frequencies, followed by the errors of each station, frequency and column.
     pub quantities: Vec<QuantityError>,
     pub missing: Vec<String>,
 }
@@ -52,7 +54,7 @@ pub struct ErrorEstimate {
 pub struct QuantityError {
     pub name: String,
     pub dimension: &'static str,
-    /// Scale of the quantity: its largest value in the run, or for positions the size of the scene, which is a length.
+    /// Scale of the quantity: for positions the size of the scene, for columns of a run the largest value of all columns of the same dimension.
     pub scale: f64,
     pub in_time: Option<DiscretisationError>,
     pub in_space: Option<DiscretisationError>,
@@ -67,7 +69,7 @@ impl QuantityError {
         Self { name, dimension: "-", scale: 0.0, in_time: none.clone(), in_space: none }
     }
 
-    /// Sum of the errors in time and space: its value at the present time, and its largest value during the run.
+    /// Sums of the errors in time and space: sum of the errors at the present time, and sum of the largest errors during the run.
     pub fn total(&self) -> (f64, f64) {
         (self.sum(DiscretisationError::present), self.sum(DiscretisationError::largest))
     }
@@ -172,10 +174,11 @@ impl ErrorEstimate {
         Self { name, moment, quantities: Vec::new(), missing }
     }
 
-    /// Estimates the errors of a simulation at its present time and over its run. With a time limit, each companion run stops after this time.
+    /// Estimates the errors of a simulation at its present time and over its run.
+    /// With a time limit, companion runs that are computed in parallel stop after this time. Others have no time limit.
     ///
     /// # Errors
-    /// Fails if the simulation cannot be repeated from its start, or the script is stopped.
+    /// Fails if the simulation was loaded from a file, if its mesh cannot be scaled, or if the script is stopped.
     pub fn estimate(
         handle: &SimulationHandle,
         context: &Context,
@@ -340,7 +343,7 @@ impl ErrorEstimate {
         self.quantities.iter().any(|quantity| quantity.in_time.is_some())
     }
 
-    /// Table of all quantities whose error is not zero.
+    /// Table of at most [`MOST_ROWS`] quantities whose runs do not agree to rounding, with notes on the other quantities.
     pub fn table(&self) -> String {
         let heads: &[&str] = match self.is_of_run() {
             true => &["quantity", "in time", "largest", "order", "in space", "largest", "order"],
@@ -402,7 +405,7 @@ fn error_cells(error: &Option<DiscretisationError>) -> [Cell; 3] {
     text.unwrap_or_else(|| ["-"; 3].map(str::to_owned)).map(Cell::Number)
 }
 
-/// Runs companions, in parallel if no script function is called between their steps.
+/// Runs companions, in parallel if they start from the scene and no script function is called between their steps.
 fn run_companions(
     handle: &SimulationHandle,
     companions: &[Companion],
@@ -495,7 +498,7 @@ fn traced_quantities(simulation: &Simulation) -> Vec<TracedQuantity> {
     stations.chain(columns).collect()
 }
 
-/// Scales of quantities: the size of the scene, and the largest value of all columns of a dimension.
+/// Scales of quantities: the size of the scene for positions, and the largest value of all columns of a dimension for columns.
 struct Scales {
     length: f64,
     by_dimension: Vec<(&'static str, f64)>,

@@ -49,12 +49,12 @@ option_set! {
     pub struct CostOptions {
         name: String = name("name").doc("name of the study and its files"),
         scene: FnPtr = callback("scene").doc("|| …, a function that returns the scene"),
-        /// Step size of all rows [time].
+        /// Step size of all cases of the cost study [time]. Each case is a row of the result table.
         dt: f64 = number("dt").positive().unit("time").doc("step size"),
         /// Map of names and functions that add a feature to a scene.
         features: Option<Dynamic> =
             of_any_type("features").doc("names and functions: #{ gravity: |scene| … }").optional(),
-        /// Integrator of all rows without a separate integrator.
+        /// Integrator of all rows of the result table, except the rows that compare other integrators.
         integrator: Option<Method> =
             object("integrator", INTEGRATOR).doc("integrator; default: energy_momentum()").optional(),
         steps: usize = integer("steps").positive().or(Presence::Integer(200)).doc("number of steps of each run"),

@@ -151,7 +151,7 @@ fn column_of(
     Ok(Observable::of_column(name, &column, factor))
 }
 
-/// Name of a study, which must be unique in the run and a valid file name.
+/// Returns the name of a study, if no other study of the run has this name.
 pub fn study_name(call: &Call, name: &str) -> Result<String, ScriptError> {
     if !call.context().claim_study(name) {
         let message = format!("this run already has a study '{name}'");

@@ -67,7 +67,7 @@ pub fn comparison(study: &Precision, errors: &[f64]) -> String {
 }
 
 /// Note on the fastest combination whose error is also met with smaller steps on the same mesh.
-/// The result is `None` if this combination is the fastest of all.
+/// The result is `None` if this combination is the fastest of all, or if no combination has an error of at most `error`.
 fn confirmation(study: &Precision, error: f64) -> Option<String> {
     let fastest = study.cheapest(error)?;
     let message = match study.cheapest_confirmed(error) {

@@ -22,7 +22,7 @@ use crate::simulation::{StepControl, StepSize};
 #[derive(Clone, Default)]
 pub struct FinestRun {
     pub mesh: Option<Dynamic>,
-    /// Step size [time] of the reference run; by default a quarter of the smallest step size of the study.
+    /// Step size [time] of the reference run; `None` for the step size given by [`finer`].
     pub dt: Option<f64>,
     pub method: Option<Method>,
 }

@@ -83,7 +83,8 @@ fn refinement_factor(
 }
 
 impl RefinedRun {
-    /// Runs a scene with smaller steps and finer meshes until the estimated error of the positions is within the tolerance.
+    /// Runs a scene with smaller steps and finer meshes until the estimated error of the positions is within the tolerance,
+    /// or the time or the number of runs reaches its limit.
     pub fn run(
         scene: &SceneHandle,
         request: &RefinedRunRequest,

@@ -24,6 +24,7 @@ const DEEPEST: usize = 8;
 const MOST: usize = 100;
 
 /// Position of a branch whose condition contains the argument of its function and a variable that depends on a parameter.
+/// Functions and schedules with jumps also count as branches.
 pub(super) struct Decision {
     pub(super) parameter: String,
     pub(super) sign: String,

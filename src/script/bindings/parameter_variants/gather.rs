@@ -16,7 +16,7 @@ use crate::script::messages::numbers::as_number;
 /// The same applies to objects for which `is_thing` is true, because objects of a scene contain their variants.
 ///
 /// # Errors
-/// Fails if arrays or maps differ between variants in more than numbers.
+/// Fails if arrays have different lengths in the variants, or maps different keys.
 pub fn combine_variants(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

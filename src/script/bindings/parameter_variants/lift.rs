@@ -20,7 +20,7 @@ const BESIDE: &str = "derivatives are computed from values on both sides of a pa
 
 type Make<'m> = &'m mut dyn FnMut(Option<&mut Dynamic>, &[Dynamic]) -> Result<Dynamic, ScriptError>;
 
-/// Evaluates a binding for each variant of its receiver and arguments. `lifting` is the rule for the domain of the binding.
+/// Evaluates a binding for all variants of its receiver and arguments, or only once, depending on `lifting`, the rule for its domain.
 ///
 /// # Errors
 /// Fails if the call fails, if derivatives would be lost, or if parameters of two scenes are combined.
@@ -222,7 +222,7 @@ impl ParameterSet {
 /// Combines the results of all variants, which were computed from the values `from`.
 ///
 /// # Errors
-/// Fails if arrays or maps differ between variants in more than numbers.
+/// Fails if arrays have different lengths in the variants, or maps different keys.
 pub fn combined(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],
@@ -236,7 +236,7 @@ pub fn combined(
 /// Combines the results of all variants to one value without derivatives, which stores the reason why they are missing.
 ///
 /// # Errors
-/// Fails if arrays or maps differ between variants in more than numbers.
+/// Fails if arrays have different lengths in the variants, or maps different keys.
 pub fn combined_without_derivatives(
     family: &Rc<ParameterSet>,
     results: &[Dynamic],

@@ -15,7 +15,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 /// The relative error of a difference quotient is about `p²` plus the relative rounding error over `p`.
 pub const RELATIVE_DISTANCE: f64 = 1e-5;
 
-/// Parameters of a scene. Variant 0 has the given values.
+/// Parameters of a scene. The unperturbed variant has the given values.
 /// Variants 1 and 2 increase and decrease the first parameter, variants 3 and 4 the second, and so on.
 #[derive(Default)]
 pub struct ParameterSet {
@@ -105,7 +105,7 @@ impl ParameterSet {
         ANY.get()
     }
 
-    /// Adds a parameter with its value and an optional perturbation. Returns the index of the parameter.
+    /// Adds a parameter with its value and an optional perturbation. Returns the value of the parameter in all variants.
     ///
     /// # Errors
     /// Fails if the name is already used, or if variants have been used.

@@ -7,7 +7,8 @@ use crate::script::bindings::table::{BindingTable, CallSyntax, FunctionBinding};
 pub enum Lifting {
     Each,
     AtValues,
-    /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are errors.
+    /// The call is evaluated once, because its receiver contains all variants. Arguments that depend on parameters are errors,
+    /// except in functions of derivatives.
     Once,
     /// The call is rejected, because the result would have no derivatives.
     Refused,

@@ -51,10 +51,10 @@ impl VariantValue {
         self.values.get(variant).unwrap_or(&self.values[0]).clone()
     }
 
-    /// Derivative of the value with respect to the parameter with this index.
+    /// Derivative of the value with respect to the parameter with this index; NaN if the parameter does not exist.
     ///
     /// # Errors
-    /// Fails if the parameter does not exist, or if the value is not differentiable.
+    /// Fails if the value is neither a number nor a vector, or is not differentiable.
     pub fn derivative(&self, parameter: usize) -> Result<Dynamic, ScriptError> {
         if let Some(reason) = &self.lost {
             return Err(ScriptError::new(reason.to_string()));

@@ -1,4 +1,4 @@
-//! Names and keywords of Python, MATLAB, JavaScript and C, with their replacements in withy.
+//! Names and keywords of other languages, such as Python, MATLAB, JavaScript and C, with their replacements in withy.
 
 use super::entry::{ForeignName, entry};
 

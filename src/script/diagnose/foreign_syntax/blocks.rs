@@ -14,7 +14,7 @@ fn else_if(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(at, message, "write else if … { … }")
 }
 
-/// Explains operators that are words: `and`, `or`, `not`, `is`.
+/// Explains operators that are words: `and`, `or`, `not`, `is`, `xor`.
 fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, word) = spot.find_word(&["and", "or", "not", "is", "AND", "OR", "NOT", "xor"])?;
     let hint = match (word, spot.word(at + 1)) {
@@ -29,7 +29,7 @@ fn word_operator(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(at, format!("'{word}' is not an operator here"), hint)
 }
 
-/// Explains foreign loops: `for (let i = 0; …)`, `for i = 1:10`, `for x of xs`, `for i in range(10):`.
+/// Explains foreign loops with a counter or with `of`: `for (let i = 0; …)`, `for i = 1:10`, `for i <- xs`, `for x of xs`.
 fn counting_loop(spot: &TokenWindow) -> Option<SyntaxFix> {
     let (at, _) = spot.find_word(&["for", "foreach"])?;
     let next = spot.word(at + 1);

@@ -134,7 +134,7 @@ fn tuple(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(-2, "several values must be an array", hint)
 }
 
-/// Explains declarations that take an array apart: `let [a, b] = pair;`.
+/// Explains declarations that take an array or a map apart: `let [a, b] = pair;`.
 fn parts(spot: &TokenWindow) -> Option<SyntaxFix> {
     let declares = matches!(spot.word(-1), "let" | "const");
     (declares && matches!(spot.word(0), "[" | "{" | "(" | "#{")).then_some(())?;
@@ -185,7 +185,7 @@ fn compared(spot: &TokenWindow) -> Option<SyntaxFix> {
     None
 }
 
-/// Explains foreign imports: `from math import sin`, `using`, `#include`, `require`.
+/// Explains foreign imports: `from math import sin`, `using`, `include`, `require`.
 fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     let is_import = matches!(word, "from" | "using" | "include" | "require" | "use" | "load")
@@ -200,7 +200,7 @@ fn import(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Explains definitions of classes: `class Beam { … }`.
+/// Explains definitions of classes and other types: `class Beam { … }`, `struct Beam { … }`.
 fn class(spot: &TokenWindow) -> Option<SyntaxFix> {
     let word = spot.in_statement(0);
     let is_class = matches!(word, "class" | "struct" | "interface" | "enum" | "type" | "classdef");

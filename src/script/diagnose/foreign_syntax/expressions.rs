@@ -75,7 +75,8 @@ fn range(spot: &TokenWindow) -> Option<SyntaxFix> {
     )
 }
 
-/// Explains calls without parentheses: `print "hello"`, `sqrt 2`, `typeof x`, `new Scene()`.
+/// Explains calls without parentheses: `print "hello"`, `sqrt 2`, `typeof x`.
+/// Also explains the foreign words `new`, `null`, `nil` and `void`, as in `new Scene()`.
 fn call_without_parentheses(spot: &TokenWindow) -> Option<SyntaxFix> {
     if let ParseErrorType::Reserved(word) = spot.error {
         match word.as_str() {
@@ -128,7 +129,7 @@ fn juxtaposed(spot: &TokenWindow) -> Option<SyntaxFix> {
     spot.explain(0, "a product must be written with *", hint)
 }
 
-/// Explains `x++` where the parser reports only a missing token.
+/// Explains `x++` and `x--` where the parser reports only a missing token.
 fn stepping(spot: &TokenWindow) -> Option<SyntaxFix> {
     let sign = spot.word(0);
     (matches!(sign, "+" | "-") && spot.word(1) == sign && spot.is_joined(1)).then_some(())?;

@@ -25,7 +25,7 @@ impl Commands {
     }
 
     /// Records the output of a controller after the time `time`.
-    /// Outputs for later times, computed before a rewind, are dropped.
+    /// Outputs from this time on, which were computed before a rewind, are dropped.
     pub(super) fn record(&self, controller: usize, time: f64, command: f64) {
         let mut all = self.0.borrow_mut();
         let Some(own) = all.get_mut(controller) else { return };

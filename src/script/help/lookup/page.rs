@@ -155,7 +155,8 @@ fn words(spans: &[StyledText]) -> Vec<Vec<StyledText>> {
     words
 }
 
-/// Breaks a line of a script at `width`, at blanks outside strings after a comma, semicolon, brace, && or ||.
+/// Breaks a line of a script at `width`, at blanks outside strings after a comma, semicolon, opening brace, && or ||.
+/// A line with a comment is not broken.
 pub(super) fn wrapped_code(line: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     let mut rest = line.to_owned();

@@ -12,7 +12,7 @@ const MOST_MENTIONS: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownTopic {
     pub name: String,
-    /// Most similar name with help; `None` if no name is similar enough.
+    /// Most similar name with help; `None` if no name is similar enough, or if there are related names.
     pub meant: Option<&'static str>,
     /// Names with help that contain `name` as a word or begin with it.
     pub related: Vec<&'static str>,

@@ -70,7 +70,7 @@ pub fn plot_motion(call: &mut Call) -> Result<Dynamic, ScriptError> {
 }
 
 /// Picture as text for a terminal, with options typed at the prompt.
-/// Unless times are requested, only the present configuration is shown.
+/// Without the options `every` and `from`, only one configuration is shown: that at the time `to`, by default the present one.
 pub fn motion_text(
     engine: &rhai::Engine,
     of: &SimulationHandle,

@@ -1,4 +1,4 @@
-//! Summaries of integrators, sliding rules, schedules and errors.
+//! Summaries of integrators, step control, sliding rules, schedules and errors.
 
 use super::entries::{line, number, numbers};
 use crate::integrators::{EnergyClaim, Method};
@@ -57,7 +57,7 @@ fn kept_of<const N: usize>(claims: [(bool, &str); N]) -> String {
     kept.join(", ")
 }
 
-/// Summary of a schedule by its values and jumps; script functions are not called.
+/// Summary of a schedule by its values and the times of its jumps and bends; script functions are not called.
 pub fn of_schedule(schedule: &Schedule) -> Details {
     let mut breaks = schedule.breaks();
     breaks.sort_by(f64::total_cmp);

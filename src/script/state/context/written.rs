@@ -37,7 +37,7 @@ impl Context {
     /// An existing file that this program has not written is kept under another name, and a message is printed.
     ///
     /// # Errors
-    /// Fails if the file cannot be written, or a limit of the run is exceeded.
+    /// Fails if the file cannot be written, if the run must not write files, or if it is stopped or exceeds a limit.
     pub fn write_file(&self, name: &str, content: &[u8]) -> Result<PathBuf, ScriptError> {
         self.account_for(content)?;
         self.output().write(name, content).map(|written| self.report_kept(written))
@@ -46,7 +46,7 @@ impl Context {
     /// Writes a file in the output folder in pieces. An existing file is treated as in [`Self::write_file`].
     ///
     /// # Errors
-    /// Fails if the file cannot be written or a limit of the run is exceeded.
+    /// Fails if the file cannot be written, if the run must not write files, or if it is stopped or exceeds a limit.
     pub fn write_file_by(
         &self,
         name: &str,
@@ -63,7 +63,7 @@ impl Context {
     /// An existing file is treated as in [`Self::write_file`].
     ///
     /// # Errors
-    /// Fails if the file cannot be written, or a limit of the run is exceeded.
+    /// Fails if the file cannot be written, if the run must not write files, or if it is stopped or exceeds a limit.
     pub fn write_to_read(&self, name: &str, content: Vec<u8>) -> Result<PathBuf, ScriptError> {
         self.account_for(&content)?;
         self.output().write_to_read(name, content).map(|written| self.report_kept(written))
@@ -72,7 +72,7 @@ impl Context {
     /// Reads a file in the output folder or in the folder of the script.
     ///
     /// # Errors
-    /// Fails if the file does not exist, is too large, or is not a regular file.
+    /// Fails if the name leads out of these folders, or if the file does not exist, is too large, or is not a regular file.
     pub fn read_file(&self, name: &str) -> Result<Vec<u8>, ScriptError> {
         let room = self.meter().limits().memory.map(|bytes| bytes / TIMES_ITS_LENGTH);
         self.output().read(name, room)

@@ -42,7 +42,7 @@ enum Executor<'w> {
     ThisThread,
 }
 
-/// Evaluates the function of a query, by worker threads if there is a complete script, otherwise on this thread.
+/// Evaluates the function of a query, by worker threads if they are available (see [`EngineConfig::of`]), otherwise on this thread.
 pub struct Evaluator<'w> {
     call: &'w Call<'w, 'w>,
     question: &'w FunctionQuery<'w>,

@@ -35,7 +35,7 @@ impl RunFunction {
     /// Reads the function given for an option key.
     ///
     /// # Errors
-    /// Fails, at the position of its use, for a captured value that cannot be sent to other threads.
+    /// Fails if the function does not belong to the script, or, at the position of its use, for a captured value that cannot be sent to other threads.
     pub fn read(call: &Call, key: &str, function: &FnPtr) -> Result<Self, ScriptError> {
         let Some(definition) = call.definition(function) else {
             let message = format!(
@@ -161,7 +161,8 @@ impl RunFunction {
         Err(call.error(message).hint(hint).at(CallPart::Key(unread.to_owned())))
     }
 
-    /// First name that the function does not read from its map of values; `None` if it passes its map on.
+    /// First of the names that the function does not read from its map of values, and that are not the names of inputs that it reads.
+    /// The result is `None` if there is no such name, if the function passes its map on, or if its definition is unknown.
     fn unread<'n>(
         call: &Call,
         function: &FnPtr,

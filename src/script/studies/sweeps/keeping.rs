@@ -80,7 +80,7 @@ impl SweepRequest<'_> {
         Ok(())
     }
 
-    /// Hash of all data on which the rows depend: program, script and imports, captured values, and parameters.
+    /// Hash of all data on which the rows depend: program, script, imports, inputs, captured values, time limit, and parameters.
     fn fingerprint(&self, call: &Call, function: &RunFunction) -> u64 {
         let captured = format!("{:?} {:?}", function.captured, self.wall);
         let script = call.context().program().map(|program| program.text.to_string());

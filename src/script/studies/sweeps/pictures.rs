@@ -86,7 +86,8 @@ impl Picture<'_> {
         self.table.rows().any(|row| columns.iter().all(|column| column.number(row).is_finite()))
     }
 
-    /// Chart of a column over another column, with curves for a grid and points otherwise; `None` if a column is missing.
+    /// Chart of the column `y_name` over the column `x_name`; `None` if a column is missing.
+    /// The chart has curves if `x_name` is a parameter with several levels, and points otherwise.
     pub fn over(&self, x_name: &str, y_name: &str) -> Option<LineChart> {
         let (x, y) = (self.column(x_name)?, self.column(y_name)?);
         let found = pairs(self.table, x, y);

@@ -10,7 +10,7 @@ use crate::script::studies::calls::calling::CallOutcome;
 #[derive(Clone, Debug)]
 pub enum RowOutcome {
     Computed(Arc<[String]>, Vec<f64>),
-    /// The function threw an error, or returned a value that is not a number. The field is the reason.
+    /// The function failed in this row, or returned a number that is infinite or NaN. The field is the reason.
     Failed(String),
     Wrong(String),
 }
