@@ -85,7 +85,7 @@ impl System {
     ///
     /// # Errors
     /// Fails in the same cases as [`assemble`](Self::assemble), except for undetermined contact directions.
-    /// Also fails if the scene has a sleeve, or if a drive has no value at the given time.
+    /// Also fails if a drive has no value at the given time.
     pub(crate) fn assemble_at_rest(
         scene: &Scene,
         state: &SystemState,
