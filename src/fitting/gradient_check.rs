@@ -27,8 +27,9 @@ pub fn test_points(ranges: &[SearchRange], x: &[f64]) -> [Vec<f64>; 2] {
     [moved(-1.0), moved(1.0)]
 }
 
-/// Compares derivatives with the values at two test points on both sides of the point `here`.
-/// `change` returns the difference between the two test points that the derivatives predict.
+/// Returns true if derivatives agree with the results at two test points on both sides of a point.
+/// `values` contains the results at the two test points. `here` contains the results at the point between them.
+/// `change` returns the difference between the two results with a given index that the derivatives predict.
 pub fn matches_derivatives(
     values: [&[f64]; 2],
     here: &[f64],

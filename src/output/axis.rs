@@ -74,7 +74,7 @@ impl PlotAxis {
     }
 
     /// Creates a logarithmic axis between integer powers of ten.
-    /// Values up to `floor` are shown at the bottom, one power of ten below the smallest value above `floor`.
+    /// Values up to `floor` are shown at the bottom. The bottom is extended by one power of ten for them, but not below that of `floor`.
     pub fn logarithmic(values: impl IntoIterator<Item = f64>, floor: f64) -> Self {
         let floor = if floor > 0.0 && floor.is_finite() { floor } else { DEFAULT_FLOOR };
         let mut cut = AxisCut::Nothing;

@@ -45,9 +45,9 @@ pub enum Components {
     Rotation,
     /// Displacements along both axes.
     Position,
-    /// Displacement along the first axis, and rotation.
+    /// Set of two components: the displacement along the first axis, and the rotation.
     XRotation,
-    /// Displacement along the second axis, and rotation.
+    /// Set of two components: the displacement along the second axis, and the rotation.
     YRotation,
     /// Both displacements and the rotation.
     All,

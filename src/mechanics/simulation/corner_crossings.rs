@@ -61,12 +61,12 @@ mod tests {
     #[test]
     fn rates_count_where_a_branch_changes() {
         let (start, middle) = (branch(1, -2.0), branch(1, -2.0));
-        let mut blows =
+        let mut crossings =
             CornerCrossings { start, middle, whole: branch(1, -2.0), halves: branch(1, -2.5) };
-        assert_eq!(blows.difference(0.5, 4.0), 0.0);
-        blows.whole = branch(0, 1.5);
-        assert_eq!(blows.difference(0.5, 4.0), 0.5);
-        blows.whole[0].along = Along::Angle;
-        assert_eq!(blows.difference(0.5, 4.0), 2.0);
+        assert_eq!(crossings.difference(0.5, 4.0), 0.0);
+        crossings.whole = branch(0, 1.5);
+        assert_eq!(crossings.difference(0.5, 4.0), 0.5);
+        crossings.whole[0].along = Along::Angle;
+        assert_eq!(crossings.difference(0.5, 4.0), 2.0);
     }
 }

@@ -83,8 +83,8 @@ impl StepDoubling {
         let distance = self.whole_step.distance(&self.halves);
         let apart = larger(distance.length / self.length, distance.angle);
         let (of_places, duration) = (apart / self.allowed, interval.duration());
-        let of_blows = self.corner_crossings.difference(duration, self.length) / self.allowed;
-        let trial = TriedStep { duration, error: larger(of_places, of_blows) };
+        let of_crossings = self.corner_crossings.difference(duration, self.length) / self.allowed;
+        let trial = TriedStep { duration, error: larger(of_places, of_crossings) };
         Ok(DoubledStep { report, tried_step: trial, position_error: of_places })
     }
 

@@ -223,7 +223,7 @@ pub enum Warning {
         /// Step size [time].
         dt: f64,
         /// Ratio of step size to impact duration [-].
-        steps_per_impact: f64,
+        impacts_per_step: f64,
     },
 }
 
@@ -240,7 +240,7 @@ impl Warning {
             Self::SpansPerStep { spans, .. } => *spans,
             Self::Friction { steps, .. } | Self::KeptContact { steps, .. } => *steps as f64,
             Self::WaveSpeed { speed, .. } => *speed,
-            Self::Bounce { steps_per_impact: blows, .. } => *blows,
+            Self::Bounce { impacts_per_step, .. } => *impacts_per_step,
             Self::Drift { drift, .. } => *drift,
             Self::EnergyGain { returned, dissipated: taken, .. } => returned - taken,
             Self::Bend { curvature: bend, .. } => bend.size(),
@@ -497,7 +497,7 @@ impl fmt::Display for Warning {
                 short(*depth),
                 short(*energy)
             ),
-            Self::Bounce { slider, dt, steps_per_impact: blows } => write!(
+            Self::Bounce { slider, dt, impacts_per_step: blows } => write!(
                 f,
                 "slider '{slider}' bounced off an elastic beam with dt = {}, which is {} times the longest duration of such an impact ({}): the beam was treated as rigid. Use dt below {} to resolve the waves, or give the slider a restitution",
                 short(*dt),
@@ -534,7 +534,7 @@ mod tests {
         assert!(!spans_warning("ring", 3.9).is_new_or_worse(&reported));
         assert!(spans_warning("ring", 4.0).is_new_or_worse(&reported));
         assert!(spans_warning("bead", 1.1).is_new_or_worse(&reported));
-        let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, steps_per_impact: 1.1 };
+        let bounce = Warning::Bounce { slider: "ring".to_owned(), dt: 1.0, impacts_per_step: 1.1 };
         assert!(bounce.is_new_or_worse(&reported) && bounce.is_new_or_worse(&[]));
     }
 

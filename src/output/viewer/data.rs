@@ -7,7 +7,7 @@ use crate::output::symbol::{PlacedSymbol, Symbol};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointCombination {
     pub first: usize,
-    /// Weights of consecutive points, beginning with the point `first`.
+    /// Factors by which consecutive points are multiplied in the sum, beginning with the point `first` [-].
     pub weights: Vec<f64>,
 }
 

@@ -81,7 +81,7 @@ fn is_indentation(line: &str, at: usize) -> bool {
 /// Returns true if an arrow key selects an entry of the history that begins with the text before the cursor.
 ///
 /// The arrow key has its usual function if there is no text before the cursor, or if the input has several lines.
-/// If the line is an unchanged history entry, the arrow key selects the next entry, whatever its text.
+/// If the line is an unchanged history entry and the cursor is at its end, the arrow key selects the next entry, whatever its text.
 fn searches(line: &str, at: usize, is_entry: bool) -> bool {
     let is_fetched = is_entry && at == line.len();
     at > 0 && !line.contains('\n') && !is_fetched

@@ -13,7 +13,8 @@ use crate::script::messages::error::ScriptError;
 use crate::script::source::definitions::{Definition, definitions};
 use crate::script::source::text::{Source, moved_down, name_of};
 
-/// Checks the names of functions in `source`, and the constants used in them. `lines_before` lines of the file precede `source`.
+/// Checks the names of functions in `source`, and the constants used in them.
+/// `lines_before` is the number of lines of the file before `source`.
 /// `variables` returns the top-level variables of the file with the lines of their declarations.
 ///
 /// # Errors

@@ -63,8 +63,10 @@ const VALUES: Parameter = numbers("values");
 fn linspace(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let (from, to, count) = (call.number("from")?, call.number("to")?, call.count("count")?);
     let last = (count - 1) as f64;
-    // The weighted mean of `from` and `to` makes the last value exactly `to`.
     let at = |i: usize| {
+        if i + 1 == count {
+            return to;
+        }
         let (before, after) = (last - i as f64, i as f64);
         let x = (from * before + to * after) / last;
         // Near the largest float, products of ends and weights overflow, but fractions of the ends do not.

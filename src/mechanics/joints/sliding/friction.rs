@@ -26,7 +26,7 @@ pub struct Friction<'a> {
     pub slave_velocity: Vec2,
     /// Velocities of the control points of the master along the path, at the start of the step [length/time].
     pub master_velocities: &'a [Vec2],
-    /// Velocity of the slave across the master at the start of the step [length/time].
+    /// Velocity of the slave relative to the master, component across the master, at the start of the step [length/time].
     pub start_velocity_across: f64,
     /// Inverse of the velocity change that a unit impulse across the master causes [mass].
     pub inertia_across: f64,

@@ -117,9 +117,9 @@ impl Simulation {
                     notes.push(Warning::WaveSpeed { slider: slider.clone(), speed, limit });
                 }
             }
-            let blows = self.model.steps_per_impact(index);
-            if blows > RESOLVED_IMPACT {
-                notes.push(Warning::Bounce { slider, dt, steps_per_impact: blows });
+            let impacts_per_step = self.model.impacts_per_step(index);
+            if impacts_per_step > RESOLVED_IMPACT {
+                notes.push(Warning::Bounce { slider, dt, impacts_per_step });
             }
         }
         if let Some(drift) = self.excess_energy_drift() {

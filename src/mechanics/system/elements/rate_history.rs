@@ -1,4 +1,5 @@
-//! Rates in the present and the last step. Dissipative elements compute their forces from these rates.
+//! Coefficients for the rates of dissipative elements, computed from the durations of the present and the previous step.
+//! The elements store the rates of the previous step themselves.
 
 use super::collocation;
 use crate::beams::RateCollocation;

@@ -151,7 +151,9 @@ impl System {
     ///
     /// Stops have the law [`ImpactLaw::Restitution`] and do no positive work.
     /// A stop that holds a slider has no restitution. A corner at a seam rotates the velocity of the slider.
-    /// All contacts that are not at a limit are constraints.
+    /// A slider that is not at a limit transmits an impulse across its master that does no work.
+    /// A unilateral contact may open instead. No impulse is transmitted if the axis of the master is compliant.
+    ///
     /// After the impact, a slider that passes a seam is on the other side of the seam.
     ///
     /// # Errors

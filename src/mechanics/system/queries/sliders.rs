@@ -32,8 +32,8 @@ impl System {
     }
 
     /// Largest ratio of step length to impact duration at a bounce of a slider [-]; zero for rigid impacts.
-    pub fn steps_per_impact(&self, slider: usize) -> f64 {
-        self.slider(slider).steps_per_impact
+    pub fn impacts_per_step(&self, slider: usize) -> f64 {
+        self.slider(slider).impacts_per_step
     }
 
     /// Number of steps in which the friction force was kept constant, because the step had no solution with the law of friction.

@@ -57,8 +57,8 @@ pub struct SliderContact {
     mean_force: StepMean<Wrench>,
     /// Largest number of spans of the master that the slider has passed in one step [-].
     pub most_spans: f64,
-    /// Largest ratio of step length to impact duration at a bounce of the slider [-].
-    pub steps_per_impact: f64,
+    /// Largest ratio of step length to impact duration at an elastic impact of the slider on a stop [-].
+    pub impacts_per_step: f64,
     /// Friction along the master; `None` without friction.
     pub friction: Option<Box<SliderFriction>>,
     /// State of a unilateral contact; `None` for a slider that never leaves its master.
@@ -129,7 +129,7 @@ impl SliderContact {
             unknowns: ContactUnknowns::zeros(),
             mean_force: StepMean::default(),
             most_spans: 0.0,
-            steps_per_impact: 0.0,
+            impacts_per_step: 0.0,
             length: rail.length() / (last - first),
             size: rail.length(),
             friction: slider.has_friction().then(|| Box::new(SliderFriction::of(slider))),

@@ -85,7 +85,7 @@ impl Resolution {
         self.last_by_start = missed.by_start;
     }
 
-    /// Unresolved fraction of the kinetic energy, averaged over all steps [-].
+    /// Unresolved fraction of the kinetic energy, summed over the steps that contribute to the resolution measures [-].
     pub fn unresolved_share(&self) -> f64 {
         if self.kinetic > 0.0 { (self.unresolved / self.kinetic).max(0.0) } else { 0.0 }
     }

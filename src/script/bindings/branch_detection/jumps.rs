@@ -1,4 +1,4 @@
-//! Schedules with jumps at times that depend on a parameter of a scene.
+//! Detection of schedules whose jump times depend on a parameter of a scene.
 
 use rhai::{Array, Dynamic, Map};
 

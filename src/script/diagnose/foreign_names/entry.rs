@@ -1,4 +1,4 @@
-//! Tables of names from other languages and programs.
+//! Type of the entries for names from other languages and programs, and the search for the entry of a name.
 
 use super::{languages, mechanics};
 

@@ -119,7 +119,7 @@ pub struct PointFriction<const N: usize> {
     stiffness: f64,
     /// Damping coefficient of the friction force while the contact sticks [force·time/length].
     damping: f64,
-    /// Effective mass of the body along the surface [mass].
+    /// Effective mass along the surface [mass]. For a contact between bodies, it contains the mobilities of both bodies.
     mass: f64,
     /// Elastic deflection along the surface at the start of the step [length].
     deflection: f64,

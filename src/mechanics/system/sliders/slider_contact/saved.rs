@@ -32,7 +32,7 @@ impl SliderContact {
     }
 
     pub fn save(&self, numbers: &mut Vec<f64>) {
-        numbers.extend([self.parameter, self.most_spans, self.steps_per_impact]);
+        numbers.extend([self.parameter, self.most_spans, self.impacts_per_step]);
         numbers.extend(self.unknowns.to_array());
         let StepMean { value: mean, covered } = self.mean_force;
         numbers.extend([mean.force.x, mean.force.y, covered]);
@@ -54,7 +54,7 @@ impl SliderContact {
     pub fn restore(&mut self, state: SliderState, next: &mut dyn FnMut() -> f64) {
         self.state = state;
         let parameter = next();
-        (self.most_spans, self.steps_per_impact) = (next(), next());
+        (self.most_spans, self.impacts_per_step) = (next(), next());
         self.unknowns = ContactUnknowns::of(std::array::from_fn(|_| next()));
         let mean = Vec2::new(next(), next()).into();
         self.mean_force = StepMean { value: mean, covered: next() };

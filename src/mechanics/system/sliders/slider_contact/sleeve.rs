@@ -22,7 +22,7 @@ impl SliderContact {
         self.sleeve.is_some()
     }
 
-    /// Path of zero length at the start of a slider, from which its sleeve is created.
+    /// Path of zero length at the position of the slider at the start of a step. The assembly creates the sleeve from this path.
     pub fn start_path(&self) -> &ContactPath {
         &self.start_path
     }

@@ -39,8 +39,8 @@ impl SliderContact {
     }
 
     /// Records the ratio of step length to impact duration for an impact at an end of the master [-].
-    pub fn record_impact_ratio(&mut self, blows_in_a_step: f64) {
-        self.steps_per_impact = self.steps_per_impact.max(blows_in_a_step);
+    pub fn record_impact_ratio(&mut self, impacts_per_step: f64) {
+        self.impacts_per_step = self.impacts_per_step.max(impacts_per_step);
     }
 
     /// Duration of an impact at the end of the master [time].
@@ -48,13 +48,13 @@ impl SliderContact {
     /// In a beam of length `L`, an impact lasts until the impact wave returns, after `2 L/c` with the wave speed `c` (Saint-Venant 1883).
     /// If the slave is rigid and light, the impact on the master lasts only until the slave stops.
     /// Rigid bodies have no waves. If both bodies are rigid, the impact duration is infinite.
-    pub fn impact_duration(&self, bodies: &[Body], blow: AxialImpact) -> f64 {
+    pub fn impact_duration(&self, bodies: &[Body], impact: AxialImpact) -> f64 {
         let (master, slave) = &self.bars;
-        let on_master = blow
+        let on_master = impact
             .master
             .is_some()
-            .then(|| master.wave_travel_time(1.0, blow.slave.filter(|_| slave.is_none())));
-        let on_slave = slave.filter(|_| blow.slave.is_some()).map(|slave| {
+            .then(|| master.wave_travel_time(1.0, impact.slave.filter(|_| slave.is_none())));
+        let on_slave = slave.filter(|_| impact.slave.is_some()).map(|slave| {
             let (body, point) = self.connection.slave;
             let points = bodies[body].dynamics.control_points();
             let axis = points[(point + 1).min(points.len() - 1)] - points[point.saturating_sub(1)];

@@ -24,7 +24,7 @@ pub(super) const WITH_ROTATIONS: usize = LOCAL + 2;
 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rotations {
-    /// Rotations of the body of the contact point and of the other body [rad].
+    /// Rotation increments of the body of the contact point and of the other body in the step [rad].
     pub(super) turned: [f64; 2],
     /// Fractions of the moment of friction that act on the two bodies [-]. The sum of the fractions is one.
     pub(super) shares: [f64; 2],
