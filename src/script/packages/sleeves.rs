@@ -39,7 +39,7 @@ pub const TABLE: BindingTable = BindingTable {
                 its angle to the holder.")
             .doc(
                 "The holder is a station of a rigid body or of another beam, or a point of the \
-                 ground. A point of the ground becomes a fixed body NAME_holder; to turn a sleeve, \
+                 ground. A point of the ground becomes a fixed body NAME_holder, whose joint has the same name; to turn a sleeve, \
                  hold it with a hinged body and scene.move(body.centre, #{ angle: … }). The \
                  sleeve exerts a force (contact_force) and a couple (sleeve_couple). In \
                  equilibrium a moment M at the mouth pushes the beam along the sleeve with \
@@ -49,7 +49,7 @@ pub const TABLE: BindingTable = BindingTable {
                  as its mesh, results converge with the spans, and rest.start first solves for \
                  the equilibrium without it. Energy, both momenta and the gap are kept to \
                  rounding with energy_momentum(); initial velocities are made compatible. The \
-                 beam must be uniform and not part of a track. Default names: sleeve1, sleeve2, … \
+                 beam must be uniform, and a track cannot slide in a sleeve. Default names: sleeve1, sleeve2, … \
                  docs/theory.md, section 14.2.",
             )
             .example(
@@ -110,7 +110,7 @@ const SLEEVE_KEYS: &[Parameter] = &[
         .doc("initial position as a fraction of the undeformed length of the beam; default: the nearest place")
         .optional(),
     choice("ends", &[ENDS[0].0, ENDS[3].0])
-        .doc("stop: the sleeve is held at the ends of the beam in an equilibrium, and a run ends there; release: the beam leaves the sleeve, and then has no equilibrium")
+        .doc("stop: the sleeve is held at the ends of the beam in an equilibrium, and a run ends when it arrives there; release: the beam leaves the sleeve, and then has no equilibrium")
         .or(Presence::Text("stop")),
     text("name").optional(),
 ];

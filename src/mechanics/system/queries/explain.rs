@@ -225,7 +225,7 @@ impl System {
             (count > 0).then(|| format!("{count} {}", entry.name))
         });
         let sleeves = scene.sliders.iter().filter(|slider| slider.is_sleeve()).count();
-        let sleeves = (sleeves > 0).then(|| format!("{sleeves} sleeves"));
+        let sleeves = (sleeves > 0).then(|| plural(sleeves, "sleeve"));
         let rules = used.chain(sleeves).collect::<Vec<_>>().join(", ");
         let solved = match self.constraint_blocks() {
             None => format!("a border of {width} columns"),

@@ -4,13 +4,13 @@ use std::borrow::Cow;
 
 use super::Scene;
 use crate::beams::{BodyIndex, Station};
-use crate::joints::{Joint, JointKind, Partner};
+use crate::joints::{Joint, JointKind, Partner, Slider};
 use crate::system::errors::check_name;
 use crate::system::sensors::quantities::{
     OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER,
     QuantityReader,
 };
-use crate::system::{Quantity, Sensor, SensorSource, SystemError};
+use crate::system::{Quantity, RigidBodyDefinition, Sensor, SensorSource, SystemError};
 
 /// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
@@ -36,7 +36,9 @@ impl Place<'_> {
             SensorSource::Body(_) => format!(
                 "a whole beam has {names}; its places have {object}.start.x, {object}.end.x, {object}[s].x and so on"
             ),
-            SensorSource::Slider(_) => in_every_history("position, speed and force of slider"),
+            SensorSource::Slider(_) => {
+                in_every_history("position, speed and force (of a sleeve also couple) of slider")
+            }
             SensorSource::Drive(_) => in_every_history("work and forces of drive"),
             SensorSource::Load(_) => in_every_history("work and value of load"),
             _ => format!("its last part must be one of {names}"),
@@ -94,9 +96,13 @@ impl Scene {
     }
 
     /// Names of the joints for sensors, in the order of the joints: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.
+    /// The clamp of the holder of a sleeve on the ground has the name of the holder.
     pub fn joint_names(&self) -> Vec<String> {
         let mut counts = [0; 4];
         let name = |joint: &Joint| {
+            if let Some(holder) = self.held_holder(joint) {
+                return holder;
+            }
             let (kind, at) = match (joint.kind, &joint.partner) {
                 (JointKind::Hinge, _) => ("hinge", 0),
                 (JointKind::Rigid, Partner::Ground) => ("clamp", 1),
@@ -112,6 +118,14 @@ impl Scene {
             format!("{kind}{}", counts[at])
         };
         self.joints.iter().map(name).collect()
+    }
+
+    /// Name of the holder of a sleeve that a joint fixes to the ground; `None` for other joints.
+    fn held_holder(&self, joint: &Joint) -> Option<String> {
+        let of_joint = |sleeve: &&Slider| sleeve.is_sleeve() && sleeve.slave == joint.station;
+        let holder = format!("{}_holder", self.sliders.iter().find(of_joint)?.name);
+        let is_holder = |body: &RigidBodyDefinition| body.name == holder;
+        self.rigid_bodies.iter().any(is_holder).then_some(holder)
     }
 
     fn places(&self) -> Vec<Place<'_>> {

@@ -30,6 +30,7 @@ const EACH: &[&str] = &[
     "drag",
     "obstacles",
     "sliding joints",
+    "sleeves",
     "tracks",
     "releases",
     "simulations",

@@ -101,7 +101,12 @@ pub const WORDS: &[ForeignName] = &[
         [x, y])",
         &["force", "moment", "line_load", "schedule"],
     ),
-    entry(&["torque", "couple"], "write scene.moment(station, m)", &["moment"]),
+    entry(&["torque"], "write scene.moment(station, m)", &["moment"]),
+    entry(
+        &["couple"],
+        "a load is scene.moment(station, m); sim.sleeve_couple(sleeve) is the couple of a sleeve",
+        &["moment", "sleeve_couple"],
+    ),
     entry(&["weight", "grav"], "write scene.gravity([0, -9.81])", &["gravity"]),
     entry(
         &[
