@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_elements_are_refused() {
+    fn invalid_lagrange_elements_are_rejected() {
         let refusal = |degree, breaks: &[f64]| {
             LagrangeBasis::new(degree, breaks.to_vec()).unwrap_err().to_string()
         };
