@@ -36,7 +36,7 @@ fn every_example_runs() {
 }
 
 #[test]
-fn optional_parameters_stand_last() {
+fn optional_parameters_are_last() {
     for row in rows() {
         let required =
             row.parameters.iter().take_while(|parameter| parameter.is_required()).count();
@@ -45,7 +45,7 @@ fn optional_parameters_stand_last() {
 }
 
 #[test]
-fn no_two_rows_can_be_meant_by_the_same_call() {
+fn every_call_matches_at_most_one_row() {
     let mut seen = HashSet::new();
     for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         for count in row.required()..=row.parameters.len() {
@@ -110,7 +110,7 @@ fn reserved_words_are_recognised() {
 }
 
 #[test]
-fn domains_that_follow_parameters_are_there() {
+fn domains_named_by_parameter_variants_exist() {
     for name in crate::script::bindings::parameter_variants::NAMED.into_iter().flatten() {
         assert!(TABLES.iter().any(|table| table.name == *name), "{name}");
     }
