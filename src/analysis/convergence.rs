@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn integrators_converge_at_the_order_they_claim() {
+    fn integrators_converge_at_their_claimed_order() {
         let columns = ["kinetic", "strain"].map(|name| Observable::of_column(name, name, 1.0));
         let tip = Observable::of_station("tip", Station::on_beam(0, 2.0));
         let observables: Vec<_> = tip.chain(columns).collect();

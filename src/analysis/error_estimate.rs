@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_runs_are_exact_and_runs_without_order_are_not_converged() {
+    fn equal_runs_are_exact_and_irregular_errors_are_not_converged() {
         let exact = estimate(SIZES, 0, |time, _| time);
         assert_eq!((exact.verdict, exact.order, exact.largest()), (ErrorVerdict::Exact, None, 0.0));
         let lost = estimate(SIZES, 0, |time, h| (0.1 * time * h).sin());

@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cheapest_sufficient_run_of_another_program_is_chosen() {
+    fn cheapest_run_of_another_program_within_tolerance_is_chosen() {
         let study = study();
         assert_eq!(study.program_names(), ["P", "Q"]);
         assert_eq!(study.cheapest_of("P", 1e-3).unwrap().run_time, 9.0);

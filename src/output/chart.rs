@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_series_named_like_the_axis_needs_no_legend() {
+    fn single_series_named_like_the_axis_has_no_legend() {
         let chart = LineChart::new("t").y_label("energy").series(Series::new("energy", vec![]));
         assert!(chart.legend().is_empty());
         assert!(chart.clone().y_label("energy [J]").legend().is_empty());

@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_end_halfway_between_their_middles() {
+    fn level_map_cells_end_halfway_between_middles() {
         assert_eq!(axis("", &[1.0, 2.0, 4.0]).scale(), AxisScale::Logarithmic);
         let ends = axis("", &[1.0, 2.0, 5.0]).ends();
         assert_eq!(ends, [0.5, 1.5, 3.5, 6.5]);

@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_divided_into_statements() {
+    fn session_text_is_divided_into_statements() {
         let text = "let a = 1; // one\nif a { 1; } else { 2; } fn f(x) { x; }\nlet g = |x| { x } ; g(#{ a: 1 })";
         assert_eq!(
             statements(text),

@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn only_returns_outside_functions_count() {
+    fn only_return_statements_outside_functions_are_found() {
         let engine = engine();
         let is_found = |text| returns(&engine.compile(text).expect("a script"));
         assert!(is_found("return 5;") && is_found("if true { return; }"));

@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_counted_over_all_spans() {
+    fn quadrature_points_are_counted_over_all_spans() {
         let counts = |mesh: Mesh| {
             let PointCounts { force, moment, inertia } = mesh.point_counts();
             assert_eq!(force, force_points(&mesh).iter().sum::<usize>());

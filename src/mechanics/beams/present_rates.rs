@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn infinite_rate_mismatch_ends_extrapolation() {
+    fn step_of_infinite_duration_ends_extrapolation() {
         let mut watch = RateResolution::default();
         let seen = [RateMismatch { off: 1.0, apart: 0.0 }; 3];
         watch.add(0.1, seen);

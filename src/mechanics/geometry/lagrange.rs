@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn splitting_adds_one_element() {
+    fn splitting_a_lagrange_basis_adds_one_element() {
         let basis = LagrangeBasis::uniform(2, 3).unwrap().split(0.3).unwrap();
         assert_eq!(basis.breaks(), [0.0, 0.3, 0.5, 1.0]);
         assert_eq!(basis.functions(), 10);

@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_row_or_column_beyond_the_first_panel_is_singular() {
+    fn zero_row_or_column_is_singular_in_every_panel() {
         for zero in 3..12_usize {
             let (mut row, mut column) = (whole_numbers(12, 5), whole_numbers(12, 5));
             for i in zero.saturating_sub(5)..(zero + 6).min(12) {

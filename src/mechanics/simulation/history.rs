@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mean_of_two_rows_removes_a_sawtooth() {
+    fn mean_of_adjacent_rows_removes_alternating_values() {
         let rows = history(&[1.0, 3.0, 1.0, 3.0]);
         assert_eq!(rows.averaged("kinetic"), Some(vec![1.0, 2.0, 2.0, 2.0]));
         assert_eq!(history(&[]).averaged("kinetic"), Some(vec![]));

@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn no_hints_inside_a_line_and_in_comments() {
+    fn no_hints_are_shown_inside_lines_and_comments() {
         assert_eq!(hint("line(", 3, &surroundings()), None);
         assert_eq!(shown("line( // x"), "");
         assert_eq!(shown("ro"), "");

@@ -23,7 +23,7 @@ fn every_row_has_a_summary_and_an_example() {
 }
 
 #[test]
-fn every_example_runs() {
+fn every_row_example_runs() {
     for (table, row) in
         TABLES.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row)))
     {
@@ -57,7 +57,7 @@ fn every_call_matches_at_most_one_row() {
 }
 
 #[test]
-fn related_names_exist() {
+fn related_names_of_rows_exist() {
     let known: HashSet<_> = rows().map(|row| row.name).collect();
     for row in rows() {
         for name in row.see {
@@ -67,7 +67,7 @@ fn related_names_exist() {
 }
 
 #[test]
-fn no_name_is_reserved() {
+fn no_row_or_constant_name_is_reserved() {
     for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         assert!(can_be_written(row.name), "{}", row.signature());
         for parameter in row.parameters {

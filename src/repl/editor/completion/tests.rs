@@ -125,7 +125,7 @@ fn commands_and_their_operands_are_completed() {
 }
 
 #[test]
-fn no_candidates_in_comments_strings_and_new_names() {
+fn nothing_is_offered_in_comments_strings_and_new_names() {
     for line in
         ["// ro", "/* ro", "`ro", "`${x} ro", "let ro", "fn ro", "12", "'r", "1.5e", "\"a\""]
     {
