@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn table_has_a_line_of_names_and_an_optional_line_of_units() {
+    fn table_has_a_name_line_and_an_optional_unit_line() {
         let rows = "1.0000000000000001e-1,3,true,\"a, b\"\n,-1,,\n";
         let names = "t,steps,good,told\n";
         assert_eq!(csv(&table(), TableHeading::Names).unwrap(), format!("{names}{rows}"));

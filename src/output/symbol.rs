@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn force_arrow_ends_at_its_point_unless_it_would_leave_the_plot() {
+    fn force_arrow_ends_at_its_point_if_it_fits_the_plot() {
         let shaft = |at| match drawn(Symbol::Force, at, (2.0, 0.0)).shapes()[0].clone() {
             super::super::canvas::Shape::Line { points, .. } => points,
             other => panic!("{other:?}"),

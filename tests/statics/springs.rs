@@ -116,8 +116,7 @@ fn mass_between_tensioned_springs_has_exact_frequencies() {
 }
 
 #[test]
-fn beam_with_a_tip_spring_has_the_exact_lowest_frequency()
-{
+fn beam_with_a_tip_spring_has_the_exact_lowest_frequency() {
     // cos β cosh β + 1 + κ (sin β cosh β - cos β sinh β)/β³ = 0, κ = k L³/EI (Blevins 1979, spring at the tip).
     for stiffness in [0.1, 10.0, 1e7] {
         let (mut scene, tip) = cantilever();
