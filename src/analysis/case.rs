@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_of_more_than_a_million_steps_are_recorded_partially() {
+    fn run_of_a_million_steps_is_recorded_partially() {
         let every = |dt| spinning(dt, &[1.0]).recording();
         assert_eq!(every(1e-5), Recording::default());
         assert_eq!(every(1e-6), Recording::Every(NonZeroUsize::new(10).unwrap()));

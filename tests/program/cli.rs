@@ -318,7 +318,7 @@ const SPINNING: &str = "let scene = new_scene(\"spin\");\n\
     let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(1);\n";
 
 #[test]
-fn the_error_of_a_run_is_estimated_on_request_and_changes_nothing_else() {
+fn run_error_is_estimated_on_request_without_other_changes() {
     let (folder, file) = script(&format!("{SPINNING}print(sim.position(rod.end));"));
     let with = |option: &[&str]| {
         let mut command = withy();

@@ -220,7 +220,7 @@ fn a_bead_pressed_against_a_stop_rests_there_until_it_is_lifted() {
 }
 
 #[test]
-fn a_bead_on_the_stop_of_a_hanging_beam_is_shaken_and_keeps_energy_and_momenta() {
+fn bead_on_the_stop_of_a_shaken_beam_conserves_energy_and_momenta() {
     for method in METHODS {
         for mesh in [smooth(4), Mesh::lagrange(2, 3).unwrap()] {
             let mut scene = rail(&mesh, at(0.0, -1.0));

@@ -189,7 +189,7 @@ fn passed_exercise_shows_progress_and_the_next_exercise() {
 }
 
 #[test]
-fn elapsed_time_is_shown_only_for_long_runs() {
+fn running_time_replaces_the_result_only_in_long_runs() {
     let mut state = judged(1, AttemptOutcome::WrongResult(vec!["too soft".into()]), &[]);
     let before = text(&state, (80, 24));
     state.running = Some(0);

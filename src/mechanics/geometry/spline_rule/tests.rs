@@ -97,7 +97,7 @@ fn derivatives_of_all_functions_are_integrated_exactly() {
 }
 
 #[test]
-fn interior_points_of_uniform_splines_alternate_with_the_degree_parity() {
+fn interior_points_are_midpoints_or_knots_by_degree_parity() {
     for degree in [2, 3, 4, 5] {
         let basis = basis(&[1.0; 60], degree, degree - 1);
         let rule = patch_rule(&basis, &basis.spans()).unwrap();
