@@ -161,7 +161,7 @@ mod tests {
     use crate::loads::{FunctionError, LoadKind, Schedule};
 
     #[test]
-    fn a_case_is_looked_at_at_its_stops_in_another_life_too() {
+    fn case_read_from_bytes_is_observed_at_the_same_stops() {
         let case = spinning(0.1, &[0.25, 1.0]);
         let again = Case::from_bytes(&case.to_bytes().unwrap()).unwrap();
         let energies = |case: &Case| {
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_of_very_many_steps_records_a_part_of_them() {
+    fn run_of_a_million_steps_is_recorded_partially() {
         let every = |dt| spinning(dt, &[1.0]).recording();
         assert_eq!(every(1e-5), Recording::default());
         assert_eq!(every(1e-6), Recording::Every(NonZeroUsize::new(10).unwrap()));
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_as_long_as_all_times_between_stops_and_breaks_are_told() {
+    fn steps_that_span_every_interval_between_stops_are_detected() {
         let mut case = spinning(0.1, &[0.5, 2.0]);
         assert!(
             case.is_one_step_from_stop_to_stop(1.5) && !case.is_one_step_from_stop_to_stop(1.0)
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_ends_a_run_early_is_said() {
+    fn outcome_describes_the_reason_of_an_early_end() {
         let (outcome, simulation) =
             spinning(-1.0, &[1.0]).run(RunLimits::default(), &never(), |_| ());
         assert!(outcome.describe().contains("failed at t = 0: the step size"), "{outcome:?}");
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_that_does_not_come_back_is_given_up() {
+    fn load_function_that_does_not_return_exceeds_the_time_limit() {
         let mut case = spinning(0.1, &[1.0]);
         let station = case.scene.station(0, 0.0).unwrap();
         let function = Rc::new(|t: f64| match t {

@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_full_product_and_the_finest_of_all() {
+    fn combinations_contain_all_cases_and_the_finest_is_selected() {
         let subject = |mesh: &str, spans: usize| {
             let mut scene = spinning(0.1, &[1.0]).scene;
             scene.beams[0].mesh = crate::beams::Mesh::bspline(spans, 3, 2).unwrap();

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_are_slopes_of_what_the_reference_can_tell() {
+    fn orders_are_computed_only_from_errors_above_the_reference_error() {
         let clean = ladder(&[Some((16.0, 0.0)), Some((2.0, 0.0)), Some((0.25, 0.0))]);
         assert_eq!((clean.order(0), clean.order(1), clean.order(2)), (None, Some(3.0), Some(3.0)));
         assert!((clean.fitted_order().unwrap() - 3.0).abs() < 1e-12);
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn integrators_converge_at_the_order_they_claim() {
+    fn integrators_converge_at_their_claimed_order() {
         let columns = ["kinetic", "strain"].map(|name| Observable::of_column(name, name, 1.0));
         let tip = Observable::of_station("tip", Station::on_beam(0, 2.0));
         let observables: Vec<_> = tip.chain(columns).collect();

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn costs_are_those_of_a_step_in_the_order_of_the_cases() {
+    fn step_costs_have_the_order_of_the_cases() {
         let mut never_enough = || true;
         let cases = [case("first", 0.1), case("lost", -1.0), case("second", 0.05)];
         let costs = step_costs(&cases, RunLimits::default(), 2, &mut never_enough).unwrap();

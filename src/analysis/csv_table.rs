@@ -157,14 +157,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_message_shows_the_beginning_of_a_long_cell() {
+    fn error_message_quotes_only_the_beginning_of_a_long_cell() {
         let table = ParsedCsv::parse(&format!("t\n{}\n", "1é".repeat(1000))).unwrap();
         let messages = table.number(0, "t").unwrap_err().to_string();
         assert!(messages.contains("holds '1é1é") && messages.chars().count() < 150, "{messages}");
     }
 
     #[test]
-    fn separators_decimal_commas_and_a_line_of_units_are_recognised() {
+    fn csv_separators_decimal_commas_and_unit_lines_are_recognised() {
         for text in [
             "t,x0\n0,1.5\n1,2\n",
             "# made\nt,x0\ntime,length\n0,1.5\n1,2\n",
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_a_table_is_said_with_its_place() {
+    fn csv_errors_state_line_and_column() {
         let sheet =
             ParsedCsv::parse("# how it was made\nt, x0\n0,1.5\n1,two\n2,NaN\n3,-1e300\n").unwrap();
         assert_eq!((sheet.len(), sheet.number(0, "x0")), (4, Ok(1.5)));

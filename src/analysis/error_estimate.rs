@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_of_known_order_is_found_on_every_level() {
+    fn error_of_known_order_is_estimated_on_every_level() {
         for (level, size) in SIZES.into_iter().enumerate() {
             let error = estimate(SIZES, level, |time, h| (0.1 * time).sin() + 1e-6 * time * h * h);
             assert_eq!(error.verdict, ErrorVerdict::Converged);
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_runs_are_exact_and_runs_without_order_are_not_converged() {
+    fn equal_runs_are_exact_and_irregular_errors_are_not_converged() {
         let exact = estimate(SIZES, 0, |time, _| time);
         assert_eq!((exact.verdict, exact.order, exact.largest()), (ErrorVerdict::Exact, None, 0.0));
         let lost = estimate(SIZES, 0, |time, h| (0.1 * time * h).sin());
@@ -382,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_separate_are_chaotic_from_a_time_on() {
+    fn diverging_runs_are_chaotic_after_a_certain_time() {
         let separate = estimate(SIZES, 0, |time, h| {
             let distance = 1e-6 * h * h * (0.4 * time).exp();
             if distance > 0.3 { (time * h).sin() } else { distance }
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_third_level_the_distance_is_a_lower_bound() {
+    fn estimate_from_two_levels_is_their_distance() {
         let traces = [1.0, 2.0].map(|size| sampled(size, |time| 1e-6 * time * size * size));
         let traces = [Some(&traces[0]), Some(&traces[1]), None];
         let levels = RefinementLevels {

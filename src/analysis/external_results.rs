@@ -106,7 +106,7 @@ mod tests {
                           fast,P,euler,0.1,0.5,1,3,4.5,1e-3,a Cray\nslow,P,,0.2,2,1,3,4,,a Cray\n";
 
     #[test]
-    fn other_programs_are_compared_with_the_same_reference() {
+    fn results_of_other_programs_are_compared_with_the_reference() {
         let observables: Vec<_> = Observable::of_station("A", Station::on_beam(0, 0.0)).collect();
         let table = ParsedCsv::parse("t,xA,yA\n1,3,4\n2,0,0\n").unwrap();
         let reference_solution =

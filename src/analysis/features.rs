@@ -100,7 +100,7 @@ mod tests {
     use crate::simulation::{NoMonitor, Simulation};
 
     #[test]
-    fn every_feature_can_be_added_and_hardly_disturbs() {
+    fn every_feature_changes_the_energy_by_less_than_two_percent() {
         let case = spinning(0.05, &[0.5]);
         let energy = |scene: Scene| {
             let mut simulation = Simulation::start(scene, case.settings).unwrap();

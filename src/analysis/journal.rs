@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_journal_goes_on_where_it_was_and_vanishes_when_all_is_done() {
+    fn reopened_journal_continues_and_finished_journal_is_deleted() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("new").join("study.journal");
         assert!(Journal::open(&path).unwrap().is_empty());
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_journal_cut_or_damaged_anywhere_keeps_what_is_before_and_can_go_on() {
+    fn damaged_journal_keeps_the_records_before_the_damage() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..4);
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_lost_when_going_on_is_cut_short() {
+    fn failed_rewrite_of_a_journal_keeps_all_records() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("study.journal");
         written(&path, 0..3);
@@ -308,7 +308,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_in_the_place_of_a_journal_or_its_folder_are_not_followed() {
+    fn symlinked_journals_and_journal_folders_are_rejected() {
         use std::os::unix::fs::symlink;
         let home = tempfile::tempdir().unwrap();
         let theirs = home.path().join("theirs");
@@ -324,13 +324,13 @@ mod tests {
     }
 
     #[test]
-    fn a_build_of_the_program_is_told_by_its_file() {
+    fn build_is_identified_by_the_program_file() {
         assert!(build().1.is_some_and(|(length, _)| length > 0));
         assert_eq!(build(), build());
     }
 
     #[test]
-    fn fingerprints_tell_where_a_part_ends() {
+    fn fingerprint_depends_on_the_division_into_parts() {
         let of = Journal::fingerprint;
         assert_eq!(of(&[b"ab", b"c"]), of(&[b"ab", b"c"]));
         assert_ne!(of(&[b"ab", b"c"]), of(&[b"a", b"bc"]));

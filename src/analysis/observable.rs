@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stations_have_a_place_and_an_angle_and_histories_their_columns() {
+    fn observables_are_station_positions_angles_and_history_columns() {
         let simulation = spinning(0.1, &[1.0]).start(super::super::RunLimits::default()).unwrap();
         let tip: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
         assert_eq!(tip[0].read(&simulation), Vec2::new(2.0, 0.0));
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn symbols_stand_for_columns_that_there_are() {
+    fn symbols_refer_to_existing_history_columns() {
         let history = History::default();
         assert!(SYMBOLS.iter().all(|(_, column)| history.dimension(column).is_some()));
     }

@@ -27,7 +27,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn cheap_and_bad_dear_and_good_and_what_is_between_are_on_it() {
+    fn pareto_front_contains_only_nondominated_points() {
         let points = [(1.0, 9.0), (2.0, 9.5), (3.0, 4.0), (3.0, 4.0), (3.0, 5.0), (8.0, 1.0)];
         assert_eq!(pareto_front(&points), [true, false, true, false, false, true]);
         assert_eq!(pareto_front(&[(1.0, f64::NAN), (f64::INFINITY, 1.0)]), [false, false]);
@@ -35,7 +35,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn whoever_is_not_on_it_is_beaten_by_one_who_is(
+        fn points_off_the_pareto_front_are_dominated_by_front_points(
             points in prop::collection::vec((0..9_u8, 0..9_u8), 0..30),
         ) {
             let points: Vec<(f64, f64)> = points.into_iter().map(|(a, b)| (a.into(), b.into())).collect();

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn smaller_steps_are_better_and_dearer_and_what_failed_stays() {
+    fn smaller_steps_reduce_errors_and_failed_runs_remain_listed() {
         let study = study();
         let errors: Vec<f64> = study.rows.iter().map(|row| row.cost_and_error().1).collect();
         assert!(
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn what_smaller_steps_contradict_is_not_confirmed() {
+    fn result_is_unconfirmed_if_smaller_steps_have_larger_errors() {
         let mut study = study();
         let error = study.rows[1].cost_and_error().1;
         assert_eq!(study.cheapest_confirmed(error).unwrap(), &study.rows[1]);
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cheapest_sufficient_run_of_another_program_is_chosen() {
+    fn cheapest_run_of_another_program_within_tolerance_is_chosen() {
         let study = study();
         assert_eq!(study.program_names(), ["P", "Q"]);
         assert_eq!(study.cheapest_of("P", 1e-3).unwrap().run_time, 9.0);

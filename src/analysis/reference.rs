@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_tells_values_and_how_well_it_knows_them() {
+    fn reference_table_gives_values_and_their_estimated_errors() {
         let sheet = ParsedCsv::parse(TABLE).unwrap();
         let reference_solution =
             ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5]).unwrap();
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_without_the_time_or_the_stations_is_refused() {
+    fn reference_table_without_required_times_or_stations_is_rejected() {
         let sheet = ParsedCsv::parse(TABLE).unwrap();
         let outcome =
             ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.3]).unwrap_err();
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_that_says_two_things_of_one_time_or_a_negative_size_is_refused() {
+    fn reference_table_with_contradictory_rows_or_negative_errors_is_rejected() {
         let outcome = |rows: &str| {
             let sheet = ParsedCsv::parse(&format!("# two\nt,xA,yA,thA,KE,d_pos\n{rows}")).unwrap();
             ReferenceSolution::of_sheet("T.csv", &sheet, &observables(), &[0.5])
@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_of_our_own_knows_what_a_coarser_one_confirms() {
+    fn reference_run_has_the_error_estimated_from_a_coarser_run() {
         let readings = |x: f64, angle: f64| vec![vec![Vec2::new(x, 0.0), Vec2::new(angle, 0.0)]];
         let own = ReferenceSolution::of_run("own", &readings(1.0, 0.5))
             .with_errors_from(&readings(1.0, 0.51));
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_nearer_to_a_run_of_our_own_has_the_smaller_error() {
+    fn error_increases_with_the_distance_from_the_reference_run() {
         let readings = |x: f64| vec![vec![Vec2::new(x, 0.0)]];
         let own = ReferenceSolution::of_run("own", &readings(1.0)).with_errors_from(&readings(1.1));
         let error = |x| own.deviation(0, &readings(x)).unwrap().error();
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_the_largest_deviation() {
+    fn nan_is_the_largest_deviation() {
         let of = |distance| Deviation { distance, estimated_error: 0.0, is_of_own_run: false };
         let deviations = [1.0, f64::NAN, 3.0].map(of);
         for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [0, 2, 1]] {

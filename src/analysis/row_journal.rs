@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn entries_are_read_again_up_to_one_that_was_cut_off() {
+    fn journal_entries_are_read_up_to_the_first_truncated_one() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("a.journal");
         assert_eq!(read(&path), (vec![], 0));

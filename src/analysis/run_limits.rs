@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn waits_end_one_within_the_other() {
+    fn nested_run_limits_restore_the_outer_deadline() {
         let patient = RunLimits::default().begin();
         assert!(!is_past_deadline() && patient.exceeded(3).is_none());
         {

@@ -85,7 +85,7 @@ mod tests {
     use crate::loads::{LoadFrame, LoadKind, Schedule};
 
     #[test]
-    fn a_trial_has_readings_at_all_stops_and_counts_its_work() {
+    fn run_result_has_readings_at_all_stops_and_step_counts() {
         let tip: Vec<_> = Observable::of_station("tip", Station::on_beam(0, 2.0)).collect();
         let trial =
             RunResult::of(&spinning(0.1, &[0.5, 1.0]), &tip, RunLimits::default(), &never());
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn the_energy_is_free_after_the_last_work_of_a_load() {
+    fn free_energy_drift_is_measured_after_the_load_ends() {
         let pushed_for = |duration: f64| {
             let mut case = spinning(0.1, &[2.0]);
             case.settings.method = crate::integrators::Method::Trapezoidal;

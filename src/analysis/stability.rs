@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn a_conserving_method_has_no_growth_and_the_trapezoidal_rule_has_some() {
+    fn energy_grows_with_the_trapezoidal_rule_but_not_energy_momentum() {
         let mut case = spinning(0.1, &[4.0]);
         let station = case.scene.station(0, 0.0).unwrap();
         let schedule = Schedule::hold_for(1.0).unwrap();
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_begin_has_a_reason_and_no_numbers() {
+    fn case_that_cannot_start_has_a_reason_and_nan_results() {
         let lost = verdict(&spinning(f64::NAN, &[1.0]));
         assert!(
             matches!(&lost.outcome, CaseOutcome::Failed { reason, .. } if reason.contains("step size"))

@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_parameter_of_a_grid_goes_fastest() {
+    fn last_parameter_of_a_grid_varies_fastest() {
         let sweep = sweep();
         assert_eq!(sweep.results.column("sum").unwrap(), [1.0, 2.0, 3.0, 2.0, 3.0, 4.0]);
         assert_eq!(sweep.design.parameters[0].values.label(4), Some("2"));
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_failed_have_reasons_and_no_numbers() {
+    fn failed_sweep_rows_have_reasons_and_are_not_used() {
         let mut sweep = sweep();
         sweep.results.fail(2, "lost");
         sweep.results.find(2, &[f64::NAN]);

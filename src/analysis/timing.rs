@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_case_is_timed_as_often_as_asked_unless_nobody_wants_it() {
+    fn case_is_timed_the_requested_number_of_times_unless_cancelled() {
         let case = spinning(0.1, &[0.2]);
         let timing = Timing::of(&case, RunLimits::default(), 3, &mut || true).unwrap();
         assert!(timing.repeats == 3 && timing.shortest <= timing.run && timing.cost() > 0.0);

@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn other_times_are_interpolated_by_cubics() {
+    fn traces_are_interpolated_by_cubics_at_other_times() {
         let fine = cubic(&[0.0, 0.3, 0.5, 1.0, 1.5, 1.6]);
         let coarse = cubic(&[0.0, 0.1, 0.4, 0.7, 1.5, 1.55]);
         let distances = fine.distances(&coarse);
@@ -159,14 +159,14 @@ mod tests {
     }
 
     #[test]
-    fn the_value_after_an_event_counts() {
+    fn trace_comparison_uses_the_value_after_an_event() {
         let fine = Trace::of_values(vec![0.0, 1.0, 1.0, 2.0], [0.0, 1.0, 5.0, 6.0]);
         let coarse = Trace::of_values(vec![0.0, 1.0, 1.5], [0.0, 5.0, 5.5]);
         assert_eq!(fine.distances(&coarse), [(0.0, 0.0), (1.0, 0.0), (1.5, 0.0)]);
     }
 
     #[test]
-    fn means_are_compared_over_the_same_interval() {
+    fn step_means_are_compared_over_equal_intervals() {
         let integral = |times: &[f64]| Trace {
             is_integral: true,
             ..Trace::of_values(times.to_vec(), times.iter().map(|t| t * t))

@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn results_come_in_the_order_of_the_cases_those_of_functions_too() {
+    fn results_have_the_order_of_the_cases_on_all_cores() {
         let stop = never();
         let mut cases: Vec<Case> =
             (1..=9).rev().map(|tens| spinning(0.1, &[f64::from(tens)])).collect();
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_the_result_of_its_case_alone() {
+    fn panic_of_a_case_does_not_affect_other_cases() {
         let cases = [spinning(0.1, &[0.1]), spinning(0.2, &[0.2])];
         let work = |case: &Case| match case.stops[0] {
             0.1 => panic!("lost in case {}", case.stops[0]),
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_stopped_keeps_what_was_done_before() {
+    fn stopped_workers_keep_the_finished_results() {
         let stop = never();
         let cases = [spinning(0.1, &[0.1]), spinning(0.1, &[1e9]), spinning(0.1, &[1e9])];
         let results = on_all_cores(

@@ -258,7 +258,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn verdicts_come_through_a_line_whatever_they_say() {
+    fn verdicts_survive_serialisation_to_one_line() {
         let said = "two\nlines, \"quotes\" and \u{1b}[2J".to_owned();
         let line = write(&(Mark::WrongResult, said.clone()));
         assert!(!line.contains(['\n', '\u{1b}']));

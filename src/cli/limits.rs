@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_positive_finite_times_are_taken() {
+    fn only_positive_finite_time_limits_are_accepted() {
         assert_eq!(seconds("0.5"), Ok(Duration::from_millis(500)));
         for wrong in ["0", "-1", "inf", "nan", "1e400", "ten", ""] {
             assert!(seconds(wrong).is_err(), "{wrong}");

@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_over_soon_has_no_bar_and_what_takes_longer_has_one() {
+    fn progress_bar_is_shown_only_for_long_runs() {
         let bar = ProgressDisplay::default();
         bar.begin("rod", 0.0, 1.0);
         bar.report_time(0.5);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn a_study_has_a_bar_over_its_cases() {
+    fn progress_bar_of_a_study_counts_its_cases() {
         let bar = ProgressDisplay::default();
         bar.begin_cases("flight", 8);
         std::thread::sleep(SHORTEST_SHOWN);

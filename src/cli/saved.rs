@@ -34,13 +34,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_with_quotes_are_texts_of_the_language() {
+    fn file_names_with_quotes_are_escaped_as_string_literals() {
         assert_eq!(literal("run.html"), "\"run.html\"");
         assert_eq!(literal("a \"b\" \\ c"), r#""a \"b\" \\ c""#);
     }
 
     #[test]
-    fn a_file_is_found_in_its_own_folder() {
+    fn saved_file_is_loaded_from_its_own_folder() {
         assert_eq!(folder_of(Path::new("a.withy")), Path::new("."));
         let program = program("withy convert", Path::new("out/a.b.withy"), "print(sim.t);");
         assert_eq!(program.folder, Path::new("out"));

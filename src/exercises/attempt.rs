@@ -31,7 +31,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn ordinary_files_are_read_and_others_are_not() {
+    fn attempts_are_read_only_from_regular_files_of_limited_size() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
         fs::write(file("mine.rhai"), "let a = 1;").unwrap();
@@ -45,7 +45,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_and_pipes_to_elsewhere_are_refused() {
+    fn attempts_that_are_symbolic_links_are_rejected() {
         use std::os::unix::fs::symlink;
         let (folder, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let theirs = other.path().join("theirs.rhai");

@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_beginning_is_kept_and_the_rest_counted() {
+    fn captured_output_keeps_the_first_lines_and_counts_the_rest() {
         let writer = CaptureWriter::default();
         let mut writer = writer.clone();
         for _ in 0..MOST {

@@ -102,21 +102,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_found_in_every_way_that_one_writes_them() {
+    fn exercises_are_found_by_name_path_and_file_name() {
         for name in ["kink", "splines/kink", "splines/kink.rhai", "./x/splines/kink.rhai"] {
             assert_eq!(find(name).unwrap().id(), "splines/kink", "{name}");
         }
     }
 
     #[test]
-    fn a_slip_is_recognised() {
+    fn misspelled_exercise_names_get_a_suggestion() {
         let message = find("knik").unwrap_err().to_string();
         assert!(message.contains("did you mean 'kink'?"), "{message}");
         assert!(find("beams/kink").is_err());
     }
 
     #[test]
-    fn no_two_exercises_share_a_name_and_tracks_are_in_order() {
+    fn exercise_names_are_unique_and_tracks_are_ordered() {
         let tracks: Vec<_> = EXERCISES.iter().map(|exercise| exercise.track).collect();
         let known: Vec<_> = TRACKS.iter().map(|track| track.name).collect();
         assert_eq!(tracks.chunk_by(|a, b| a == b).map(|run| run[0]).collect::<Vec<_>>(), known);

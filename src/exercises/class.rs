@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn marks_come_in_order_however_long_each_takes() {
+    fn marks_are_reported_in_order_despite_varying_durations() {
         let class = class(3);
         let mut reported = Vec::new();
         let judge = |submission: &Submission, exercise: &Exercise| {
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_known_is_noted_though_another_attempt_takes_its_time() {
+    fn finished_marks_are_stored_while_another_attempt_still_runs() {
         let (stop, noted) = (AtomicBool::new(false), AtomicUsize::new(0));
         let judge = |submission: &Submission, exercise: &Exercise| {
             let is_first = submission.student.ends_with('0') && exercise == &EXERCISES[0];
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_marked_before_it_was_stopped_is_told() {
+    fn stopped_grading_reports_the_finished_marks() {
         let stop = AtomicBool::new(false);
         let (calls, mut reported) = (AtomicUsize::new(0), 0);
         let judge = |_: &Submission, _: &Exercise| {

@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mark_holds_as_long_as_all_that_it_depends_on() {
+    fn fingerprint_changes_with_every_input_of_a_mark() {
         let home = tempfile::tempdir().unwrap();
         let put = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
         let submission = Submission { student: "ada".into(), folder: home.path().into() };
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn files_below_count_and_a_link_does_not_lead_elsewhere() {
+    fn fingerprint_includes_subfolders_and_does_not_follow_links() {
         let (home, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let submission = Submission { student: "ada".into(), folder: home.path().into() };
         let kink = find("kink").unwrap();

@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_head_has_needs_and_hints_in_their_order() {
+    fn judge_header_lists_needs_and_hints_in_order() {
         let script = "//! needs: sim (simulation), n (whole number)\n//! hint: Look\n//!   twice.\n\
                       //! hint: Then think.\n\ncheck(true);\n//! hint: not in the head";
         let judge = Judge::of(script);
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn a_script_without_a_head_needs_nothing() {
+    fn judge_without_a_header_has_no_needs() {
         assert_eq!(Judge::of("check(true);\n//! hint: late"), Judge::default());
     }
 }

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_are_found_again_and_half_a_line_is_in_nobodys_way() {
+    fn marks_file_is_reread_and_truncated_lines_are_ignored() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("marks.jsonl");
         let ada = Submission { student: "ada\n\"".into(), folder: home.path().into() };

@@ -77,7 +77,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn exercises_of_another_version_are_kept() {
+    fn progress_of_unknown_exercises_is_kept() {
         let folder = tempfile::tempdir().unwrap();
         let text = r#"{ "passed": ["beams/of_tomorrow"], "hints": { "beams/of_tomorrow": 2 } }"#;
         fs::write(folder.path().join(FILE), text).unwrap();
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_forgotten_has_neither_passed_nor_had_hints() {
+    fn removing_an_exercise_deletes_its_progress_and_hints() {
         let mut progress = StudentProgress::default();
         progress.record(&EXERCISES[0], true);
         progress.record_hint(&EXERCISES[0]);

@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_has_its_line_or_what_stands_about_it() {
+    fn error_location_has_its_line_or_an_excerpt() {
         let near = place("let a = 1;\nlet b = todo(\"b\");", 2, 9);
         assert_eq!((near.text.as_str(), near.at, near.line), ("let b = todo(\"b\");", 8, 2));
         let far = place(&format!("{}here", " ".repeat(100_000)), 1, 100_001);
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_report_comes_through_a_line_whatever_it_says() {
+    fn attempt_reports_survive_serialisation_to_one_line() {
         let why = Diagnostic::general("x".repeat(1 << 20)).with_hint("two\nlines \u{1b}[2J");
         let printed = CapturedOutput { lines: vec!["\u{7}".into()], further_lines: 3 };
         let report = AttemptReport { outcome: AttemptVerdict::Error(why).into(), printed };

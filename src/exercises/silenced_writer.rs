@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_gets_through_once_there_is_silence() {
+    fn silenced_writer_discards_output() {
         let (written, silence) = (SilenceState::default(), SilenceSwitch::default());
         let mut writer = silence.wrap(Box::new(written.clone()));
         writer.write_all(b"before").unwrap();

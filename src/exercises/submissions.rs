@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn students_are_folders_by_name_however_their_files_lie() {
+    fn each_named_folder_is_a_student_in_any_file_layout() {
         let class = tempfile::tempdir().unwrap();
         write(class.path(), "carl/kink.rhai");
         write(class.path(), "ada/splines/kink.rhai");
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn the_files_of_one_student_are_one_submission() {
+    fn folder_with_exercise_files_is_one_submission() {
         let one = tempfile::tempdir().unwrap();
         write(one.path(), "splines/kink.rhai");
         write(one.path(), "out/picture.svg");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_folder_and_none_are_refused() {
+    fn empty_and_missing_submission_folders_are_rejected() {
         let empty = tempfile::tempdir().unwrap();
         let message = Submission::all_in(empty.path()).unwrap_err().to_string();
         assert!(message.contains("a folder for each student"), "{message}");

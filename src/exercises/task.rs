@@ -44,7 +44,7 @@ mod tests {
     use crate::exercises::catalogue::{EXERCISES, find};
 
     #[test]
-    fn every_task_ends_with_what_is_to_be_done() {
+    fn every_task_text_ends_with_its_to_do_paragraph() {
         for exercise in EXERCISES {
             let task = exercise.task();
             let Some(Paragraph::Words(last)) = task.last() else {
@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn formulas_stay_lines_and_words_become_paragraphs() {
+    fn task_formulas_keep_their_lines_and_text_becomes_paragraphs() {
         let task = find("stocky").unwrap().task();
         let Paragraph::Words(first) = &task[0] else { panic!("{task:?}") };
         assert!(first.ends_with("the end moves by"), "{first}");

@@ -54,7 +54,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn each_change_is_seen_once_and_a_file_that_is_away_for_a_moment_is_none() {
+    fn each_file_change_is_reported_once_and_short_absences_are_ignored() {
         let folder = tempfile::tempdir().unwrap();
         let workbook = Workbook::near(folder.path());
         workbook.fill().unwrap();
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_empty_for_a_moment_is_being_saved() {
+    fn briefly_empty_file_is_not_reported_as_a_change() {
         let folder = tempfile::tempdir().unwrap();
         let workbook = Workbook::near(folder.path());
         workbook.fill().unwrap();

@@ -136,14 +136,14 @@ mod tests {
     }
 
     #[test]
-    fn it_is_found_from_outside_and_from_inside() {
+    fn workbook_is_found_from_its_parent_and_from_itself() {
         let (folder, workbook) = workbook();
         assert_eq!(workbook.folder(), folder.path().join(FOLDER));
         assert_eq!(Workbook::near(workbook.folder()).folder(), workbook.folder());
     }
 
     #[test]
-    fn only_missing_files_are_written() {
+    fn filling_a_workbook_writes_only_missing_files() {
         let (_folder, workbook) = workbook();
         let file = workbook.file(&EXERCISES[0]);
         fs::write(&file, "mine").unwrap();
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn progress_survives_and_follows_the_last_check() {
+    fn progress_is_stored_and_updated_by_the_last_check() {
         let (_folder, workbook) = workbook();
         assert_eq!(workbook.next().unwrap(), Some(&EXERCISES[0]));
         workbook.record(&EXERCISES[0], true).unwrap();
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn each_hint_says_more_and_the_solution_comes_last() {
+    fn hints_are_given_in_order_followed_by_the_solution() {
         let (_folder, workbook) = workbook();
         let hints = EXERCISES[0].judge().hints;
         for (index, hint) in hints.iter().enumerate() {
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reset_keeps_every_old_attempt() {
+    fn reset_keeps_a_copy_of_each_attempt() {
         let (_folder, workbook) = workbook();
         let file = workbook.file(&EXERCISES[0]);
         for attempt in ["first", "second"] {
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn damaged_progress_is_told_and_left_alone() {
+    fn damaged_progress_file_is_reported_and_not_overwritten() {
         let (_folder, workbook) = workbook();
         let file = workbook.folder().join(progress::FILE);
         fs::write(&file, "{ half").unwrap();

@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn a_product_on_a_disc_is_least_with_fewer_runs_than_without_derivatives() {
+    fn descent_with_derivatives_needs_fewer_runs_for_powells_problem() {
         let design = design(&[(1.0, -2.0, 2.0), (0.5, -2.0, 2.0)], 1);
         let Ok(found) = design.solve_with(&mut |x| Ok::<_, Infallible>(Ok(product(x))), &mut |x| {
             Ok(Some(product(x).rating))
@@ -285,7 +285,7 @@ mod tests {
 
     /// Rosenbrock's valley (H. H. Rosenbrock, 1960), also with a bound that excludes its minimum.
     #[test]
-    fn a_valley_is_followed_to_its_end_or_to_a_bound() {
+    fn rosenbrock_minimum_is_found_with_and_without_an_active_bound() {
         let rosenbrock = |x: &[f64]| {
             let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
             SlopedRating {
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn where_derivatives_end_it_goes_on_without_and_failed_runs_are_kept_away_from() {
+    fn descent_continues_without_derivatives_after_a_failed_derivative() {
         let square = |x: f64| SlopedRating {
             rating: Rating { objective: (x - 1.0) * (x - 1.0), constraints: vec![] },
             objective: vec![2.0 * (x - 1.0)],
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_least_is_told() {
+    fn unbounded_descent_reports_the_runaway_parameter() {
         let design = design(&[(2.0, f64::NEG_INFINITY, f64::INFINITY)], 0);
         let slope = |x: &[f64]| SlopedRating {
             rating: Rating { objective: -x[0], constraints: vec![] },
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_met_is_told() {
+    fn unsatisfiable_constraint_is_reported_by_descent() {
         let design = design(&[(0.5, 0.0, 1.0)], 1);
         let one = |x: f64| SlopedRating {
             rating: Rating { objective: x, constraints: vec![x - 2.0] },

@@ -206,7 +206,7 @@ mod tests {
 
     /// Test problem 2 of M. J. D. Powell (1994): smallest product of the coordinates of a point on the unit circle.
     #[test]
-    fn a_product_on_a_circle_is_least_where_both_are_equal() {
+    fn powells_problem_on_a_circle_is_solved() {
         let found = solved(&[(1.0, -2.0, 2.0), (0.5, -2.0, 2.0)], 1, |x| {
             Some(Rating {
                 objective: x[0] * x[1],
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_are_kept_and_failed_runs_are_kept_away_from() {
+    fn search_stays_within_bounds_and_avoids_failed_runs() {
         let found = solved(&[(3.0, 0.0, 5.0)], 0, |x| {
             let value = (x[0] - 1.0) * (x[0] - 1.0);
             (x[0] > 0.8).then_some(Rating { objective: value, constraints: vec![] })
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_met_is_told() {
+    fn unsatisfiable_constraint_is_reported() {
         let found = solved(&[(0.5, 0.0, 1.0)], 1, |x| {
             Some(Rating { objective: x[0], constraints: vec![x[0] - 2.0] })
         });
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_least_is_told() {
+    fn unbounded_objective_reports_the_runaway_parameter() {
         for slope in [1.0, -1.0] {
             let infinite = (2.0, f64::NEG_INFINITY, f64::INFINITY);
             let found = solved(&[infinite], 0, |x| {

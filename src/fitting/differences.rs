@@ -84,7 +84,7 @@ mod tests {
     use crate::elementary::exp;
 
     #[test]
-    fn derivatives_are_right_to_eight_digits_at_bounds_too() {
+    fn difference_derivatives_have_eight_digits_also_at_bounds() {
         let mut asked = 0;
         let mut evaluate = |points: &[Vec<f64>]| -> Result<Vec<Evaluation>, Infallible> {
             asked += points.len();

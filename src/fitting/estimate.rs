@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_of_a_straight_line_are_those_of_textbooks() {
+    fn standard_errors_of_a_straight_line_agree_with_textbooks() {
         let x = [0.0, 1.0, 2.0, 3.0, 4.0];
         let derivatives =
             DMatrix::from_fn(5, 2, |row, column| if column == 0 { 1.0 } else { x[row] });

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_lie_on_both_sides_within_bounds() {
+    fn test_points_lie_on_both_sides_within_bounds() {
         let range = |start, low, high| SearchRange { start, low, high };
         let ranges = [range(1.0, 0.0, 10.0), range(0.0, 0.0, 1.0)];
         let [low, high] = test_points(&ranges, &[1.0, 0.0]);
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_that_gives_something_else_is_found_out() {
+    fn wrong_values_derivatives_and_branches_are_detected() {
         let square = |x: f64| [x * x, 3.0 * x];
         let (x, h) = (2.0, 1e-4);
         let check = |here: [f64; 2], slopes: [f64; 2]| {

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_root_is_told() {
+    fn functions_without_a_root_are_rejected() {
         let found = root((0.0, 1.0), 1e-9, |x| good(x + 1.0));
         assert_eq!(found, Err(RootError::SameSign(1.0, 2.0)));
         assert!(matches!(root((0.0, 1.0), 1e-9, |x| good(1.0 / x)), Err(RootError::NotFinite(..))));

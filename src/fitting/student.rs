@@ -79,7 +79,7 @@ mod tests {
 
     /// Values of published tables. For one degree of freedom, the quantile is `tan(π (p - 1/2))`.
     #[test]
-    fn quantiles_are_those_of_tables() {
+    fn student_quantiles_agree_with_published_tables() {
         for (probability, freedom, expected) in [
             (0.975, 1.0, 12.706_204_736_174_7),
             (0.975, 2.0, 4.302_652_729_749_46),

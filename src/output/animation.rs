@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn frames_are_the_pictures_that_were_drawn() {
+    fn animation_frames_equal_the_drawn_pictures() {
         let bytes = Animation { frames: 5, frames_per_second: 20, draw: &disc }.to_png().unwrap();
         let mut decoder = png::Decoder::new(bytes.as_slice());
         decoder.set_transformations(png::Transformations::EXPAND);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_small_box_far_away_may_be_followed_by_a_large_one() {
+    fn animation_accepts_a_small_frame_region_followed_by_a_large_one() {
         let jumps = |frame: usize| {
             let mut canvas = Canvas::default();
             for (index, column) in [20.0, 110.0].into_iter().enumerate() {
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn of_many_colours_those_that_are_met_most_stay() {
+    fn palette_keeps_the_most_frequent_colours() {
         let many = |frame: usize| {
             let mut canvas = Canvas::default();
             for column in 0..100u8 {
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_pixels_are_refused_and_told() {
+    fn animation_with_too_many_pixels_is_rejected() {
         let animation = Animation { frames: 1_000_000, frames_per_second: 10, draw: &disc };
         let message = animation.to_png().unwrap_err().to_string();
         assert!(message.contains("1000000 frames of 120 by 100"), "{message}");

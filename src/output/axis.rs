@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_are_round_numbers() {
+    fn axis_labels_are_round_numbers() {
         assert_eq!(labels(PlotAxis::between(0.0, 0.5)), ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5"]);
         assert_eq!(labels(PlotAxis::between(-10.0, 15.0)), ["−10", "−5", "0", "5", "10", "15"]);
         assert_eq!(
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_in_pictures_have_signs_and_powers_as_people_write_them() {
+    fn numbers_are_typeset_with_minus_signs_and_powers_of_ten() {
         let written = [-0.25, 4.0853e-5, -3e9, 0.0].map(|x| typeset_number(x, 3));
         assert_eq!(written, ["−0.25", "4.09 × 10⁻⁵", "−3 × 10⁹", "0"]);
     }
@@ -290,14 +290,14 @@ mod tests {
     }
 
     #[test]
-    fn rounding_is_shown_as_a_constant() {
+    fn values_that_differ_by_rounding_get_a_wide_axis() {
         let (low, high) = ends(PlotAxis::linear([374.28285, 374.28285 + 1e-12], 0.05));
         assert!(low < 340.0 && high > 410.0, "{low} {high}");
     }
 
     proptest! {
         #[test]
-        fn any_numbers_make_an_axis(values in prop::collection::vec(proptest::num::f64::ANY, 0..6), floor in proptest::num::f64::ANY) {
+        fn any_numbers_give_a_valid_axis(values in prop::collection::vec(proptest::num::f64::ANY, 0..6), floor in proptest::num::f64::ANY) {
             for axis in [PlotAxis::linear(values.clone(), 0.05), PlotAxis::logarithmic(values.clone(), floor)] {
                 let (low, high) = ends(axis);
                 prop_assert!(low < high && (high - low).is_finite());

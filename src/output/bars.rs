@@ -106,7 +106,7 @@ mod tests {
     use crate::output::canvas::Shape;
 
     #[test]
-    fn bars_have_their_names_and_numbers() {
+    fn bar_chart_shows_names_and_numbers() {
         let chart = BarChart::new("Cost of a step", "µs")
             .bar("the scene alone", 30.0, "30 µs")
             .bar("slider", 60.0, "60 µs")
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_passes_behind_the_texts_of_shorter_bars() {
+    fn reference_line_is_drawn_behind_bar_texts() {
         let chart = BarChart::new("Cost", "µs").bar("short", 20.0, "20 µs").bar("long", 60.0, "60");
         let chart = chart.mark(21.0);
         let mut canvas = Canvas::default();

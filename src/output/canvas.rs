@@ -171,7 +171,7 @@ mod tests {
     use crate::output::colour::INK;
 
     #[test]
-    fn only_finite_shapes_get_on_the_canvas() {
+    fn nonfinite_shapes_are_not_drawn() {
         let mut canvas = Canvas::default();
         canvas.line([(f64::NAN, 0.0), (1.0, f64::INFINITY)], 1.0, INK);
         canvas.disc((f64::NAN, 0.0), 1.0, INK);
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn alignment_moves_the_start_back_along_the_line() {
+    fn text_alignment_shifts_the_start_along_the_text() {
         let mut canvas = Canvas::default();
         canvas.text("abc", (100.0, 50.0), 12.0, Align::End, INK);
         canvas.text_upwards("abc", (100.0, 50.0), 12.0, Align::Middle, INK);

@@ -316,7 +316,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn two_runs_give_the_same_bytes() {
+    fn equal_charts_give_equal_bytes() {
         let points = (0..200).map(|i| (f64::from(i) * 0.05, (f64::from(i) * 0.1).sin())).collect();
         let chart = LineChart::new("sine").x_label("t [s]").series(Series::new("sin", points));
         let pictures = || {
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn half_a_million_points_make_a_small_picture() {
+    fn chart_of_half_a_million_points_is_a_small_file() {
         let noise =
             (0..500_000u32).map(|i| (f64::from(i), f64::from(i % 1000 * 919 % 1000))).collect();
         let figure = LineChart::new("noise").series(Series::new("noise", noise)).figure().unwrap();
@@ -337,14 +337,14 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_chart_says_so() {
+    fn empty_chart_shows_no_data() {
         let nothing = Series::new("nothing", vec![(f64::NAN, 1.0), (1.0, f64::INFINITY)]);
         let svg = LineChart::new("").series(nothing).figure().unwrap().to_svg().unwrap();
         assert!(svg.contains("no data"));
     }
 
     #[test]
-    fn a_lone_series_named_like_the_axis_needs_no_legend() {
+    fn single_series_named_like_the_axis_has_no_legend() {
         let chart = LineChart::new("t").y_label("energy").series(Series::new("energy", vec![]));
         assert!(chart.legend().is_empty());
         assert!(chart.clone().y_label("energy [J]").legend().is_empty());
@@ -355,7 +355,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(40))]
         #[test]
-        fn any_points_make_a_chart(
+        fn any_points_give_a_valid_chart(
             points in prop::collection::vec((proptest::num::f64::ANY, proptest::num::f64::ANY), 0..12),
             name in ".*",
             scales in (0..4usize, 0..5usize),

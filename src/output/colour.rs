@@ -72,13 +72,13 @@ mod tests {
     }
 
     #[test]
-    fn the_ramp_darkens_all_the_way() {
+    fn colour_ramp_darkens_monotonically() {
         let shades: Vec<f64> = (0..=100).map(|i| lightness(ramp(f64::from(i) / 100.0))).collect();
         assert!(shades.windows(2).all(|pair| pair[1] <= pair[0] + 0.5));
     }
 
     #[test]
-    fn strange_parts_are_ends() {
+    fn colour_positions_out_of_range_are_clamped() {
         assert_eq!(ramp(f64::NAN), RAMP[0]);
         assert_eq!(ramp(7.0), RAMP[8]);
         assert_eq!(mix(WHITE, INK, f64::INFINITY), INK);

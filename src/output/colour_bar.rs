@@ -99,7 +99,7 @@ mod tests {
     use crate::output::colour::ramp;
 
     #[test]
-    fn a_lone_time_has_no_bar_and_is_dark() {
+    fn colour_bar_of_a_single_value_has_no_width() {
         let bar = ColourBar::new("t", [2.5, 2.5, f64::NAN], ramp);
         assert_eq!((bar.width(), bar.part(2.5)), (0.0, 1.0));
         let bar = ColourBar::new("t", [0.0, 5.0], ramp);

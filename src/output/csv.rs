@@ -119,7 +119,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn comments_then_names_then_rows() {
+    fn csv_contains_comments_then_names_then_rows() {
         let table = CsvTable::new()
             .comment("flight\nunits: SI")
             .column("t", vec![0.0, 0.1])
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn ragged_columns_are_refused_by_name() {
+    fn csv_columns_of_unequal_length_are_rejected_by_name() {
         let table = CsvTable::new().column("t", vec![0.0, 0.1]).column("energy", vec![1.0]);
         let message = table.to_text().unwrap_err().to_string();
         assert_eq!(
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_is_a_formula_and_numbers_stay_numbers() {
+    fn csv_texts_are_escaped_as_formulas_and_numbers_are_not() {
         for text in ["=1+1", "+1+1", "-1+1", "@SUM(A1)", "\t=1", "\r=1"] {
             assert_eq!(csv_cell(text), format!("'{text}"));
         }
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_that_is_too_long_keeps_its_first_and_its_last_row() {
+    fn thinned_table_keeps_the_first_and_last_row() {
         let table = || {
             let values: Vec<f64> = (0..1000).map(f64::from).collect();
             CsvTable::new().column("t", values.clone()).column("x", values)
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn writing_ends_where_the_file_refuses_more() {
+    fn writing_stops_at_the_first_write_error() {
         struct Short(usize);
         impl Write for Short {
             fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
@@ -192,7 +192,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn numbers_read_back_bit_for_bit(values in prop::collection::vec(proptest::num::f64::ANY, 0..50)) {
+        fn csv_numbers_are_read_back_bit_for_bit(values in prop::collection::vec(proptest::num::f64::ANY, 0..50)) {
             let text = CsvTable::new().comment("c").column("x", values.clone()).to_text().unwrap();
             let read: Vec<f64> = text.lines().skip(2).map(|line| line.parse().unwrap()).collect();
             prop_assert_eq!(read.len(), values.len());

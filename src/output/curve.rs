@@ -125,7 +125,7 @@ mod tests {
     const WINDOW: Area = Area { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
 
     #[test]
-    fn gaps_and_sides_split_a_curve() {
+    fn curves_are_split_at_gaps_and_clipped_at_the_window() {
         let nan = (f64::NAN, 1.0);
         assert_eq!(pieces([(1.0, 1.0), nan, nan, (2.0, 2.0), (3.0, 3.0)], &WINDOW).len(), 2);
         assert_eq!(pieces([(-5.0, 5.0), (15.0, 5.0)], &WINDOW), [[(0.0, 5.0), (10.0, 5.0)]]);
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_million_points_become_some_thousands() {
+    fn million_points_of_a_curve_are_reduced() {
         let noise = (0..1_000_000u32)
             .map(|i| (f64::from(i) * 1e-5, f64::from((i % 1000 * 919) % 1000) * 0.01));
         let pieces = pieces(noise, &WINDOW);
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn dashes_alternate_across_corners() {
+    fn dashes_continue_across_corners() {
         let strokes = dashes(&[(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)], &[2.0, 2.0]);
         assert_eq!(strokes, [vec![(0.0, 0.0), (2.0, 0.0)], vec![(3.0, 1.0), (3.0, 3.0)]]);
         assert_eq!(dashes(&[(0.0, 0.0), (1.0, 0.0)], &[0.0]).len(), 1);

@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn names_stand_in_the_first_line_and_units_in_the_second_where_they_are_wanted() {
+    fn table_has_a_name_line_and_an_optional_unit_line() {
         let rows = "1.0000000000000001e-1,3,true,\"a, b\"\n,-1,,\n";
         let names = "t,steps,good,told\n";
         assert_eq!(csv(&table(), TableHeading::Names).unwrap(), format!("{names}{rows}"));
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_and_names_are_no_formulas() {
+    fn texts_and_names_are_not_read_as_formulas() {
         let column =
             |name: &str, values| DataColumn { name: name.into(), dimension: String::new(), values };
         let table = DataTable {
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn ragged_columns_are_refused() {
+    fn columns_of_unequal_length_are_rejected() {
         let mut ragged = table();
         ragged.columns[1].values = DataValues::Integers(vec![]);
         assert!(csv(&ragged, TableHeading::Names).is_err());

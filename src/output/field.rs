@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn larger_is_broader_and_darker_and_the_largest_is_written() {
+    fn larger_field_values_have_wider_lines_and_the_maximum_is_labelled() {
         let picture = picture(|s| 3.0 * s);
         let (area, plot) = (
             Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 },
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_of_nothing_is_a_picture_too() {
+    fn empty_and_nan_fields_give_a_picture() {
         for value in [|_| 0.0, |_| f64::NAN] {
             picture(value).figure().unwrap().to_png().unwrap();
         }

@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_endings_are_refused_with_the_allowed_ones() {
+    fn unknown_picture_extensions_are_rejected_with_the_allowed_ones() {
         let home = tempfile::tempdir().unwrap();
         let figure = Figure::new(Canvas::default(), (100.0, 100.0)).unwrap();
         let message = figure.save(home.path().join("energy.pdf")).unwrap_err().to_string();
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_sizes_are_refused() {
+    fn invalid_picture_sizes_are_rejected() {
         for size in [(0.0, 300.0), (f64::NAN, 300.0), (300.0, 1e9)] {
             assert!(matches!(
                 Figure::new(Canvas::default(), size),

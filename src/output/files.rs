@@ -35,7 +35,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn makes_folders_and_replaces() {
+    fn atomic_write_creates_folders_and_replaces_files() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("a/b/c.txt");
         write_atomic(&path, b"old").unwrap();
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_where_a_folder_should_be_is_named() {
+    fn file_in_place_of_a_folder_is_reported_by_name() {
         let home = tempfile::tempdir().unwrap();
         let blocker = home.path().join("blocker");
         write_atomic(&blocker, b"").unwrap();
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_is_not_a_file() {
+    fn writing_to_a_folder_path_is_rejected() {
         let home = tempfile::tempdir().unwrap();
         let error = write_atomic(home.path(), b"").unwrap_err();
         assert!(matches!(error, OutputError::NotAFile { .. }), "{error}");
@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failed_write_leaves_nothing_behind() {
+    fn failed_write_leaves_no_partial_file() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("n".repeat(400));
         let error = write_atomic(&path, b"x").unwrap_err();

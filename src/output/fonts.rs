@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_face_is_there_and_has_what_labels_need() {
+    fn font_contains_all_characters_of_labels() {
         let face = FACE.as_ref().unwrap();
         for c in "aZ09−×⁻⁰¹²³⁴⁵⁶⁷⁸⁹≤…αβγκλωΔäö·".chars() {
             assert_ne!(face.glyph_id(c), GlyphId(0), "{c}");
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_letter_with_a_hole_has_two_contours_that_turn_against_each_other() {
+    fn letter_with_a_hole_has_two_contours_of_opposite_orientation() {
         let glyphs = outlines("o", 100.0);
         let turn = |contour: &Vec<Point>| -> f64 {
             contour.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum()
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_hold_all_words_and_fit() {
+    fn wrapped_lines_fit_and_contain_all_words() {
         let text = "drift of energy, momenta and gap of the flying spaghetti";
         assert_eq!(lines(text, 12.0, 1000.0), [text]);
         let broken = lines(text, 12.0, 120.0);
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn long_texts_are_shortened_to_the_room() {
+    fn long_texts_are_shortened_to_the_available_width() {
         assert_eq!(fit("energy", 12.0, 100.0), "energy");
         let short = fit(&"very long ".repeat(1000), 12.0, 100.0);
         assert!(short.ends_with('…') && width(&short, 12.0) <= 100.0, "{short}");

@@ -245,7 +245,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_long_title_is_set_smaller_before_it_is_cut() {
+    fn long_title_is_shrunk_before_it_is_cut() {
         let title = "drift of energy, momenta and gap of the flying spaghetti";
         let frame = Frame { title: title.into(), ..Frame::default() };
         let area = Area { left: 0.0, top: 0.0, right: 500.0, bottom: 300.0 };
@@ -257,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_leaves_the_panel() {
+    fn all_texts_of_a_frame_stay_inside_the_panel() {
         let frame = Frame {
             title: "A title that is far too long for its panel ".repeat(9),
             captions: vec!["a line below it ".repeat(30); 2],

@@ -59,7 +59,7 @@ mod tests {
     use crate::output::canvas::Shape;
 
     #[test]
-    fn what_lies_beyond_a_plot_is_cut_off_before_it_is_hatched() {
+    fn areas_are_clipped_to_the_plot_before_hatching() {
         let plot = Area { left: 0.0, top: 0.0, right: 100.0, bottom: 50.0 };
         let cell = Area { left: -1e300, top: 10.0, right: 30.0, bottom: 1e300 };
         let seen = cell.within(&plot);

@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_their_places_on_the_scale() {
+    fn values_are_placed_logarithmically_on_the_colour_scale() {
         let part = |value| map().part(value);
         assert_eq!((part(0.0), part(-1.0), part(1e-20)), (Some(0.0), Some(0.0), Some(0.0)));
         assert_eq!((part(1e-7), part(1.0), part(f64::INFINITY)), (Some(0.5), Some(1.0), Some(1.0)));
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn every_cell_is_drawn_and_those_without_a_number_are_hatched() {
+    fn heat_map_draws_all_cells_including_cells_without_a_value() {
         let figure = map().figure().unwrap();
         let svg = figure.to_svg().unwrap();
         for text in ["growth", "of energy", "1e-16", "failed", "t = 2", "no value", "EA", "dt"] {
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_cut_on_a_page_of_maps() {
+    fn texts_on_a_page_of_heat_maps_are_not_cut() {
         let narrow = |text: &str| {
             HeatMap::new("trapezoidal", "Newton iterations a step", (-12, 0))
                 .columns("EA L²/EI", vec!["1e4".into(), "a long name of a column".into()])
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_of_nothing_and_one_with_missing_cells_are_pictures_too() {
+    fn empty_and_incomplete_heat_maps_give_a_picture() {
         let ragged = map().row("a very long name ".repeat(9), vec![]);
         for map in [HeatMap::new("", "", (0, 0)), ragged] {
             map.figure().unwrap().to_png().unwrap();

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn names_flow_into_rows_and_stop_at_the_most() {
+    fn legend_entries_wrap_into_rows_up_to_the_maximum() {
         assert_eq!(height(&[], 800.0), 0.0);
         assert_eq!(height(&entries(3, "energy"), 800.0), ROW);
         assert_eq!(height(&entries(12, "kinetic energy"), 800.0), 3.0 * ROW);

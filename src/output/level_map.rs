@@ -213,13 +213,13 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_cells_are_numbers_however_large() {
+    fn cell_ends_are_finite_for_any_middles() {
         let axis = LevelAxis { label: "a".into(), middles: vec![-1.7e308, -1e308, 1.7e308] };
         assert!(axis.ends_halfway().iter().all(|end| end.is_finite()));
     }
 
     #[test]
-    fn cells_end_halfway_between_their_middles() {
+    fn level_map_cells_end_halfway_between_middles() {
         assert_eq!(axis("", &[1.0, 2.0, 4.0]).scale(), AxisScale::Logarithmic);
         let ends = axis("", &[1.0, 2.0, 5.0]).ends();
         assert_eq!(ends, [0.5, 1.5, 3.5, 6.5]);
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_drawn_as_one_cell_where_there_are_many() {
+    fn numerous_cells_are_averaged_with_their_neighbours() {
         let middles: Vec<f64> = (0..1000).map(f64::from).collect();
         let values = (0..3).map(|row| (0..1000).map(|x| f64::from(x + 1000 * row)).collect());
         let axes = (axis("x", &middles), axis("y", &[1.0, 2.0, 3.0]));
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn every_cell_is_coloured_and_those_without_a_value_are_hatched() {
+    fn level_map_colours_cells_and_hatches_cells_without_a_value() {
         let values = vec![vec![0.0, 1.0, 2.0], vec![f64::NAN, 4.0, 5.0]];
         let axes = (axis("speed", &[1.0, 2.0, 3.0]), axis("mass", &[0.1, 0.2]));
         let map = LevelMap::new("crane", "peak", axes, values);

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_longer_spring_has_more_turns_and_keeps_its_breadth() {
+    fn drawn_spring_has_more_turns_with_length_and_constant_width() {
         let teeth = |length: f64| {
             let spring = Link::between((0.0, 0.0), (0.0, length)).spring().concat();
             assert!(spring.iter().all(|(x, _)| x.abs() <= BREADTH));
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_at_one_place_are_drawn_too() {
+    fn links_of_zero_length_are_drawn_with_finite_points() {
         let link = Link::between((3.0, 4.0), (3.0, 4.0));
         let all = link.damper().into_iter().chain(link.spring()).flatten();
         assert!(all.into_iter().all(|(x, y)| x.is_finite() && y.is_finite()));

@@ -60,7 +60,7 @@ mod tests {
     use crate::output::colour::INK;
 
     #[test]
-    fn every_marker_draws_something_else_around_its_point() {
+    fn every_marker_has_a_distinct_shape() {
         let drawn = |marker: Marker| {
             let mut canvas = Canvas::default();
             marker.draw(&mut canvas, (10.0, 10.0), 4.0, INK);

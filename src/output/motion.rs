@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn units_are_equally_long_and_the_size_follows_the_data() {
+    fn motion_picture_has_equal_scales_and_fits_the_data() {
         let tall =
             MotionPicture::new("").snapshot(snapshot(0.0, vec![vec![(0.0, 0.0), (1.0, 3.0)]]));
         let flat =
@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_side_by_side_share_their_view() {
+    fn pictures_side_by_side_have_equal_axes() {
         let picture = |x: f64| {
             MotionPicture::new("").snapshot(snapshot(0.0, vec![vec![(0.0, 0.0), (x, 1.0)]]))
         };
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn obstacles_are_below_the_bodies_and_enlarge_the_view() {
+    fn obstacles_are_drawn_behind_bodies_and_enlarge_the_view() {
         use crate::output::symbol::Symbol;
         let frame = snapshot(0.0, vec![vec![(0.0, 0.0), (2.0, 1.0)]]);
         let bare = MotionPicture::new("").snapshot(frame);
@@ -304,7 +304,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(40))]
         #[test]
-        fn any_points_make_a_picture(
+        fn any_points_give_a_valid_motion_picture(
             points in prop::collection::vec((proptest::num::f64::ANY, proptest::num::f64::ANY), 0..8),
             times in prop::collection::vec(proptest::num::f64::ANY, 0..4),
         ) {

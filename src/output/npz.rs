@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_header_is_that_of_numpy() {
+    fn npy_header_equals_that_of_numpy() {
         let array = NpzArray { name: "a".into(), shape: vec![2, 3], values: vec![0.5; 6] };
         let bytes = array.to_npy();
         assert_eq!(bytes.len(), 128 + 48);
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_arrays_give_equal_bytes_and_wrong_ones_are_refused() {
+    fn equal_arrays_give_equal_bytes_and_invalid_arrays_are_rejected() {
         let archive = NpzArchive { arrays: vec![NpzArray::row("t", vec![0.0, 0.1])] };
         assert_eq!(archive.to_bytes().unwrap(), archive.to_bytes().unwrap());
         let wrong = NpzArray { shape: vec![3], ..NpzArray::row("t", vec![0.0]) };

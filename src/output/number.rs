@@ -41,7 +41,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn people_read_short_numbers() {
+    fn numbers_are_formatted_in_their_shortest_form() {
         let cases = [
             (1e-12, "1e-12"),
             (0.05, "0.05"),
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_keeps_the_manner() {
+    fn rounded_numbers_keep_the_format() {
         assert_eq!(significant(1.0 / 3.0, 6), "0.333333");
         assert_eq!(significant(0.1 + 0.2, 6), "0.3");
         assert_eq!(significant(123456789.0, 3), "1.23e8");
@@ -78,7 +78,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_finite_number_reads_back_bit_for_bit(x in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL) {
+        fn formatted_numbers_are_read_back_bit_for_bit(x in proptest::num::f64::NORMAL | proptest::num::f64::SUBNORMAL) {
             prop_assert_eq!(format_number(x).parse::<f64>().unwrap().to_bits(), x.to_bits());
         }
     }

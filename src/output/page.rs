@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_grids_and_empty_pages_are_pictures() {
+    fn rows_grids_and_empty_pages_have_the_expected_size() {
         assert_eq!(
             Page::row().panel(chart(1.0)).panel(chart(2.0)).figure().unwrap().size(),
             (1296, 476)

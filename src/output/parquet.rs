@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn parquet_file_contains_the_written_values() {
         let column = |name: &str, values| DataColumn {
             name: name.into(),
             dimension: if name == "t" { "time".into() } else { String::new() },

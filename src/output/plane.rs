@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn symbols_at_an_edge_get_paper_unless_limits_cut_them() {
+    fn view_is_extended_for_symbols_at_an_edge_except_at_limits() {
         let points = [(0.0, 0.0), (10.0, 10.0)];
         for (limits, low) in
             [(AxisLimits::default(), -0.31), (AxisLimits { y: Some((0.0, 10.0)), x: None }, 0.0)]
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn limits_are_kept_and_the_other_axis_fits_what_is_between_them() {
+    fn limits_of_one_axis_set_the_range_of_the_other() {
         let points = [(0.0, 0.0), (1.0, 1.0), (10.0, 100.0)];
         let view = View::of(points.into_iter(), &AxisLimits { x: Some((0.0, 2.0)), y: None });
         assert_eq!(view.centre, (1.0, 0.5));

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_covers_as_much_as_its_area() {
+    fn painted_line_covers_the_expected_area() {
         for end in [(15.0, 5.0), (15.0, 15.0), (8.0, 15.0)] {
             let mut canvas = Canvas::default();
             canvas.line([(5.0, 5.0), end], 2.0, Colour(0, 0, 0));
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_outside_the_paper_are_no_trouble() {
+    fn shapes_outside_the_picture_are_clipped() {
         let mut canvas = Canvas::default();
         canvas.line([(-1e9, 5.0), (1e9, 5.0), (5.0, -1e9)], 2.0, INK);
         canvas.disc((-50.0, 300.0), 10.0, INK);

@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_obeys_or_hides_is_replaced() {
+    fn terminal_control_and_invisible_characters_are_replaced() {
         assert_eq!(printable("a\x1b]0;title\x07b"), "a\u{fffd}]0;title\u{fffd}b");
         assert_eq!(printable("good\rbad\u{9b}2J"), "good\u{fffd}bad\u{fffd}2J");
         assert_eq!(printable("x\u{202e}y\u{200b}z"), "x\u{fffd}y\u{fffd}z");
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_stay_where_they_are_wanted() {
+    fn colour_codes_are_kept_and_other_control_sequences_are_replaced() {
         let text = "\x1b[1;31merror\x1b[0m: \x1b[2J\x1b]0;t\x07\x1b[";
         let safe = "\x1b[1;31merror\x1b[0m: \u{fffd}[2J\u{fffd}]0;t\u{fffd}\u{fffd}[";
         assert_eq!(printable_in_colours(text), safe);

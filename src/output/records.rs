@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_with_commas_stay_in_their_cell() {
+    fn csv_records_quote_cells_with_commas() {
         let mut records = CsvRecords {
             comments: vec!["a study".into()],
             names: vec!["mesh".into(), "error".into()],

@@ -111,7 +111,7 @@ fn two_beams() -> MotionPicture {
 }
 
 #[test]
-fn charts() {
+fn sample_charts_are_drawn() {
     show("energy", &energy(), &["Flying spaghetti: energy", "t [s]", "kinetic", "strain", "total"]);
     show("drift", &drift(), &["Relative drift", "|E − E₀| / E₀", "midpoint rule"]);
     show("convergence", &convergence(), &["Error against step", "dt [s]", "slope 2"]);
@@ -143,7 +143,7 @@ fn stability(title: &str, growth: impl Fn(i32, f64) -> Option<f64>) -> HeatMap {
 }
 
 #[test]
-fn heat_maps() {
+fn sample_heat_maps_are_drawn() {
     let conserving = stability("energy_momentum", |power, _| Some(2e-16 * f64::from(power)));
     let wandering = stability("trapezoidal", |power, dt| {
         let grown = 1e-5 * 10f64.powi(power / 2) * dt * dt;
@@ -155,14 +155,14 @@ fn heat_maps() {
 }
 
 #[test]
-fn motions() {
+fn sample_motion_pictures_are_drawn() {
     show("flight", &flight("Flying spaghetti", 2.5), &["Flying spaghetti", "x", "t [s]"]);
     show("pendulum", &two_beams(), &["Double pendulum", "arm", "forearm"]);
     show("single", &MotionPicture::new("At rest").snapshot(tumbling(0.0, 0.0)), &["At rest"]);
 }
 
 #[test]
-fn pages() {
+fn sample_pages_are_drawn() {
     let momenta = LineChart::new("Momenta")
         .x_label("t [s]")
         .series(series("p_x [kg m/s]", |t| (8.0 * t).min(20.0)))

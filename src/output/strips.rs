@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_strip_has_its_part_of_the_beam_on_its_side() {
+    fn largest_strip_value_has_its_height_on_the_chosen_side() {
         for (side, sign) in [(BeamSide::Left, 1.0), (BeamSide::Right, -1.0)] {
             let picture = StripPicture::new("").strip(beam(|s| 40.0 * s)).side(side);
             let runs = picture.runs(&picture.strips[0]);
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_ends_a_run_and_extremes_are_written() {
+    fn strips_are_divided_at_jumps_and_extremes_are_labelled() {
         let mut strip = beam(|s| if s < 0.5 { 1.0 } else { -2.0 });
         strip.values.insert(4, ((0.5, 0.0), 1.0));
         let picture = StripPicture::new("Q").strip(strip);
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_no_numbers_are_pictures_too() {
+    fn empty_and_nan_strips_give_a_picture() {
         StripPicture::new("").figure().unwrap().to_png().unwrap();
         StripPicture::new("").strip(beam(|_| f64::NAN)).figure().unwrap().to_png().unwrap();
         StripPicture::new("").strip(beam(|_| 0.0)).figure().unwrap().to_png().unwrap();

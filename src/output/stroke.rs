@@ -48,7 +48,7 @@ mod tests {
     use crate::output::colour::{HUE_COUNT, INK, hue};
 
     #[test]
-    fn a_dashed_line_is_several() {
+    fn strokes_have_the_expected_number_of_dashes() {
         let count = |stroke: Stroke| {
             let mut canvas = Canvas::default();
             stroke.draw(&mut canvas, &[(0.0, 0.0), (24.0, 0.0)], 2.0, INK);
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn three_times_as_many_beams_as_there_are_colours_are_told_apart() {
+    fn colours_and_strokes_distinguish_three_times_as_many_beams_as_colours() {
         let looks = |index: usize| {
             format!("{:?} {:?}", hue(index), Stroke::of_palette_pass(index / HUE_COUNT))
         };

@@ -123,7 +123,7 @@ mod tests {
     use crate::output::{canvas::Align, colour::INK};
 
     #[test]
-    fn text_is_outlines_and_description() {
+    fn svg_text_is_drawn_as_outlines_with_a_description() {
         let mut canvas = Canvas::default();
         canvas.text("a < b", (10.0, 20.0), 12.0, Align::Start, INK);
         let svg = paint(&canvas, 100, 50).unwrap();
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dot_is_a_line_with_two_ends() {
+    fn svg_dot_is_a_line_with_two_equal_ends() {
         let mut canvas = Canvas::default();
         canvas.line([(1.0, 2.0)], 2.0, INK);
         assert!(paint(&canvas, 100, 50).unwrap().contains("points=\"20,40 20,40 \""));

@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn symbols_are_drawn_where_their_place_is_seen() {
+    fn symbols_are_drawn_only_inside_the_plot() {
         use Symbol::{
             Carriage, Clamp, Force, Guided, HeldAngle, Hinge, Joint, LineForce, Moment, Motor,
             RigidJoint, Roller, Slider, TorsionSpring,
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn an_arrow_points_at_its_place_where_there_is_paper_for_it() {
+    fn force_arrow_ends_at_its_point_if_it_fits_the_plot() {
         let shaft = |at| match drawn(Symbol::Force, at, (2.0, 0.0)).shapes()[0].clone() {
             super::super::canvas::Shape::Line { points, .. } => points,
             other => panic!("{other:?}"),
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn springs_go_from_end_to_end() {
+    fn spring_symbols_extend_from_end_to_end() {
         for symbol in [Symbol::Spring, Symbol::Damper, Symbol::Tendon] {
             let canvas = drawn(symbol, (0.1, 0.5), (0.8, 0.0));
             let points = canvas.shapes().iter().flat_map(|shape| match shape {
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn moments_turn_either_way() {
+    fn moment_symbol_shows_the_sign() {
         let of = |x: f64| format!("{:?}", drawn(Symbol::Moment, (0.5, 0.5), (x, 0.0)).shapes());
         assert_ne!(of(3.0), of(-3.0));
     }

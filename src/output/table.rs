@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_left_numbers_right() {
+    fn table_aligns_text_left_and_numbers_right() {
         let mut table = TextTable::new(&["method", "dt [s]", "drift"]).title("Energy drift");
         table.row::<Cell>(["midpoint".into(), 0.05.into(), 3e-3.into()]);
         table.row::<Cell>(["energy_momentum".into(), 0.1.into(), 1e-15.into()]);
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_characters_stand_in_two_columns() {
+    fn wide_characters_occupy_two_table_columns() {
         let mut table = TextTable::new(&["梁", "EI"]);
         table.row::<Cell>(["長い梁".into(), 1.0.into()]).row::<Cell>(["arm".into(), 10.0.into()]);
         let expected = "梁      EI\n──────  ──\n長い梁   1\narm     10\n";
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_of_any_length_are_set() {
+    fn table_accepts_cells_of_any_length() {
         let mut table = TextTable::new(&["a", "b"]);
         table.row(["x".repeat(70_000).as_str(), "y"]).row(["z", "w"]);
         let text = table.to_string();
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn uneven_rows_and_line_breaks_stay_in_the_table() {
+    fn table_accepts_uneven_rows_and_line_breaks() {
         let mut table = TextTable::new(&["a"]);
         table.row(["x\ny", "beyond"]).row::<Cell>([]);
         let text = table.to_string();

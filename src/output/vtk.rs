@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn arrays_stand_behind_the_number_of_their_bytes() {
+    fn vtk_arrays_are_preceded_by_their_byte_count() {
         let text = grid(vec![1.0, 2.0, f64::NAN]).to_vtu().unwrap();
         let line = |name: &str| {
             let line = text.lines().find(|line| line.contains(&format!("Name=\"{name}\"")));
@@ -200,13 +200,13 @@ mod tests {
     }
 
     #[test]
-    fn a_field_without_a_value_for_each_point_is_refused() {
+    fn vtk_field_of_wrong_length_is_rejected() {
         let message = grid(vec![1.0]).to_vtu().unwrap_err().to_string();
         assert!(message.contains("column 'N' has 1 values but column 'points' has 3"), "{message}");
     }
 
     #[test]
-    fn a_collection_has_times_to_the_last_bit() {
+    fn vtk_collection_has_exact_times() {
         let text = vtk_collection(&[(0.1 + 0.2, "a&b/1.vtu".into()), (1e-300, "2.vtu".into())]);
         assert!(
             text.contains("timestep=\"0.30000000000000004\" part=\"0\" file=\"a&amp;b/1.vtu\"")

@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn characters_take_the_columns_that_terminals_give_them() {
+    fn character_widths_equal_those_of_terminals() {
         for (text, width) in [("arm", 3), ("梁", 2), ("e\u{301}", 1), ("ξ → 10⁻¹²…", 10), ("", 0)]
         {
             assert_eq!(columns(text), width, "{text}");
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_cut_and_filled_up_by_columns() {
+    fn texts_are_cut_and_padded_by_display_width() {
         assert_eq!(cut("漢字の梁", 8, '…'), "漢字の梁");
         assert_eq!(cut("漢字の梁", 7, '…'), "漢字の…");
         assert_eq!(cut("漢字の梁", 6, '…'), "漢字…");

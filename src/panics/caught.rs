@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_is_caught_with_its_words() {
+    fn caught_panic_returns_its_message() {
         assert_eq!(caught(|| 3), Ok(3));
         let lost = 2;
         assert_eq!(caught(|| panic!("lost {lost}")), Err::<(), _>("lost 2".to_owned()));

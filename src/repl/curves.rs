@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn values_have_shapes() {
+    fn values_are_classified_by_plot_shape() {
         let of = |value: Dynamic| shape(&value, "a text");
         assert_eq!(of(2.into()), PlotShape::Number(2.0));
         assert_eq!(
@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn commas_inside_of_an_expression_separate_nothing() {
+    fn only_top_level_commas_separate_expressions() {
         assert_eq!(parts("energy, f(a, b), [1, 2]"), ["energy", "f(a, b)", "[1, 2]"]);
         assert_eq!(parts("a.map(|x, y| x), \"a,b\","), ["a.map(|x, y| x)", "\"a,b\""]);
         assert_eq!(parts("a | b, c | d;"), ["a | b", "c | d"]);
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_has_a_summary() {
+    fn curve_summary_states_ends_and_extremes() {
         let points = vec![(0.0, 2.0), (0.1, -1.0), (0.2, 1.5)];
         let curve =
             |over| PlotCurve { name: "f".into(), over, dimension: None, points: points.clone() };

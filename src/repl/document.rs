@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_divided_into_statements() {
+    fn session_text_is_divided_into_statements() {
         let text = "let a = 1; // one\nif a { 1; } else { 2; } fn f(x) { x; }\nlet g = |x| { x } ; g(#{ a: 1 })";
         assert_eq!(
             statements(text),
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn statements_with_errors_do_not_hide_the_names_after_them() {
+    fn names_after_erroneous_statements_are_known() {
         let found = known("let a = [1, 2;\nlet b = sqr(1);\nlet c = line([0, 0], [1, 1]);\nc.");
         let of =
             |name: &str| found.iter().find(|(known, _)| known == name).map(|(_, of)| of.as_str());

@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn inputs_become_statements() {
+    fn recorded_inputs_become_statements() {
         let mut record = SessionRecord::default();
         record.worked("let a = 1;");
         record.worked("let b = 2");
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_gets_its_name_where_it_is_asked_for_later() {
+    fn value_used_later_as_ans_is_named() {
         let mut record = SessionRecord::default();
         record.record_value("1 + 1");
         record.record_value("let c = 3; f(c, #{ a: 1 })");
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_last_definition_of_a_function_stands() {
+    fn only_the_last_definition_of_a_function_is_saved() {
         let mut record = SessionRecord::default();
         record.worked("fn f(x) { if x { 1 } else { 2 } } let a = 1;");
         record.worked("fn f(x, y) { 0 }");
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn methods_of_types_documentation_and_private_functions_are_told_apart() {
+    fn methods_and_private_functions_are_recorded_separately() {
         let mut record = SessionRecord::default();
         record.worked("fn number.twice() { this * 2 } fn number.thrice() { this * 3 }");
         record.worked("/// Ten.\n/// Really.\nprivate fn ten() { 10 }");
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn answers_stand_behind_functions_and_blocks() {
+    fn ans_is_assigned_after_functions_and_blocks() {
         let mut record = SessionRecord::default();
         record.record_value("fn q() { 3 } q()");
         record.record_value("let i = 0; while i < ans { i += 1 } i");
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn an_input_that_returns_is_left_out() {
+    fn input_with_a_return_statement_is_commented_out() {
         let mut record = SessionRecord::default();
         record.returned("if true {\n  return 5; }");
         record.worked("let a = 1;");

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_runs_are_enough_after_a_fifth_of_a_second() {
+    fn timing_of_equal_runs_stops_after_a_fifth_of_a_second() {
         let message = figures(&[10_000]);
         let ten = Duration::from_millis(10);
         assert_eq!(message, Figures { runs: 20, least: ten, median: ten, quartiles: (ten, ten) });
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn the_more_runs_differ_the_more_are_made() {
+    fn timing_repeats_more_often_if_runs_vary() {
         let (calm, wild) = (figures(&[10_000, 10_100, 10_200]), figures(&[5_000, 10_000, 15_000]));
         assert!(calm.runs < 40 && wild.runs > 100, "{calm:?} {wild:?}");
         assert_eq!(
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn patience_ends() {
+    fn timing_stops_at_the_time_limit() {
         assert_eq!(figures(&[400_000, 900_000]).runs, 4);
     }
 }

@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_are_cut_between_statements() {
+    fn statement_boundary_is_found() {
         let engine = engine();
         let cut = |text: &'static str, first| {
             boundary(&engine, text, first).map(|cut| text.split_at(cut))
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_was_interrupted_is_cut_like_others() {
+    fn statement_boundary_is_found_after_an_interrupt() {
         let context = Context::new(RunSettings::silent(RunMode::Run));
         let engine = build(&language(), &context).expect("an engine");
         context.interrupt_flag().store(true, std::sync::atomic::Ordering::Relaxed);
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn only_returns_outside_functions_count() {
+    fn only_return_statements_outside_functions_are_found() {
         let engine = engine();
         let is_found = |text| returns(&engine.compile(text).expect("a script"));
         assert!(is_found("return 5;") && is_found("if true { return; }"));

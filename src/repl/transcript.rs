@@ -129,7 +129,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn inputs_stand_at_their_lines() {
+    fn transcript_numbers_the_lines_of_inputs() {
         let mut transcript = Transcript::new(".".into());
         assert_eq!(transcript.add(transcript.typed("let a = 1;")), 0);
         assert_eq!(transcript.add(transcript.typed("fn f() {\n  2\n}")), 1);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_did_not_work_is_blank_later() {
+    fn failed_input_is_blank_in_later_programs() {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("let a = oops();"));
         transcript.mark_last_failed();
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn places_in_files_are_counted_in_the_file() {
+    fn errors_in_files_are_located_in_the_file() {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed("1"));
         transcript.add(Program::named("beam.rhai", "let a = 1;\nlet b = ;"));
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_very_long_session_counts_anew() {
+    fn line_numbers_restart_after_the_maximum() {
         let mut transcript = Transcript::new(".".into());
         transcript.add(transcript.typed(&"\n".repeat(MOST_LINES - 1)));
         assert_eq!(transcript.add(transcript.typed("1\n2")), 0);

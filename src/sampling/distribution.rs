@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn moments_are_those_of_the_distribution() {
+    fn sampled_moments_agree_with_the_distribution() {
         let points = sobol(1 << 15, 1, 5).remove(0);
         let one_percent = |found: f64, expected: f64| (found - expected).abs() < 0.01 * expected;
         let e = std::f64::consts::E;

@@ -25,7 +25,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_part_of_each_coordinate_has_one_point() {
+    fn latin_hypercube_has_one_point_in_each_stratum() {
         let columns = latin_hypercube(50, 3, 4);
         assert_eq!(columns.len(), 3);
         for values in &columns {

@@ -106,7 +106,7 @@ mod tests {
 
     /// Values of Abramowitz and Stegun, section 26.5, and check values of Wichura for the probabilities 0.25, 0.001 and 1e-20.
     #[test]
-    fn values_are_those_of_tables() {
+    fn normal_quantiles_agree_with_published_tables() {
         for (probability, expected) in [
             (0.5, 0.0),
             (0.25, -0.674_489_750_196_081_7),

@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn equal_seeds_give_equal_numbers_strictly_between_zero_and_one() {
+    fn equal_seeds_give_equal_numbers_between_zero_and_one() {
         let drawn = |seed| -> Vec<f64> {
             let mut random = Random::seeded(seed);
             (0..10_000).map(|_| random.unit()).collect()
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shuffled_array_has_the_same_values_in_any_order() {
+    fn shuffle_permutes_values_uniformly() {
         let mut random = Random::seeded(7);
         let mut places = [0_usize; 5];
         for _ in 0..5000 {

@@ -27,7 +27,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_block_exchanges_one_coordinate_after_the_other() {
+    fn saltelli_block_exchanges_one_coordinate_at_a_time() {
         let columns = saltelli(4, 2, 1);
         for block in 0..4 {
             let point = |at: usize| [columns[0][4 * block + at], columns[1][4 * block + at]];

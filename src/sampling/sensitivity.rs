@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn indices_of_ishigami_are_the_known_ones() {
+    fn saltelli_indices_of_the_ishigami_function_are_exact() {
         let columns = saltelli(4096, 3, 1);
         let results: Vec<f64> = (0..columns[0].len())
             .map(|at| ishigami(&[0, 1, 2].map(|c: usize| columns[c][at])))
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fine_grid_has_the_same_indices() {
+    fn grid_indices_of_the_ishigami_function_are_exact() {
         let lengths = [40, 41, 42];
         let middle = |at: usize, of: usize| (at as f64 + 0.5) / of as f64;
         let point = |row: usize| [row / (41 * 42), row / 42 % 41, row % 42];
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn groups_of_any_points_find_the_first_order() {
+    fn rank_indices_give_the_first_order_indices() {
         let columns = latin_hypercube(20_000, 3, 1);
         let results: Vec<f64> =
             (0..20_000).map(|at| ishigami(&[0, 1, 2].map(|c: usize| columns[c][at]))).collect();
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_vary_is_explained_by_nothing() {
+    fn constant_results_have_no_sensitivity_indices() {
         assert!(grid_indices(&[2, 2], &[1.0; 4]).is_none());
         assert!(saltelli_indices(1, &[1.0; 6]).is_none());
         let blocks = |count| saltelli_indices(1, &[0.0, 1.0, 0.5].repeat(count));

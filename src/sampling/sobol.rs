@@ -109,14 +109,14 @@ mod tests {
     }
 
     #[test]
-    fn points_are_those_of_joe_and_kuo() {
+    fn sobol_points_agree_with_joe_and_kuo() {
         assert_eq!(plain(6, 0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875]);
         assert_eq!(plain(6, 1), [0.0, 0.5, 0.25, 0.75, 0.375, 0.875]);
         assert_eq!(plain(6, 2), [0.0, 0.5, 0.25, 0.75, 0.625, 0.125]);
     }
 
     #[test]
-    fn a_power_of_two_of_points_has_one_in_each_part_of_each_coordinate() {
+    fn sobol_points_are_stratified_for_powers_of_two() {
         for values in sobol(256, MOST_DIMENSIONS, 3) {
             let mut parts: Vec<usize> = values.iter().map(|x| (x * 256.0) as usize).collect();
             parts.sort_unstable();
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn an_integral_is_found_better_than_by_random_points() {
+    fn sobol_integration_error_is_small() {
         let columns = sobol(4096, 4, 1);
         let product = |at: usize| columns.iter().map(|values| 2.0 * values[at]).product::<f64>();
         let mean = (0..4096).map(product).sum::<f64>() / 4096.0;

@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn no_link_is_followed_anywhere() {
+    fn folder_operations_follow_no_links() {
         let (_home, own, other) = home();
         symlink(&other, own.join("way")).unwrap();
         symlink(other.join("secret"), own.join("file")).unwrap();
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn prepared_names_of_partial_files_are_neither_followed_nor_written() {
+    fn existing_links_named_as_partial_files_are_not_followed() {
         let (_home, own, other) = home();
         for count in 0..TRIES - 2 {
             let name = format!(".a.{}-{count}.part", std::process::id());
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_kept_by_a_name_that_nothing_else_has() {
+    fn kept_file_gets_an_unused_name() {
         let (_home, own, _) = home();
         let folder = Folder::open(&own).unwrap();
         fs::write(own.join("a"), "old").unwrap();
@@ -226,7 +226,7 @@ mod tests {
 
     /// While files are read and written, another thread repeatedly replaces folders and files by links.
     #[test]
-    fn races_do_not_lead_out() {
+    fn concurrent_link_replacement_does_not_escape_the_folder() {
         let (home, own, other) = home();
         fs::create_dir(own.join("way")).unwrap();
         fs::write(own.join("way/secret"), "mine").unwrap();

@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_read_up_to_a_length() {
+    fn files_above_the_length_limit_are_rejected() {
         let home = tempfile::tempdir().unwrap();
         let path = home.path().join("a");
         std::fs::write(&path, "12345").unwrap();
@@ -62,7 +62,7 @@ mod tests {
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn pipes_devices_and_files_without_an_end_are_refused_at_once() {
+    fn pipes_devices_and_huge_files_are_rejected_at_once() {
         use std::time::{Duration, Instant};
         let home = tempfile::tempdir().unwrap();
         let pipe = home.path().join("pipe");

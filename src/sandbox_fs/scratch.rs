@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_goes_with_its_owner_and_what_a_killed_one_left_goes_later() {
+    fn scratch_folder_is_deleted_by_its_owner_or_a_later_run() {
         let home = tempfile::tempdir().unwrap();
         let living = Scratch::within(home.path()).unwrap();
         fs::create_dir(living.path().join("deep")).unwrap();

@@ -154,7 +154,7 @@ mod tests {
     use std::time::SystemTime;
 
     #[test]
-    fn a_file_that_is_not_placed_leaves_nothing_and_changes_nothing() {
+    fn dropped_prepared_file_leaves_the_folder_unchanged() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         folder.write_atomic(Path::new("a"), b"old").unwrap();
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_program_left_is_removed_and_nothing_else() {
+    fn only_abandoned_partial_files_are_removed() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let long_ago = SystemTime::now() - 2 * ABANDONED;
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kept_file_gets_its_name_back_unless_it_is_taken() {
+    fn kept_file_regains_its_name_unless_it_is_in_use() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         folder.write_atomic(Path::new("a"), b"theirs").unwrap();

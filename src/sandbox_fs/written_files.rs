@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn only_files_just_as_they_were_written_may_be_replaced() {
+    fn only_files_with_the_recorded_content_may_be_replaced() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let write = |content: &[u8]| folder.write_atomic(Path::new("a b"), content).unwrap();
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_killed_between_the_note_and_the_file_knows_both_contents() {
+    fn crash_between_journal_and_file_leaves_both_contents_known() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let mut record = WrittenFiles::of(&folder);
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn what_another_run_has_written_meanwhile_is_known() {
+    fn records_of_concurrent_runs_are_read() {
         let home = tempfile::tempdir().unwrap();
         let folder = Folder::open(home.path()).unwrap();
         let [mut first, mut second] = [WrittenFiles::of(&folder), WrittenFiles::of(&folder)];

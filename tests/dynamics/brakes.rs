@@ -141,7 +141,7 @@ fn going_back_keeps_every_bit() {
 }
 
 #[test]
-fn unsupported_scenes_and_negative_limits_are_refused() {
+fn unsupported_scenes_and_negative_limits_are_rejected() {
     let scene = braked(Schedule::constant(2.0).unwrap(), 1e-4);
     let started = Simulation::start(scene.clone(), settings(Method::FourthOrder, 0.1));
     assert!(matches!(started, Err(SimulationError::FrictionMethod { .. })));

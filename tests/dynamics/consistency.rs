@@ -82,7 +82,7 @@ fn touching() -> Scene {
 }
 
 #[test]
-fn the_tangent_of_contact_with_friction_is_the_derivative_of_its_forces() {
+fn tangent_of_frictional_contact_is_the_derivative_of_its_forces() {
     let mut random = Random(31);
     for _ in 0..40 {
         let mut model = System::assemble(&touching()).unwrap();

@@ -149,7 +149,7 @@ fn a_disc_rolls_down_an_inclined_beam() {
 
 /// A cylinder on two others rests if the coefficient of friction is above `2 - √3`, the tangent of 15°.
 #[test]
-fn a_pile_of_three_cylinders_stands_above_the_critical_coefficient_of_friction() {
+fn pile_of_cylinders_stands_above_critical_friction() {
     let (radius, stiffness) = (0.5, 1e6);
     let rest = |friction: f64, end: f64| {
         let mut scene = Scene::new("pile");

@@ -64,7 +64,7 @@ struct Report {
 }
 
 #[test]
-fn no_input_breaks_the_language() {
+fn no_input_causes_a_crash_of_the_language() {
     let corpus = Corpus::load();
     if let Some(seed) = number_in("WITHY_SEED") {
         println!("{}\n", corpus.input(seed));

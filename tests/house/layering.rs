@@ -140,24 +140,24 @@ fn upwards(path: &Path, root: &str) -> Option<String> {
 }
 
 /// Boundaries between parts of the code.
-pub struct Walls<'w> {
+pub struct DependencyRules<'r> {
     /// Word for a part in messages.
     pub part: &'static str,
     /// Folder of the crate with the parts.
     pub root: &'static str,
     /// Part of a file, or `None` for files outside all parts.
-    pub of_file: &'w dyn Fn(&Path) -> Option<String>,
+    pub of_file: &'r dyn Fn(&Path) -> Option<String>,
     /// Paths that precede names of parts.
     pub paths: &'static [&'static str],
     /// Part that a name refers to.
-    pub of_name: &'w dyn Fn(&str) -> String,
+    pub of_name: &'r dyn Fn(&str) -> String,
     /// Returns true if a part may use another one, or `None` for a part that is in no table.
-    pub may_use: &'w dyn Fn(&str, &str) -> Option<bool>,
+    pub may_use: &'r dyn Fn(&str, &str) -> Option<bool>,
 }
 
-impl Walls<'_> {
+impl DependencyRules<'_> {
     /// Forbidden uses, as `file:line: part uses part`.
-    pub fn breaches(&self, files: &[(PathBuf, String)]) -> Vec<String> {
+    pub fn violations(&self, files: &[(PathBuf, String)]) -> Vec<String> {
         let mut found = Vec::new();
         for (path, text) in files {
             let Some(own) = (self.of_file)(path) else { continue };
@@ -182,8 +182,8 @@ impl Walls<'_> {
 }
 
 /// Uses of layers that the table does not allow.
-fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
-    let walls = Walls {
+fn violations_in(files: &[(PathBuf, String)]) -> Vec<String> {
+    let rules = DependencyRules {
         part: "layer",
         root: "",
         of_file: &|path| Some(layer(path)),
@@ -191,17 +191,17 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
         of_name: &str::to_owned,
         may_use: &|own, other| Some(allowed(own)?.contains(&other)),
     };
-    walls.breaches(files)
+    rules.violations(files)
 }
 
 #[test]
 fn layers_use_only_layers_to_their_right() {
-    let found = trespasses(&sources());
+    let found = violations_in(&sources());
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
 /// Submodules of the model, each with the submodules that it may use.
-const ROOMS: &[(&str, &[&str])] = &[
+const SUBMODULES: &[(&str, &[&str])] = &[
     (
         "queries",
         &[
@@ -233,34 +233,45 @@ const ROOMS: &[(&str, &[&str])] = &[
 ];
 
 /// Submodule of a file of the model, given by its folder, or by its name if it has the name of a folder.
-fn room(path: &Path) -> Option<String> {
+fn submodule(path: &Path) -> Option<String> {
     let first = in_crate(path).strip_prefix("system").ok()?.components().next()?;
     let name = first.as_os_str().to_str()?.trim_end_matches(".rs").to_owned();
     (name != "mod").then_some(name)
 }
 
 /// Uses between submodules that the table does not allow. `exports` are the submodules of names that the model re-exports.
-fn strangers(files: &[(PathBuf, String)], exports: &[(String, String)]) -> Vec<String> {
+fn submodule_violations_in(
+    files: &[(PathBuf, String)],
+    exports: &[(String, String)],
+) -> Vec<String> {
     let of_name = |name: &str| {
         let of = exports.iter().find(|(export, _)| export == name);
-        of.map_or_else(|| name.to_owned(), |(_, room)| room.clone())
+        of.map_or_else(|| name.to_owned(), |(_, submodule)| submodule.clone())
     };
     let may_use = |own: &str, other: &str| {
-        let (_, allowed) = ROOMS.iter().find(|(name, _)| *name == own)?;
+        let (_, allowed) = SUBMODULES.iter().find(|(name, _)| *name == own)?;
         Some(allowed.contains(&other))
     };
     let (of_name, may_use) = (&of_name, &may_use);
     let paths = &["crate::system::"];
-    Walls { part: "room", root: "system", of_file: &room, paths, of_name, may_use }.breaches(files)
+    DependencyRules {
+        part: "submodule",
+        root: "system",
+        of_file: &submodule,
+        paths,
+        of_name,
+        may_use,
+    }
+    .violations(files)
 }
 
 /// Names that `model/mod.rs` re-exports, with their submodules.
 fn exports(text: &str) -> Vec<(String, String)> {
-    let of_room = |(room, _): &(&str, &[&str])| {
-        let names = named_after(text, &format!("pub use {room}::"));
-        names.into_iter().map(|(_, name)| (name, (*room).to_owned())).collect::<Vec<_>>()
+    let of_submodule = |(submodule, _): &(&str, &[&str])| {
+        let names = named_after(text, &format!("pub use {submodule}::"));
+        names.into_iter().map(|(_, name)| (name, (*submodule).to_owned())).collect::<Vec<_>>()
     };
-    ROOMS.iter().flat_map(of_room).collect()
+    SUBMODULES.iter().flat_map(of_submodule).collect()
 }
 
 #[test]
@@ -269,22 +280,22 @@ fn submodules_of_the_model_have_no_cyclic_dependencies() {
     let (_, handed_on) = files.iter().find(|(path, _)| path.ends_with("system/mod.rs")).unwrap();
     let exports = exports(handed_on);
     assert!(exports.contains(&("AxialImpact".to_owned(), "sliders".to_owned())), "{exports:?}");
-    let found = strangers(&files, &exports);
+    let found = submodule_violations_in(&files, &exports);
     assert!(found.is_empty(), "{}", found.join("\n"));
-    for (at, (room, allowed)) in ROOMS.iter().enumerate() {
-        let later = |name: &&str| ROOMS[at + 1..].iter().any(|(other, _)| other == name);
-        assert!(allowed.iter().all(later), "{room} may use one that may use it");
+    for (at, (submodule, allowed)) in SUBMODULES.iter().enumerate() {
+        let later = |name: &&str| SUBMODULES[at + 1..].iter().any(|(other, _)| other == name);
+        assert!(allowed.iter().all(later), "{submodule} may use one that may use it");
     }
     let bodies = crates()[0].join("system/bodies/body.rs");
     let text =
         "// crate::system::scene\nuse crate::system::{\n    System, errors::finite};\n".to_owned();
-    assert_eq!(strangers(&[(bodies.clone(), text)], &exports).len(), 2);
+    assert_eq!(submodule_violations_in(&[(bodies.clone(), text)], &exports).len(), 2);
     let text =
         "use super::body::Body;\nuse super::super::{\n    System, errors::finite};\n".to_owned();
-    assert_eq!(strangers(&[(bodies, text)], &exports).len(), 2);
+    assert_eq!(submodule_violations_in(&[(bodies, text)], &exports).len(), 2);
     let beside = crates()[0].join("system/mechanism.rs");
     let text = "use super::state::MotionState;\nuse super::scene::Scene;\n".to_owned();
-    let found = strangers(&[(beside, text)], &exports);
+    let found = submodule_violations_in(&[(beside, text)], &exports);
     assert!(found.len() == 1 && found[0].ends_with("rs:2: mechanism uses scene"), "{found:?}");
 }
 
@@ -306,7 +317,7 @@ fn model_and_simulation_have_at_most_ten_private_fields() {
 fn forbidden_dependency_is_detected() {
     let beams = crates()[0].join("beams/mesh.rs");
     let text = "use crate::geometry::Vec2;\n// crate::system is fine here\nuse crate::integrators::Stage;\n";
-    let found = trespasses(&[(beams, text.to_owned())]);
+    let found = violations_in(&[(beams, text.to_owned())]);
     assert!(
         found.len() == 1 && found[0].ends_with("mesh.rs:3: beams uses integrators"),
         "{found:?}"
@@ -336,7 +347,7 @@ fn names_in_nested_use_lists_are_found() {
 }
 
 /// Names of beams, other than stations, that joints and loads use.
-fn intrusions(files: &[(PathBuf, String)]) -> Vec<String> {
+fn beam_names_used_in(files: &[(PathBuf, String)]) -> Vec<String> {
     let of_beams = |path: &Path, text: &str| -> Vec<(usize, String)> {
         let upwards = upwards(path, "").into_iter().map(|up| format!("{up}beams::"));
         let paths = upwards.chain(["crate::beams::".to_owned()]);
@@ -354,9 +365,9 @@ fn intrusions(files: &[(PathBuf, String)]) -> Vec<String> {
 
 #[test]
 fn joints_and_loads_use_only_the_stations_of_a_beam() {
-    let found = intrusions(&sources());
+    let found = beam_names_used_in(&sources());
     assert!(found.is_empty(), "{}", found.join("\n"));
     let joint = crates()[0].join("joints/joint.rs");
     let text = "use crate::beams::{Mesh, Station};\nuse super::super::beams::Section;\nuse crate::{beams::Mesh};\n";
-    assert_eq!(intrusions(&[(joint, text.to_owned())]).len(), 3);
+    assert_eq!(beam_names_used_in(&[(joint, text.to_owned())]).len(), 3);
 }

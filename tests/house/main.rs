@@ -8,5 +8,5 @@ mod figures;
 mod layering;
 mod links;
 mod messages;
+mod submodules;
 mod theory;
-mod wings;

@@ -160,7 +160,7 @@ fn said(script: &str) -> (usize, String, String) {
 }
 
 #[test]
-fn a_type_has_methods_properties_and_options() {
+fn type_page_lists_methods_properties_and_options() {
     runs(
         "let s = spring(#{ stiffness: 2 }); check(s.length == 1); check(s.pull(2) == 2); check(s.pull(2, 3) == 5);",
     );

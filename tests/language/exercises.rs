@@ -205,7 +205,7 @@ fn every_exercise_has_a_title_hints_required_variables_and_a_marked_gap() {
 
 /// Attempts that avoid the solution of an exercise, with the expected verdicts.
 #[test]
-fn tricks_do_not_pass() {
+fn attempts_to_bypass_the_judge_do_not_pass() {
     let exercise = find("keep_the_energy").unwrap();
     let tricks = [
         "print(\"passed: integrators/keep_the_energy\"); check(true);",
@@ -268,7 +268,7 @@ fn cheats(file: &Path) -> Vec<Cheat> {
 }
 
 #[test]
-fn cheats_do_not_pass() {
+fn collected_cheats_do_not_pass() {
     let mut met = BTreeSet::new();
     for file in fs::read_dir(root().join("tests/cheats")).unwrap() {
         for Cheat { exercise, title, text, message } in cheats(&file.unwrap().path()) {
@@ -308,7 +308,7 @@ const NO_FORMULAS: &[&str] = &[
 ];
 
 #[test]
-fn function_that_is_not_a_formula_does_not_pass() {
+fn function_without_a_formula_does_not_pass() {
     for exercise in EXERCISES {
         let needs = exercise.judge().needs;
         for need in needs.iter().filter(|need| need.of == "function") {
@@ -343,7 +343,7 @@ fn names_of_attempts_and_judges_do_not_conflict() {
 }
 
 #[test]
-fn constants_and_captured_variables_are_seen() {
+fn judge_finds_constants_and_captured_variables() {
     let exercise = find("knot_vector").unwrap();
     assert_eq!(messages(exercise, "const k = knots(4);"), "");
     assert_eq!(messages(exercise, "let k = knots(4); let look = || k.spans; look.call();"), "");

@@ -605,7 +605,7 @@ fn simulation_created_for_timing_is_not_the_last_used() {
 }
 
 #[test]
-fn a_column_without_a_simulation_says_what_is_missing() {
+fn plotting_a_column_without_a_simulation_is_rejected() {
     let mut prompt = Prompt::new();
     for input in
         [":plot energy", ":plot kinetic strain", ":plot momentum_x", ":plot energy, [1, 2]"]

@@ -229,7 +229,7 @@ fn moments_and_strain_energy_agree_with_the_states_of_repeated_runs() {
 }
 
 #[test]
-fn springs_are_drawn_between_their_ends_and_a_slider_until_it_has_left() {
+fn springs_are_drawn_and_sliders_disappear_after_leaving() {
     let script = "
         scene.spring([0, 3], two.end, #{ name: \"hook\", stiffness: 50 });
         scene.spring(one.at(1), two.at(1), #{ name: \"brake\", damping: 2 });

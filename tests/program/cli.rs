@@ -36,7 +36,7 @@ fn first_line(output: &Output) -> String {
 }
 
 #[test]
-fn a_good_script_exits_with_0_and_prints() {
+fn valid_script_prints_and_exits_with_0() {
     let output = run("print(1/20); check(true, \"fine\");");
     assert_eq!(code(&output), 0, "{}", said(&output));
     assert_eq!(output.stdout, b"0.05\n");
@@ -44,7 +44,7 @@ fn a_good_script_exits_with_0_and_prints() {
 }
 
 #[test]
-fn a_failed_check_exits_with_1_and_the_script_goes_on() {
+fn failed_check_exits_with_1_after_the_whole_script() {
     let output = run("\ncheck(1 > 2, \"one is more\");\nprint(\"after\");");
     assert_eq!(code(&output), 1);
     assert_eq!(output.stdout, b"after\n");
@@ -88,7 +88,7 @@ fn files_that_cannot_be_read_are_named() {
 }
 
 #[test]
-fn the_help_names_the_commands_and_the_exit_codes() {
+fn help_lists_commands_and_exit_codes() {
     let output = withy().arg("--help").output().expect("withy starts");
     assert_eq!(code(&output), 0);
     let help = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -105,7 +105,7 @@ fn a_wrong_option_exits_with_2() {
 }
 
 #[test]
-fn check_builds_without_printing_or_judging() {
+fn check_command_neither_prints_nor_evaluates_checks() {
     let (folder, file) = script("print(1); check(false);");
     let output =
         withy().arg("check").arg(&file).current_dir(&folder).output().expect("withy starts");
@@ -318,7 +318,7 @@ const SPINNING: &str = "let scene = new_scene(\"spin\");\n\
     let sim = scene.start(#{ dt: 0.1 });\nsim.run_to(1);\n";
 
 #[test]
-fn the_error_of_a_run_is_estimated_on_request_and_changes_nothing_else() {
+fn run_error_is_estimated_on_request_without_other_changes() {
     let (folder, file) = script(&format!("{SPINNING}print(sim.position(rod.end));"));
     let with = |option: &[&str]| {
         let mut command = withy();

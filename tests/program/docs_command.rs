@@ -19,7 +19,7 @@ fn shown(output: &Output) -> String {
 }
 
 #[test]
-fn without_a_name_there_is_an_overview() {
+fn docs_without_a_name_print_an_overview() {
     let overview = shown(&docs(&[]));
     for heading in ["The language\n", "  loads: ", "  arrays: ", "  closures: "] {
         assert!(overview.contains(heading), "{heading}\n{overview}");
@@ -28,7 +28,7 @@ fn without_a_name_there_is_an_overview() {
 }
 
 #[test]
-fn a_name_shows_its_page_without_colours_in_a_pipe() {
+fn docs_of_a_name_have_no_colours_in_a_pipe() {
     let page = shown(&docs(&["simulation.run_to"]));
     assert!(page.starts_with("simulation.run_to(t)\nTakes steps until a time"), "{page}");
     assert!(page.contains("\nExample\n    "), "{page}");

@@ -48,7 +48,7 @@ fn inputs_are_set_in_scripts_functions_and_imported_files() {
 }
 
 #[test]
-fn values_that_are_not_allowed_are_refused_before_the_run() {
+fn invalid_input_values_are_rejected_before_the_run() {
     let home = boom();
     for (setting, message, place) in [
         ("load=abc", "'load' must be a number (0 to 500 N), got \"abc\"", "boom.rhai:2:12"),
@@ -72,7 +72,7 @@ fn values_that_are_not_allowed_are_refused_before_the_run() {
 }
 
 #[test]
-fn a_setting_without_an_input_is_refused_after_the_run_if_names_are_computed() {
+fn setting_without_an_input_is_rejected() {
     let home = folder(&[("boom.rhai", "for name in [\"a\", \"b\"] { print(input(name, 1)); }")]);
     assert_eq!(run(home.path(), &["b=2"]).1, "1\n2\n");
     let (code, printed, said) = run(home.path(), &["c=2"]);
@@ -81,7 +81,7 @@ fn a_setting_without_an_input_is_refused_after_the_run_if_names_are_computed() {
 }
 
 #[test]
-fn an_input_of_another_branch_may_be_set() {
+fn input_of_an_unused_branch_may_be_set() {
     let text = "if input(\"fine\", false) { print(input(\"spans\", 2 * 4)); }";
     let home = folder(&[("boom.rhai", text)]);
     assert_eq!(run(home.path(), &["spans=3"]).0, 0);

@@ -156,7 +156,7 @@ fn place(range: &Value) -> String {
 }
 
 #[test]
-fn the_server_states_what_it_can_do_and_ends_on_request() {
+fn server_states_its_capabilities_and_ends_on_request() {
     let mut client = Client::start();
     assert_eq!(client.refusal("textDocument/hover", json!({})), -32002);
     let about = client.request("initialize", json!({ "capabilities": {} }))["result"].clone();
@@ -188,7 +188,7 @@ fn without_shutdown_the_exit_code_is_1() {
 }
 
 #[test]
-fn errors_are_shown_at_their_place_until_they_are_mended() {
+fn errors_are_shown_at_their_position_until_corrected() {
     let mut client = Client::initialized();
     client.open("a.rhai", "let a = 1;\r\n  let größe𝛏 = \"𝛏\"; sqr(a);\r\n");
     let found = client.diagnostics("a.rhai", 1);
@@ -239,7 +239,7 @@ fn errors_are_those_of_the_command_check() {
 }
 
 #[test]
-fn an_error_in_an_imported_file_is_shown_at_the_import_until_the_file_is_saved() {
+fn error_in_an_imported_file_is_shown_at_the_import() {
     let mut client = Client::initialized();
     let part = client.folder.path().join("part.rhai");
     fs::write(&part, "fn f() {\n  sqr(2)\n}\n").unwrap();
@@ -265,7 +265,7 @@ fn pitfalls_are_warnings() {
 }
 
 #[test]
-fn a_check_that_never_ends_does_not_delay_answers_and_ends_with_the_next_version() {
+fn endless_check_does_not_delay_answers_and_ends_after_edits() {
     let mut client = Client::initialized();
     client.open("long.rhai", "let sum = 0;\nloop { sum += 1; }\n");
     let hover = client.ask_at("hover", "sq‸rt(2)");
@@ -306,7 +306,7 @@ fn members_options_and_own_names_are_completed() {
 }
 
 #[test]
-fn a_colon_offers_names_only_after_a_module() {
+fn colon_offers_completions_only_after_a_module() {
     let mut client = Client::initialized();
     let mut typed = |text: &str| {
         client.open("typed.rhai", text);
@@ -399,7 +399,7 @@ fn definitions_are_found_in_the_file_in_imports_and_in_the_library() {
 }
 
 #[test]
-fn wrong_requests_are_refused_and_the_server_goes_on() {
+fn invalid_requests_are_rejected_and_the_server_continues() {
     let mut client = Client::initialized();
     assert_eq!(client.refusal("textDocument/rename", json!({})), -32601);
     assert_eq!(client.refusal("textDocument/hover", json!({ "position": 3 })), -32602);
@@ -457,7 +457,7 @@ fn a_closed_document_has_no_diagnostics() {
 }
 
 #[test]
-fn the_help_says_what_the_command_is() {
+fn help_of_the_lsp_command_describes_it() {
     let output =
         Command::new(env!("CARGO_BIN_EXE_withy")).args(["lsp", "--help"]).output().unwrap();
     let help = String::from_utf8(output.stdout).unwrap();

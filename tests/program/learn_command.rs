@@ -169,7 +169,7 @@ fn hints_come_one_by_one_and_then_the_solution() {
 }
 
 #[test]
-fn a_reset_keeps_the_attempt_and_says_where() {
+fn reset_keeps_the_attempt_and_prints_its_location() {
     let class = classroom();
     said(class.path(), &[]);
     let file = class.path().join("withy-exercises").join(EXERCISES[0].file());

@@ -66,7 +66,7 @@ fn attempt(exercise: &Exercise) -> String {
 }
 
 #[test]
-fn a_student_goes_through_all_exercises() {
+fn all_exercises_can_be_completed_in_the_terminal() {
     let mut student = Student::watches("rows 70 cols 110", "");
     let count = EXERCISES.len();
     for (index, exercise) in EXERCISES.iter().enumerate() {

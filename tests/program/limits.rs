@@ -156,7 +156,7 @@ fn recursion_of_every_kind_is_an_error_and_not_a_crash() {
 }
 
 #[test]
-fn a_deeper_recursion_can_be_allowed() {
+fn recursion_limit_can_be_raised() {
     let script = "fn f(n) { if n == 0 { 0 } else { 1 + f(n - 1) } } print(f(700));";
     expect(&run(script, &[]), &["too deeply"]);
     assert_eq!(run(script, &["--max-depth", "900"]).stdout, b"700\n");
@@ -411,7 +411,7 @@ fn messages_and_journals_count_towards_the_limit_of_written_output() {
 }
 
 #[test]
-fn a_script_that_made_thousands_of_simulations_ends_soon_after_it_is_stopped() {
+fn stopped_script_with_thousands_of_simulations_ends_soon() {
     let script = format!(
         "{SCENE}let sim = scene.start(#{{ dt: 0.1 }}); sim.run_to(2); let all = []; loop {{ all.push(sim.fork()); }}"
     );
@@ -511,7 +511,7 @@ fn output_that_cannot_be_written_is_an_error() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn pipes_devices_and_enormous_files_are_refused_at_once() {
+fn pipes_devices_and_huge_files_are_rejected_at_once() {
     let home = Home::with(&[
         ("pipe_main.rhai", "import \"pipe\" as p;"),
         ("huge_main.rhai", "import \"huge\" as p;"),

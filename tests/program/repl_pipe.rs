@@ -45,7 +45,7 @@ let sim = scene.start(#{ dt: 0.1 });
 ";
 
 #[test]
-fn values_are_printed_and_nothing_else() {
+fn piped_session_prints_only_values() {
     let (code, replies, complaints) = piped("let a = 2;\na ^ 3\n\"x\"\n[1, 2.5]\nans.len\n");
     assert_eq!((code, &*replies, &*complaints), (0, "8\n\"x\"\n[1, 2.5]\n2\n", ""));
     assert_eq!(piped(""), (0, String::new(), String::new()));
@@ -59,7 +59,7 @@ fn lines_of_an_unfinished_input_are_joined() {
 }
 
 #[test]
-fn words_of_other_prompts_quit_and_show_help() {
+fn quit_and_help_words_of_other_prompts_are_accepted() {
     for word in ["quit", "exit", "quit()", "exit();"] {
         let message = piped(&format!("1\n{word}\nnonsense\n"));
         assert_eq!(message, (0, "1\n".into(), String::new()), "{word}");

@@ -154,7 +154,7 @@ fn history_is_kept_between_sessions() {
 }
 
 #[test]
-fn a_script_may_come_first_and_pictures_are_drawn() {
+fn session_starts_with_a_script_and_draws_pictures() {
     let folder = tempfile::tempdir().unwrap();
     let script = "let scene = new_scene(\"spin\");\n\
         let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 10 });\n\

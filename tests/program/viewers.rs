@@ -110,7 +110,7 @@ fn asked(browser: &Path, page: &Path, script: &str, options: &[&str]) -> (Value,
 
 /// In the width of a phone the page is not cut off, and rarely used controls are behind a button.
 #[test]
-fn a_narrow_page_is_not_cut() {
+fn viewer_page_fits_narrow_windows() {
     let Some(browser) = browser() else { return };
     let folder = folder();
     let output = withy(folder.path(), &["view", "swing.rhai", "--no-open"]);

@@ -290,7 +290,7 @@ fn solve_kinked(state: &mut State, law: &dyn SlidingLaw) {
 }
 
 #[test]
-fn a_contact_on_a_kinked_axis_keeps_momenta_and_energy_with_that_of_the_kink() {
+fn contact_on_a_kinked_axis_conserves_momenta_and_total_energy() {
     let laws: [&dyn SlidingLaw; 2] = [&Kinked, &Frozen];
     let states = states().into_iter().filter(|state| state.kink.is_some());
     for (mut state, law) in states.flat_map(|state| laws.map(|law| (state.clone(), law))) {

@@ -106,7 +106,7 @@ fn the_mean_force_of_a_step_changes_the_momentum_of_the_bead() {
 
 /// A step of zero length has the present force.
 #[test]
-fn the_first_row_has_the_present_force() {
+fn first_history_row_has_the_present_contact_force() {
     for rule in SLIDING_RULES {
         let scene = reference_scene("P7b", 4, rule.rule);
         let mut simulation = Simulation::start(scene, settings(Method::default(), 1e-5)).unwrap();

@@ -98,7 +98,7 @@ fn assert_dissipation_grows(label: &str, simulation: &Simulation) {
 
 /// Positions along an incline (closed form): the block slides back at 30° and stays at 15°.
 #[test]
-fn a_block_on_an_incline_turns_back_or_stays() {
+fn block_on_an_incline_slides_back_or_sticks() {
     let places = [
         (30.0, [0.2670714761, 0.2050865127, -0.3623985771, -3.2645841843]),
         (15.0, [0.3318207956, 0.3716273973, 0.3716273973, 0.3716273973]),

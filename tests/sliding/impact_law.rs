@@ -63,7 +63,7 @@ fn springs_and_dampers_to_the_ground_take_no_impulse() {
 }
 
 #[test]
-fn impulse_at_a_corner_of_a_frame_does_not_depend_on_its_springs() {
+fn corner_impulse_does_not_depend_on_springs_of_the_frame() {
     for dt in [0.028, 0.007] {
         let mut scene = Scene::new("frame");
         let mesh = Mesh::bspline(4, 3, 2).unwrap();

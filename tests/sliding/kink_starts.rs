@@ -103,7 +103,7 @@ pub fn rms(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 #[test]
-fn carts_press_on_stiff_bridges_as_with_the_conserving_rule() {
+fn kinked_and_conserving_rules_give_equal_cart_forces_on_stiff_bridges() {
     // If kinks started unloaded, the extremes would differ by 1. A start within a span is a sudden load, whose waves are not resolved.
     let meshes = [(8, 1e-3), (16, 1e-2), (16, 1e-3), (64, 1e-2), (64, 1e-3), (128, 1e-2)];
     let mut most = 0.0_f64;

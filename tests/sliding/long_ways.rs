@@ -29,7 +29,7 @@ fn long_way(mesh: &Mesh) -> Scene {
 }
 
 #[test]
-fn a_bead_passes_a_thousand_element_boundaries_in_three_or_four_iterations_a_step() {
+fn bead_passing_element_boundaries_needs_few_iterations() {
     let bspline = |continuity| Mesh::bspline(1010, 3, continuity).unwrap();
     let cases = [
         ("cubic C2", bspline(2), 0.01),

@@ -255,7 +255,7 @@ const SHOT: [(f64, f64); 6] = [
 ];
 
 #[test]
-fn a_sleeve_shoots_out_a_bent_rod() {
+fn bent_rod_ejected_from_a_sleeve_follows_the_reference() {
     let is_long = std::env::var_os("WITHY_LONG").is_some();
     let runs = [(240, 0.0025, 2.2e-3), (480, 0.0025, 1.3e-3), (960, 0.00125, 1e-3)];
     for (spans, dt, bound) in runs.into_iter().take(if is_long { 3 } else { 2 }) {
@@ -373,7 +373,7 @@ fn pushed_out([length, speed, gravity]: [f64; 3], times: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn a_rod_that_is_pushed_out_of_a_sleeve_deflects_as_a_cantilever_of_growing_length() {
+fn rod_pushed_out_of_a_sleeve_deflects_as_a_cantilever() {
     let (length, speed, gravity) = (0.5, 1.0, 1e-2);
     let times = [0.1, 0.2, 0.3, 0.4, 0.5];
     let expected = pushed_out([length, speed, gravity], &times);
@@ -406,7 +406,7 @@ fn a_rod_that_is_pushed_out_of_a_sleeve_deflects_as_a_cantilever_of_growing_leng
 }
 
 #[test]
-fn a_run_ends_with_the_beam_or_the_beam_leaves_the_sleeve() {
+fn run_stops_or_continues_when_the_beam_leaves_the_sleeve() {
     let scene = |action: EndAction| {
         let mut scene = Scene::new("thrown rod");
         let section = Section { rotary_inertia: 1e-2, ..spaghetti_section(1e3, 10.0) };

@@ -54,7 +54,7 @@ fn places(simulation: &Simulation) -> ([f64; 4], f64) {
 }
 
 #[test]
-fn symmetric_scenes_stay_symmetric_in_whatever_order_they_are_declared() {
+fn symmetric_scenes_stay_symmetric_in_any_declaration_order() {
     for method in METHODS {
         for (axial, dt) in [(1e2, 0.002), (1e4, 0.01), (1e8, 0.01)] {
             for restitution in [1.0, 0.6, 0.0] {

@@ -139,7 +139,7 @@ fn characteristic(mass: f64, inertia: f64, offset: f64, omega: f64) -> f64 {
 }
 
 #[test]
-fn a_beam_with_a_rigid_tip_body_has_the_frequencies_of_its_characteristic_equation() {
+fn beam_with_a_tip_body_has_exact_frequencies() {
     for (mass, inertia, offset) in
         [(1.0, 0.05, 0.4), (3.0, 0.0, 0.5), (0.0, 0.2, 0.3), (2.0, 1.0, -0.3)]
     {

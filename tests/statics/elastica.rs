@@ -117,7 +117,7 @@ fn solve(mut unknowns: Vec<f64>, equations: &mut dyn FnMut(&[f64]) -> Vec<f64>) 
 }
 
 #[test]
-fn the_sling_is_an_elastica() {
+fn sling_in_sleeves_agrees_with_the_elastica() {
     // Sleeves of length a with mouths at ±d/2 = ±0.5, inclined by 45°. The middle is supported along x.
     let (half, length) = (1.6, 0.2);
     let mut scene = Scene::new("sling");
@@ -173,7 +173,7 @@ fn the_sling_is_an_elastica() {
 }
 
 #[test]
-fn the_arm_scale_is_an_elastica() {
+fn arm_scale_agrees_with_the_elastica() {
     // Sleeve of length a, inclined by 30°, with forces of 4 on the right arm and 1 on the left arm. This equilibrium is unstable, so the right tip is
     // supported along x, where the reaction vanishes.
     let (inclination, right, left, length, arm) = (PI / 6.0, 4.0, 1.0, 0.2, 0.62);

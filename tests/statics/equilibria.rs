@@ -352,7 +352,7 @@ fn a_pushed_column_buckles_to_the_side_it_is_pushed_to() {
 
 /// Two beams joined at one clamped corner: the reaction at either beam is the same total reaction.
 #[test]
-fn support_holds_all_joined_bodies_and_no_others() {
+fn support_reaction_includes_only_bodies_joined_to_it() {
     let mut scene = clamped(straight(), &smooth(8), section(1e4, 1e4));
     let up = scenes::line(Vec2::zeros(), at(0.0, LENGTH));
     let up = scenes::add_beam(&mut scene, up, &smooth(8), section(1e4, 1e4));

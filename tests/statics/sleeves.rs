@@ -72,7 +72,7 @@ fn sling(mesh: &Mesh, turn: f64) -> Equilibrium {
 }
 
 #[test]
-fn two_turned_sleeves_hold_a_rod_as_the_elastica_says() {
+fn rod_between_rotated_sleeves_agrees_with_the_elastica() {
     let (arc, thrust) = (1.11634123, 1.1079741491);
     let moment = (2.0_f64 * thrust).sqrt() * FRAC_PI_4.cos().sqrt();
     for (degree, tolerance) in [(3, 5e-7), (4, 2e-7), (5, 2e-7)] {
@@ -230,7 +230,7 @@ fn a_rod_is_held_at_its_end_or_leaves_the_sleeve() {
 }
 
 #[test]
-fn sleeves_are_refused_with_friction_with_stops_and_with_other_rules() {
+fn sleeves_with_friction_stops_or_other_rules_are_rejected() {
     let mut scene = Scene::new("refused");
     let (section, mesh) = (section(1e4, 1.0), Mesh::bspline(16, 3, 2).unwrap());
     let rod = add_beam(&mut scene, line(at(-0.2, 0.0), at(0.8, 0.0)), &mesh, section);

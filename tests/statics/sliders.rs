@@ -64,7 +64,7 @@ fn sag(spans: usize, shear: f64, along: f64, mass: f64, rule: SlidingRule) -> Sc
 }
 
 #[test]
-fn the_tangent_of_contacts_at_rest_is_the_derivative_of_their_forces_and_equations() {
+fn tangent_of_contacts_at_rest_is_an_exact_derivative() {
     let mut random = Random(33);
     for rule in [SlidingRule::Conserving, SlidingRule::Kinked] {
         for (mesh_name, mesh) in meshes(4) {
@@ -111,7 +111,7 @@ fn assert_tangent(label: &str, model: &mut System, unknowns: &[f64]) {
 }
 
 #[test]
-fn a_bead_sinks_into_the_sag_of_its_wire_and_rests_there_in_a_simulation() {
+fn bead_rests_in_the_sag_of_its_wire() {
     for entry in SLIDING_RULES {
         let scene = sag(9, 1e5, 1.0, 2.0, entry.rule);
         let rest = rests(scene, 4).unwrap();
@@ -221,7 +221,7 @@ fn disturbed_equilibrium_oscillates_with_the_frequencies_of_its_modes() {
 }
 
 #[test]
-fn a_slider_leans_on_the_stop_below_and_leaves_where_there_is_none() {
+fn slider_rests_on_its_lower_stop_or_leaves_without_one() {
     let slope = |ends: EndAction| {
         let mut scene = Scene::new("slope");
         let rail = add_beam(&mut scene, line(at(0.0, 2.0), at(4.0, 0.0)), &smooth(8), section(1e6));
@@ -325,7 +325,7 @@ fn a_path_of_given_length_follows_a_slider_past_its_limit_load() {
 }
 
 #[test]
-fn a_bead_beside_the_top_of_an_arch_runs_down_and_leans_on_its_end() {
+fn bead_beside_the_top_of_an_arch_descends_to_its_stop() {
     for (part, end) in [(0.502, MasterEnd::End), (0.47, MasterEnd::Start)] {
         let mut scene = Scene::new("hill");
         let axis = Curve::arc(at(0.0, 0.0), 2.0, 0.75 * PI, 0.25 * PI).unwrap();

@@ -99,7 +99,7 @@ fn frequencies(model: &System) -> Vec<f64> {
 }
 
 #[test]
-fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_tension() {
+fn mass_between_tensioned_springs_has_exact_frequencies() {
     // Two springs of stiffness 40 along x, stretched from 0.5 to 1. Both act along x, and their tension acts across x with 2 F/ℓ.
     let mut scene = Scene::new("between");
     let bead = ParticleDefinition { name: "bead".to_owned(), position: at(0.0, 0.0) };
@@ -116,8 +116,7 @@ fn a_mass_between_springs_has_the_frequencies_of_their_stiffness_and_of_their_te
 }
 
 #[test]
-fn the_lowest_frequency_of_a_beam_with_a_spring_at_its_tip_is_that_of_the_characteristic_equation()
-{
+fn beam_with_a_tip_spring_has_the_exact_lowest_frequency() {
     // cos β cosh β + 1 + κ (sin β cosh β - cos β sinh β)/β³ = 0, κ = k L³/EI (Blevins 1979, spring at the tip).
     for stiffness in [0.1, 10.0, 1e7] {
         let (mut scene, tip) = cantilever();

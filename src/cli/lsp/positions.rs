@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_count_utf16_units_and_lines_end_in_three_ways() {
+    fn positions_count_utf16_units_and_accept_all_line_endings() {
         let text = "ä = 1;\r\n\"𝛏\" + b\rc\n";
         for (part, line, character) in
             [("ä", 0, 0), ("=", 0, 2), ("\"𝛏", 1, 0), ("𝛏", 1, 1), ("b", 1, 7), ("c", 2, 0)]
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_outside_the_text_are_moved_into_it() {
+    fn positions_outside_the_text_are_clamped() {
         let at = |line, character| offset("ab\r\n𝛏", lsp::Position { line, character });
         assert_eq!((at(0, 9), at(7, 0), at(1, 1), at(1, u32::MAX)), (2, 8, 8, 8));
         assert_eq!(position("ξ", 1), position("ξ", 0));

@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_files_are_encoded_and_decoded() {
+    fn file_paths_are_encoded_as_uris_and_decoded() {
         let file = Path::new("/tmp/ein Träger/50%.rhai");
         let of_file = uri(file).unwrap();
         assert_eq!(of_file.0, "file:///tmp/ein%20Tr%C3%A4ger/50%25.rhai");

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn control_keys_leave_and_letters_may_be_large() {
+    fn control_c_interrupts_and_letter_keys_ignore_case() {
         let typed = |code, modifiers| key(KeyEvent::new(code, modifiers));
         assert_eq!(typed(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Key::Interrupt));
         assert_eq!(typed(KeyCode::Char('h'), KeyModifiers::CONTROL), Some(Key::Other));

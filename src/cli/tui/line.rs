@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_and_code_are_broken_between_words() {
+    fn text_and_code_are_wrapped_between_words() {
         let text = "A strip of length 1 is clamped at its left end.";
         let lines = wrapped(text, "  ", 20);
         assert_eq!(lines, ["A strip of length 1", "  is clamped at its", "  left end."]);
@@ -205,14 +205,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_is_marked_and_what_fits_is_not() {
+    fn truncated_lines_end_with_an_ellipsis() {
         assert_eq!(ScreenLine::of("abcdef", PLAIN).cut(4).text(), "abc…");
         assert_eq!(ScreenLine::of("abcd", PLAIN).cut(4).text(), "abcd");
         assert_eq!(ScreenLine::of("日本語", PLAIN).cut(5).width(), 5);
     }
 
     #[test]
-    fn colours_are_kept_or_left_out_and_nothing_moves_the_cursor() {
+    fn colour_codes_are_kept_and_other_control_sequences_are_removed() {
         let lines = coloured("\x1b[35mlet\x1b[0m a\n\x1b[2J// \x07b");
         assert_eq!(lines[0].text(), "let a");
         assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[35mlet\x1b[0m a");
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_label_has_its_own_style() {
+    fn label_of_a_wrapped_text_has_its_own_style() {
         let lines = labelled(("Hint 1:", HEADING), "look twice at it", "  ", 16);
         assert_eq!(lines[0].drawn(Colours::Ansi), "\x1b[1;36mHint 1:\x1b[0m look");
         assert_eq!(lines[1].text(), "  twice at it");

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_stands_below_the_place() {
+    fn error_marker_is_below_the_error_position() {
         let [line, mark] = shown("let b = todo(\"b\");", 8, 4, 40);
         assert_eq!(
             (line.as_str(), mark.as_str()),
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_long_line_the_place_is_seen() {
+    fn long_source_lines_are_cut_around_the_error() {
         let text = format!("{}here{}", "-".repeat(100), "+".repeat(100));
         let [line, mark] = shown(&text, 100, 4, 40);
         let place = |text: &str, what: char| text.chars().position(|c| c == what).unwrap();

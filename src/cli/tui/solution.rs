@@ -37,7 +37,7 @@ mod tests {
     use crate::exercises::catalogue::EXERCISES;
 
     #[test]
-    fn every_solution_is_marked_where_it_differs_and_can_be_read() {
+    fn solutions_are_shown_completely_with_changed_lines_marked() {
         let painter = ScriptPainter::new();
         for exercise in EXERCISES {
             let lines = painter.solution(exercise);

@@ -22,7 +22,7 @@ fn solved(ranges: Vec<SearchRange>, function: impl Fn(&[f64]) -> Evaluation) -> 
 
 /// Problem 1 of J. J. Moré, B. S. Garbow, K. E. Hillstrom (1981): Rosenbrock's valley.
 #[test]
-fn rosenbrock_s_valley_is_walked_to_its_end() {
+fn least_squares_finds_the_rosenbrock_minimum() {
     let found =
         solved(vec![free(-1.2), free(1.0)], |x| Ok(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]));
     assert_eq!(found.settling, TerminationReason::Settled);
@@ -31,7 +31,7 @@ fn rosenbrock_s_valley_is_walked_to_its_end() {
 
 /// Data set Misra1a (lower difficulty) of the NIST Statistical Reference Datasets, with certified parameters and standard errors.
 #[test]
-fn certified_values_of_misra_are_found_with_their_errors() {
+fn misra1a_fit_agrees_with_certified_values_and_errors() {
     let y = [
         10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47,
         81.78,
@@ -53,7 +53,7 @@ fn certified_values_of_misra_are_found_with_their_errors() {
 }
 
 #[test]
-fn a_ring_down_needs_few_runs() {
+fn fit_of_a_decaying_oscillation_needs_few_runs() {
     let wave = |b: &[f64], t: f64| exp(-b[1] * t) * cos(b[0] * t);
     let times: Vec<f64> = (0..100).map(|at| f64::from(at) * 0.05).collect();
     let ranges = vec![range(3.0, 1.0, 10.0), range(0.1, 0.0, 1.0)];
@@ -65,7 +65,7 @@ fn a_ring_down_needs_few_runs() {
 }
 
 #[test]
-fn a_parameter_stays_at_its_bound_and_the_others_find_their_best() {
+fn parameter_at_its_bound_does_not_hinder_the_others() {
     let found = solved(vec![range(0.5, 0.0, 1.0), free(0.0)], |x| {
         Ok(vec![x[0] - 2.0, x[1] - 3.0 * x[0], 0.1 * x[1]])
     });
@@ -75,7 +75,7 @@ fn a_parameter_stays_at_its_bound_and_the_others_find_their_best() {
 }
 
 #[test]
-fn steps_into_what_fails_are_shortened_and_a_start_that_fails_is_told() {
+fn failed_steps_are_shortened_and_failed_starts_are_reported() {
     let root = |x: &[f64]| -> Evaluation {
         if x[0] <= 0.0 { Err("negative".into()) } else { Ok(vec![x[0].sqrt() - 0.1]) }
     };

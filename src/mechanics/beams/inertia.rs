@@ -259,7 +259,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn diagonals_give_the_same_bits_as_rows_in_any_parts(
+        fn inertia_by_diagonals_is_bit_identical_to_inertia_by_rows(
             count in 1_usize..40, cut in 0_usize..40, numbers in prop::collection::vec(-1.0..1.0_f64, 97),
         ) {
             assert_same::<2>(count, cut, &numbers);

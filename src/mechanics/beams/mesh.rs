@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn each_smooth_piece_has_as_many_points_as_derivatives() {
+    fn each_smooth_patch_has_as_many_force_points_as_derivatives() {
         let cubic = Mesh::bspline(6, 3, 2).unwrap();
         assert_eq!(force_points(&cubic), [2, 1, 1, 1, 1, 2]);
         assert!(cubic.quadrature_spans().unwrap().iter().all(|span| span.moment_points == 2));
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn points_are_counted_over_all_spans() {
+    fn quadrature_points_are_counted_over_all_spans() {
         let counts = |mesh: Mesh| {
             let PointCounts { force, moment, inertia } = mesh.point_counts();
             assert_eq!(force, force_points(&mesh).iter().sum::<usize>());
@@ -294,13 +294,13 @@ mod tests {
     }
 
     #[test]
-    fn a_break_ends_a_patch() {
+    fn breaks_separate_quadrature_patches() {
         let broken = Mesh::bspline(6, 3, 2).unwrap().with_breaks(&[0.5]).unwrap();
         assert_eq!(force_points(&broken), [2, 1, 2, 2, 1, 2]);
     }
 
     #[test]
-    fn a_mesh_says_what_it_is() {
+    fn mesh_description_states_basis_size_and_quadrature_faults() {
         assert_eq!(Mesh::bspline(14, 3, 2).unwrap().describe(), "cubic B-splines C2, 14 spans");
         assert_eq!(Mesh::lagrange(10, 1).unwrap().describe(), "linear Lagrange, 10 elements");
         let points = |mesh: Mesh, points| {

@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_of_vibration_and_of_decay_that_steps_resolve_are_told_as_they_are() {
+    fn resolved_rates_are_extrapolated() {
         for turn in [0.01, 0.1, 0.5, 1.0] {
             let extrapolates = selections(|step| (turn * f64::from(step) + 0.3).cos());
             assert!(extrapolates.into_iter().all(|extrapolates| extrapolates), "{turn}");
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_that_alternate_are_carried_on_from_means() {
+    fn alternating_rates_are_not_extrapolated() {
         for ring in [0.1, 1.0, 100.0] {
             let extrapolates =
                 selections(|step| (0.1 * f64::from(step)).cos() + ring * (-1.0_f64).powi(step));
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_movement_that_takes_no_time_ends_it() {
+    fn step_of_infinite_duration_ends_extrapolation() {
         let mut watch = RateResolution::default();
         let seen = [RateMismatch { off: 1.0, apart: 0.0 }; 3];
         watch.add(0.1, seen);

@@ -159,7 +159,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_increment_turns_by_twice_the_arctangent_of_its_half() {
+    fn tangent_scaled_increment_rotates_by_twice_the_arctangent_of_its_half() {
         let turned = Rotation::by(0.3).turned(RotationIncrement::TangentScaled, 1.1);
         let expected = Rotation::by(0.3 + 2.0 * (0.55_f64).atan());
         assert!(

@@ -233,7 +233,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_tube_without_a_hole_is_a_circle() {
+    fn tube_without_a_hole_has_the_properties_of_a_circle() {
         let (circle, tube) =
             (SectionShape::Circle { radius: 2.0 }, SectionShape::Tube { outer: 2.0, inner: 1e-9 });
         assert!((circle.area() - tube.area()).abs() < 1e-12);
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_property_is_named() {
+    fn invalid_section_properties_are_rejected_by_name() {
         let steel = Solid {
             youngs_modulus: 210e9,
             poisson: 0.3,

@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_linear_between_places_and_heights_are_where_those_are() {
+    fn section_numbers_and_heights_are_interpolated_linearly() {
         let thin = Section { bending_stiffness: 2.0, ..thick() };
         let variation = SectionVariation::Numbers(vec![(0.0, thick()), (0.5, thin), (1.0, thin)]);
         let bending = |part: f64| variation.at(part).bending_stiffness;
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_integrals() {
+    fn section_means_equal_exact_integrals() {
         let mean = wedge().mean();
         assert!((mean.mass_per_length - 1.5 * (0.25 * 0.9 + 0.75 * 0.5)).abs() < 1e-14);
         let cubes = 0.25 * (1.0 - 0.8_f64.powi(4)) / (4.0 * 0.2)
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn places_rise_from_zero_to_one() {
+    fn section_places_must_increase_from_zero_to_one() {
         let of = |places: &[f64]| {
             SectionVariation::Numbers(places.iter().map(|place| (*place, thick())).collect())
                 .validated()

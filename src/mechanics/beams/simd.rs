@@ -215,7 +215,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn each_lane_has_the_bits_of_its_own_numbers(
+        fn every_lane_is_bit_identical_to_scalar_arithmetic(
             a in prop::array::uniform4(-9.0..9.0_f64), b in prop::array::uniform4(-9.0..9.0_f64),
         ) {
             let expected: [u64; LANES] = std::array::from_fn(|i| formula(a[i], b[i]).to_bits());
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_the_larger() {
+    fn larger_returns_nan_if_either_lane_is_nan() {
         for arch in [Arch::Scalar, Arch::new()] {
             let (a, b) = (Lanes([f64::NAN, 1.0, 2.0, -1.0]), Lanes([1.0, f64::NAN, 3.0, -2.0]));
             let larger = arch.dispatch(Larger([a, b]));

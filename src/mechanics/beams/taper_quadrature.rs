@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flange_between_points_is_missed_and_what_is_smooth_is_not() {
+    fn taper_quadrature_error_is_large_only_for_narrow_flanges() {
         let smooth = SectionVariation::Numbers(vec![(0.0, of(3.0, 2.0)), (1.0, of(1.0, 1.0))]);
         let mesh = Mesh::bspline(16, 3, 2).unwrap();
         assert!(TaperQuadrature::of(&smooth, &mesh).unwrap().largest() < 1e-5);
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn knots_at_a_step_see_it() {
+    fn taper_quadrature_is_exact_for_section_steps_at_knots() {
         let places = |at: f64| {
             let (thick, thin) = (of(27.0, 3.0), of(1.0, 1.0));
             let all = vec![(0.0, thick), (at, thick), (at + 1e-9, thin), (1.0, thin)];

@@ -10,7 +10,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn digits_are_counted_from_the_first_nonzero_one() {
+    fn rounding_counts_digits_from_the_first_nonzero_one() {
         assert_eq!(rounded_to(3, 0.012_345), 0.0123);
         assert_eq!(rounded_to(1, -47.0), -50.0);
         assert_eq!(rounded_to(0, 47.0), 50.0);

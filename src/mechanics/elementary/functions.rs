@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn logarithms_of_powers_are_whole() {
+    fn logarithms_of_powers_are_exact_integers() {
         for n in 0..=22_u32 {
             let power: f64 = format!("1e{n}").parse().unwrap();
             assert_eq!(log10(power), f64::from(n), "1e{n}");
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn undefined_values_are_nan_and_special_ones_exact() {
+    fn undefined_function_values_are_nan_and_special_values_exact() {
         assert!(asin(1.5).is_nan() && ln(-1.0).is_nan() && acosh(0.5).is_nan());
         assert_eq!((exp(f64::NEG_INFINITY), ln(0.0)), (0.0, f64::NEG_INFINITY));
         assert_eq!(
@@ -164,7 +164,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn they_are_those_of_the_machine_but_for_the_last_bits(
+        fn elementary_functions_agree_with_libm_to_the_last_bits(
             x in -700.0..700.0_f64, y in -10.0..10.0_f64, u in -1.0..1.0_f64, large in 1.0..1e300_f64,
         ) {
             let pairs = [

@@ -88,7 +88,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     #[test]
-    fn derivatives_of_an_arc_turn_by_right_angles() {
+    fn successive_arc_derivatives_are_rotated_by_right_angles() {
         let arc = CircularArc::new(Vec2::new(1.0, 2.0), 2.0, FRAC_PI_2, -FRAC_PI_2).unwrap();
         let near = |a: Vec2, b: Vec2| (a - b).norm() < 1e-14 * (1.0 + b.norm());
         assert!(near(arc.derivative(0.5, 0).unwrap(), Vec2::new(3.0, 2.0)));
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_arcs_are_refused() {
+    fn invalid_arcs_are_rejected_with_a_reason() {
         let refusal = |radius, from, to| {
             CircularArc::new(Vec2::zeros(), radius, from, to).unwrap_err().to_string()
         };

@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn inversion_copes_with_a_speed_that_starts_at_zero() {
+    fn arc_length_is_inverted_where_the_speed_is_zero() {
         for length in [0.0, 1e-12, 1e-3, 0.25, 1.0] {
             let xi = invert(&|xi: f64| 2.0 * xi, 0.0, 1.0, length, 1e-16);
             assert!((xi - length.sqrt()).abs() < 1e-14, "{length}: {xi}");

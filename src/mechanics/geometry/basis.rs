@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn values_at_interior_breaks_come_from_the_right_unless_a_span_is_named() {
+    fn values_at_breaks_are_right_limits_unless_a_span_is_given() {
         let basis = spline(2, 2, 0);
         assert_eq!(basis.evaluate(0.5).unwrap().slopes(), [-4.0, 4.0, 0.0]);
         let left = basis.evaluate_in(&basis.spans()[0], 0.5);
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn a_break_uses_a_knot_that_is_there() {
+    fn break_near_a_knot_uses_that_knot() {
         let smooth = spline(2, 3, 2);
         let Basis::BSpline(knots) = smooth.with_break(0.5 + 1e-11).unwrap() else {
             panic!("not a spline")
@@ -271,7 +271,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn functions_sum_to_one_and_their_derivatives_to_zero(basis in bases(), t in 0.0..1.0f64) {
+        fn basis_values_sum_to_one_and_derivatives_to_zero(basis in bases(), t in 0.0..1.0f64) {
             let (start, end) = basis.domain();
             let places = basis.breaks().into_iter().chain([(1.0 - t) * start + t * end]);
             for xi in places {
@@ -286,7 +286,7 @@ mod tests {
         }
 
         #[test]
-        fn derivatives_are_those_of_finite_differences(basis in bases(), t in 0.0..1.0f64) {
+        fn basis_derivatives_agree_with_finite_differences(basis in bases(), t in 0.0..1.0f64) {
             let (span, xi) = inside(&basis, t);
             let h = 1e-6 * (span.end - span.start);
             let (left, at, right) =
@@ -302,7 +302,7 @@ mod tests {
         }
 
         #[test]
-        fn splines_are_as_smooth_as_their_knots_say(basis in bases()) {
+        fn spline_smoothness_matches_the_knot_multiplicity(basis in bases()) {
             let Basis::BSpline(knots) = &basis else { return Ok(()) };
             for pair in basis.spans().windows(2) {
                 let xi = pair[0].end;
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_basis_with_another_number_of_spans_keeps_spacing_and_kinks() {
+    fn changing_the_number_of_spans_keeps_grading_and_kinks() {
         let breaks = |basis: &Basis, ratio: f64| basis.with_span_ratio(ratio).unwrap().breaks();
         let uniform = spline(8, 3, 2);
         assert_eq!(uniform.with_span_ratio(0.5).unwrap(), spline(4, 3, 2));

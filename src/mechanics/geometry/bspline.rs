@@ -70,7 +70,7 @@ mod tests {
     use crate::geometry::MAX_DEGREE;
 
     #[test]
-    fn one_span_carries_the_bernstein_polynomials() {
+    fn single_span_has_the_bernstein_polynomials() {
         let knots = KnotVector::uniform(1, 3, 2).unwrap();
         let basis = evaluate(&knots, &knots.spans()[0], 0.25);
         assert_eq!(basis.values(), [27.0, 27.0, 9.0, 1.0].map(|n| n / 64.0));
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn the_example_of_the_nurbs_book_is_reproduced() {
+    fn nurbs_book_example_is_reproduced() {
         // Examples 2.3 and 2.4 of The NURBS Book: degree 2, parameter ξ = 5/2.
         let all = vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 5.0, 5.0];
         let knots = KnotVector::new(2, all).unwrap();
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_belong_to_one_function_each() {
+    fn only_one_function_is_nonzero_at_each_end() {
         let knots = KnotVector::new(2, vec![0.1, 0.1, 0.1, 0.3, 0.3, 0.7, 0.7, 0.7]).unwrap();
         let (first, last) = (knots.spans()[0], knots.spans()[1]);
         assert_eq!(evaluate(&knots, &first, 0.1).values(), [1.0, 0.0, 0.0]);

@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn parameters_and_lengths_outside_are_refused() {
+    fn parameters_and_lengths_outside_the_curve_are_rejected() {
         for curve in curves() {
             for xi in [-1.1, 2.1, f64::NAN] {
                 assert!(matches!(curve.point(xi), Err(GeometryError::OutsideDomain { .. })));
@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_stands_still_has_no_tangent() {
+    fn curve_has_no_tangent_where_its_derivative_is_zero() {
         let knots = KnotVector::uniform(1, 2, 0).unwrap();
         let points = [[1.0, 1.0], [1.0, 1.0], [2.0, 0.0]].map(Vec2::from);
         let curve = Curve::spline(knots, points.to_vec()).unwrap();
@@ -269,7 +269,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn derivatives_are_those_of_finite_differences(spline in spline_curves(), t in 0.1..0.9f64) {
+        fn curve_derivatives_agree_with_finite_differences(spline in spline_curves(), t in 0.1..0.9f64) {
             let spans = spline.knots().spans();
             let span = spans[spans.len() / 2];
             let length = span.end - span.start;

@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn messages_name_object_value_and_what_is_allowed() {
+    fn geometry_errors_state_object_value_and_allowed_values() {
         let too_open =
             GeometryError::EndMultiplicity { end: "first", knot: 0.0, multiplicity: 3, degree: 3 };
         assert_eq!(

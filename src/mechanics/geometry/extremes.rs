@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lost_value_is_not_overlooked() {
+    fn extremes_are_nan_if_a_value_is_nan() {
         assert_eq!((larger(1.0, 2.0), smaller(1.0, 2.0)), (2.0, 1.0));
         for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN)] {
             assert!(larger(a, b).is_nan() && smaller(a, b).is_nan());

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn arcs_converge_with_one_order_more_than_the_degree() {
+    fn interpolated_arcs_converge_at_one_order_above_the_degree() {
         for continuity in [0, 1, 2] {
             let errors =
                 [8, 16, 32].map(|spans| error(&quarter_circle(), &spline(spans, 3, continuity)));
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_spline_in_its_own_knots_keeps_its_control_points() {
+    fn interpolation_on_the_same_knots_keeps_control_points() {
         let knots = KnotVector::new(2, [0.0, 0.0, 0.0, 1.0, 3.0, 3.0, 3.0].to_vec()).unwrap();
         let mapped =
             KnotVector::new(2, [0.0, 0.0, 0.0, 1.0 / 3.0, 1.0, 1.0, 1.0].to_vec()).unwrap();
@@ -113,7 +113,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn lines_are_exact_in_every_basis(basis in bases(), t in 0.0..=1.0f64) {
+        fn lines_are_interpolated_exactly_in_every_basis(basis in bases(), t in 0.0..=1.0f64) {
             let line = Curve::line(Vec2::new(0.0, 8.0), Vec2::new(6.0, 0.0)).unwrap();
             let points = interpolate(&line, &basis).unwrap();
             let (start, end) = basis.domain();
@@ -124,7 +124,7 @@ mod tests {
         }
 
         #[test]
-        fn interpolants_meet_the_curve_at_the_abscissae(basis in bases()) {
+        fn interpolants_equal_the_curve_at_the_abscissae(basis in bases()) {
             let curve = quarter_circle();
             let points = interpolate(&curve, &basis).unwrap();
             for xi in basis.abscissae() {
@@ -137,7 +137,7 @@ mod tests {
         }
 
         #[test]
-        fn a_finer_basis_reproduces_a_spline(spline in spline_curves(), t in 0.05..0.95f64) {
+        fn interpolation_in_a_finer_basis_reproduces_a_spline(spline in spline_curves(), t in 0.05..0.95f64) {
             let (start, end) = spline.knots().domain();
             let xi = (1.0 - t) * start + t * end;
             let Ok(finer) = spline.insert(xi, 1) else { return Ok(()) };

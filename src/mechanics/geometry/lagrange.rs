@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn splitting_adds_one_element() {
+    fn splitting_a_lagrange_basis_adds_one_element() {
         let basis = LagrangeBasis::uniform(2, 3).unwrap().split(0.3).unwrap();
         assert_eq!(basis.breaks(), [0.0, 0.3, 0.5, 1.0]);
         assert_eq!(basis.functions(), 10);
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_elements_are_refused() {
+    fn invalid_lagrange_elements_are_rejected() {
         let refusal = |degree, breaks: &[f64]| {
             LagrangeBasis::new(degree, breaks.to_vec()).unwrap_err().to_string()
         };

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_starts_and_ends_where_it_should() {
+    fn line_starts_and_ends_exactly_at_its_points() {
         let (from, to) = (Vec2::new(0.1, 8.0), Vec2::new(6.3, -0.7));
         let line = Line::new(from, to).unwrap();
         assert_eq!(
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_without_length_are_refused() {
+    fn lines_of_zero_or_nonfinite_length_are_rejected() {
         let refusal = |from, to| Line::new(from, to).unwrap_err().to_string();
         let point = Vec2::new(1.0, 2.0);
         assert_eq!(refusal(point, point), "line: start and end are both (1, 2), but must differ");

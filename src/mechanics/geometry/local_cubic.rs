@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn graded_points_on_a_line_do_not_turn_back() {
+    fn curve_through_graded_collinear_points_is_monotonic() {
         let points = [0.0, 1.0, 5.0, 30.0, 31.0].map(|x| Vec2::new(x, 0.0));
         let curve = through(&points).unwrap();
         assert!(curve.control_points().windows(2).all(|ends| ends[0].x < ends[1].x));
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_circle_get_its_tangents() {
+    fn curve_through_points_of_a_circle_has_its_tangents() {
         let points: Vec<_> = (0..9).map(|i| unit(0.3 * f64::from(i))).collect();
         let curve = through(&points).unwrap();
         let knots = curve.knots().breaks();
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_rounded_and_reversals_survive() {
+    fn corners_are_rounded_and_reversals_are_interpolated() {
         let corner = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [2.0, 2.0]].map(Vec2::from);
         let curve = through(&corner).unwrap();
         let velocity = curve.derivative(curve.knots().breaks()[2], 1).unwrap();
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_points_are_refused() {
+    fn invalid_points_are_rejected_with_a_reason() {
         let refusal = |points: &[[f64; 2]]| {
             through(&points.iter().copied().map(Vec2::from).collect::<Vec<_>>())
                 .unwrap_err()

@@ -46,7 +46,7 @@ mod tests {
     use crate::geometry::unit;
 
     #[test]
-    fn points_of_a_curve_are_nearest_to_themselves() {
+    fn nearest_point_to_a_curve_point_is_itself() {
         let arc = Curve::arc(Vec2::new(1.0, 2.0), 3.0, 0.2, 2.9).unwrap();
         let wave =
             Curve::through(&[0.0, 1.0, 2.0, 3.0].map(|x| Vec2::new(x, (2.0 * x).sin()))).unwrap();
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_beside_a_curve_is_dropped_on_it() {
+    fn nearest_point_is_the_perpendicular_projection() {
         let arc = Curve::arc(Vec2::zeros(), 2.0, 0.0, 3.0).unwrap();
         let found = arc.point(nearest(&arc, unit(1.2) * 5.0).unwrap()).unwrap();
         assert!((found - unit(1.2) * 2.0).norm() < 1e-14);

@@ -143,7 +143,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quotients_in_a_span_are_exact_for_paths_of_any_length() {
+    fn quotients_within_a_span_are_exact_for_any_length() {
         let span = Span { first: 0, start: 1.0, end: 3.0 };
         let function = PiecewisePolynomial::new(&[span], &[vec![8.0, 12.0, 6.0, 1.0]]);
         for (a, b) in [(1.5, 2.5), (2.5, 1.5), (2.0, 2.0), (2.0, 2.0 + 1e-13), (3.0, 3.5)] {
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn polynomials_are_those_of_their_spans() {
+    fn piecewise_values_come_from_the_polynomial_of_the_span() {
         let span = |start, end| Span { first: 0, start, end };
         let rows = [vec![1.0, 2.0, 3.0], vec![0.5, 0.0, -1.0]];
         let function = PiecewisePolynomial::new(&[span(0.0, 2.0), span(2.0, 2.5)], &rows);

@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_solved_for_solves() {
+    fn band_solution_satisfies_the_equations() {
         let band = band();
         let right: Vec<f64> = (0..7).map(|at| f64::from(at).powi(2) - 3.0).collect();
         let mut x = right.clone();
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn the_band_of_the_inverse_is_that_of_the_inverse() {
+    fn band_of_the_inverse_agrees_with_column_solutions() {
         let factors = band().factorise().unwrap();
         for width in 2..6 {
             let inverse = factors.inverse(width);
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_that_is_not_positive_has_no_factors() {
+    fn matrix_that_is_not_positive_definite_has_no_factors() {
         let mut band = PositiveBand::zeros(2, 1);
         band.add_square(0, 1.0, &[1.0, 1.0]);
         assert!(band.factorise().is_none());

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_rules_are_the_known_ones() {
+    fn small_gauss_rules_have_known_points_and_weights() {
         let one = GaussRule::new(1).unwrap();
         assert_eq!((one.points[0], one.weights[0]), (0.0, 2.0));
         let three = GaussRule::new(3).unwrap();
@@ -98,14 +98,14 @@ mod tests {
     }
 
     #[test]
-    fn the_degree_2n_is_beyond_the_rule() {
+    fn gauss_rule_is_not_exact_for_degree_2n() {
         let rule = GaussRule::new(2).unwrap();
         let sum: f64 = rule.iter_on(-1.0, 1.0).map(|(x, weight)| weight * x.powi(4)).sum();
         assert!((sum - 0.4).abs() > 0.1);
     }
 
     #[test]
-    fn rules_outside_1_to_64_are_refused() {
+    fn gauss_rules_outside_1_to_64_points_are_rejected() {
         let refusal = |n| GaussRule::new(n).unwrap_err().to_string();
         assert_eq!(refusal(0), "quadrature: 0 points requested, but 1 to 64 are allowed");
         assert_eq!(refusal(65), "quadrature: 65 points requested, but 1 to 64 are allowed");

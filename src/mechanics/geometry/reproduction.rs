@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_are_reproduced_and_their_kernel_is_the_slope_of_its_integral() {
+    fn lower_splines_reproduce_derivatives_with_a_consistent_kernel() {
         for (basis, run) in runs() {
             let splines = LowerSplines::of(&basis, &run).unwrap();
             let coefficients: Vec<f64> =

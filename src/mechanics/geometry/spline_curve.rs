@@ -157,7 +157,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn bad_control_points_are_refused() {
+    fn invalid_control_points_are_rejected() {
         let refusal = |points: &[Vec2]| {
             let knots = KnotVector::uniform(1, 2, 0).unwrap();
             SplineCurve::new(knots, points.to_vec()).unwrap_err().to_string()
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parabola_has_its_known_length() {
+    fn spline_parabola_has_the_exact_length() {
         let knots = KnotVector::uniform(1, 2, 0).unwrap();
         let points = vec![Vec2::new(0.0, 0.0), Vec2::new(0.5, 0.0), Vec2::new(1.0, 1.0)];
         let curve = SplineCurve::new(knots, points).unwrap();
@@ -190,7 +190,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn insertion_leaves_the_curve_unchanged(curve in spline_curves(), t in 0.01..0.99f64, at_knot: bool) {
+        fn knot_insertion_leaves_the_curve_unchanged(curve in spline_curves(), t in 0.01..0.99f64, at_knot: bool) {
             let (start, end) = curve.knots.domain();
             let breaks = curve.knots.breaks();
             let between = (1.0 - t) * start + t * end;

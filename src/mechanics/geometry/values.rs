@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn combining_takes_the_points_of_the_span() {
+    fn combination_uses_the_control_points_of_the_span() {
         let mut values = BasisValues::zeros(1, 1);
         values.rows_mut()[0][..2].copy_from_slice(&[0.25, 0.75]);
         values.rows_mut()[1][..2].copy_from_slice(&[-1.0, 1.0]);

@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn the_cubes_of_the_parts_cancel_and_all_lie_in_the_step() {
+    fn cubes_of_substeps_cancel_and_substeps_stay_within_the_step() {
         for ends in [&ENDS[..], &SUZUKI] {
             let cubes: f64 = parts(ends).iter().map(|part| part.powi(3)).sum();
             assert!(cubes.abs() < 1e-15, "{cubes:e}");
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn slow_loads_do_not_shake_up_vibrations_that_turn_whole_times_in_a_step() {
+    fn slow_loads_do_not_excite_aliased_vibrations() {
         let largest = |ends: &[f64], load: f64| {
             let parts = parts(ends);
             let angles = [1.0, 2.0].map(|turns| turns * TAU);

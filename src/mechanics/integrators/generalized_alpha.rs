@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn without_damping_it_is_the_trapezoidal_rule() {
+    fn generalized_alpha_without_damping_equals_the_trapezoidal_rule() {
         let Weights { inertia_before, forces_before, gamma, beta } = Weights::new(1.0);
         assert_eq!([inertia_before, forces_before, gamma, beta], [0.5, 0.5, 0.5, 0.25]);
         assert_eq!(Weights::new(1.0).carried(), 1.0);

@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_end_where_the_next_ones_begin_and_the_last_where_the_whole_ends() {
+    fn interval_parts_share_their_ends_exactly() {
         let whole = Interval::between(0.3, 0.4);
         let parts = [(0.0, 0.8), (0.8, 0.3), (0.3, 1.0)].map(|(from, to)| whole.part(from, to));
         assert_eq!((parts[0].start, parts[2].end), (0.3, 0.4));

@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_those_of_recurrences_and_of_their_leading_terms() {
+    fn phase_errors_agree_with_recurrences_and_leading_terms() {
         for rho in [0.0, 0.5, 0.8, 1.0] {
             let method = Method::GeneralizedAlpha { rho_infinity: rho };
             let angle = 0.1;
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn the_decaying_rule_has_the_phase_of_its_amplification_matrix() {
+    fn energy_decaying_phase_error_agrees_with_its_amplification_matrix() {
         // The test applies the energy-decaying method to the start values q0 = 1, v0 = 0 and q0 = 0, v0 = 1 of the vibration.
         // One step satisfies q1 - q0 = v̄ and v1 - v0 = -ω² (q̄ + ½ χ (q1 - q0)) with the means q̄ and v̄.
         for [chi, angle] in [[0.1, 0.3], [1.0, 0.5], [0.5, 2.0_f64]] {

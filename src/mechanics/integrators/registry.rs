@@ -299,7 +299,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parameters_of_the_list_are_in_their_ranges_and_others_are_refused() {
+    fn registered_integrator_parameters_are_valid_and_others_are_rejected() {
         for entry in INTEGRATORS {
             assert_eq!(entry.method.check(), Ok(()), "{}", entry.name);
             assert_eq!(entry.parameter.map(|of| of.default), entry.method.parameter());

@@ -136,7 +136,7 @@ mod tests {
     use super::super::BandedMatrix;
 
     #[test]
-    fn rows_that_were_split_off_are_those_of_the_matrix() {
+    fn split_rows_write_into_the_matrix() {
         let (mut whole, mut parted) = (BandedMatrix::zeros(9, 3), BandedMatrix::zeros(9, 3));
         let (before, behind) = parted.rows_mut().split_at(4);
         assert_eq!((before.rows(), behind.rows()), (0..4, 4..9));

@@ -148,7 +148,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_banded_solution_is_the_dense_one(
+        fn banded_solution_agrees_with_the_dense_solution(
             size in 1_usize..40, half_bandwidth in 0_usize..12, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn without_large_multipliers_no_row_is_exchanged_and_nothing_fills_in() {
+    fn diagonally_dominant_matrix_needs_no_row_exchange_and_no_fill() {
         let (size, half_bandwidth) = (50, 11);
         let mut matrix = BandedMatrix::zeros(size, half_bandwidth);
         for i in 0..size {
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_on_the_diagonal_is_no_obstacle() {
+    fn matrix_with_a_zero_on_the_diagonal_is_solved() {
         let mut matrix = BandedMatrix::zeros(2, 1);
         matrix.rows_mut().add_to_row(0, 0, &[0.0, 2.0]);
         matrix.rows_mut().add_to_row(1, 0, &[4.0, 1.0]);
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_matrix_is_named_by_its_unknown() {
+    fn singular_banded_matrix_error_names_the_unknown() {
         let mut matrix = BandedMatrix::zeros(3, 1);
         matrix.add(0, 0, 1.0);
         matrix.add(2, 2, 1.0);
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_row_or_column_beyond_the_first_panel_is_singular() {
+    fn zero_row_or_column_is_singular_in_every_panel() {
         for zero in 3..12_usize {
             let (mut row, mut column) = (whole_numbers(12, 5), whole_numbers(12, 5));
             for i in zero.saturating_sub(5)..(zero + 6).min(12) {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_that_is_no_number_is_never_lost() {
+    fn nan_entries_always_reach_the_result_or_an_error() {
         for row in 0..12_usize {
             for column in row.saturating_sub(5)..(row + 6).min(12) {
                 let mut matrix = whole_numbers(12, 5);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn graded_rows_are_solved_as_well_as_by_a_dense_matrix_with_pivoting() {
+    fn graded_rows_are_solved_as_accurately_as_with_dense_pivoting() {
         let size = 24;
         let gradings: [fn(i32) -> i32; 4] =
             [|_| 0, |i| 40 * i / 23, |i| 40 - 40 * i / 23, |i| 7 * i % 41];
@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_almost_without_stiffness_is_held_by_its_link() {
+    fn point_of_tiny_stiffness_is_solved_accurately_through_its_link() {
         let orders = [[0, 1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1, 0], [3, 5, 0, 6, 1, 2, 4]];
         for power in (0..42).step_by(3) {
             let h = 2_f64.powi(-power);
@@ -322,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn an_infinite_entry_is_refused() {
+    fn infinite_matrix_entry_is_rejected() {
         let mut matrix = BandedMatrix::zeros(2, 1);
         matrix.add(0, 0, f64::INFINITY);
         matrix.add(1, 1, 1.0);
@@ -342,7 +342,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn factors_and_solutions_have_the_same_bits_with_and_without_vector_instructions(
+        fn banded_solutions_are_bit_identical_without_vector_instructions(
             size in 1_usize..60, half_bandwidth in 0_usize..20, entries in prop::collection::vec(-1.0..1.0_f64, 2000),
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {

@@ -304,7 +304,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_bordered_solution_is_the_dense_one(
+        fn bordered_solution_agrees_with_the_dense_solution(
             size in 1_usize..30, half_bandwidth in 0_usize..6, width in 0_usize..12,
             entries in prop::collection::vec(-1.0..1.0_f64, 997), sparse in any::<u64>(),
         ) {
@@ -339,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn what_only_the_border_holds_is_solved_with_it() {
+    fn unknowns_held_only_by_the_border_are_solved() {
         let border = BorderShape { width: 2, row_entries: 4 };
         let mut matrix = BorderedMatrix::zeros(3, 1, border).with_joint_elimination(1);
         for (at, stiffness) in [2e6, 3e6].into_iter().enumerate() {
@@ -408,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn units_that_are_powers_of_two_change_no_digit() {
+    fn bordered_solution_is_bit_identical_in_power_of_two_units() {
         let full = || BorderedMatrix::zeros(12, 5, BorderShape { width: 5, row_entries: 30 });
         let groups = (0..7).map(|first| (first..first + 6).collect()).collect();
         let layout = BlockLayout { own: vec![vec![]], groups, block_entries: 30 };
@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn a_border_that_determines_nothing_is_named_by_its_unknown() {
+    fn singular_border_error_names_the_unknown() {
         let mut matrix = BorderedMatrix::zeros(2, 0, BorderShape { width: 1, row_entries: 0 });
         matrix.band_mut().add(0, 0, 1.0);
         matrix.band_mut().add(1, 1, 1.0);

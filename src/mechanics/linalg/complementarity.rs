@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_taken_along_by_another_is_not_pushed() {
+    fn complementary_unknown_already_satisfied_by_coupling_is_zero() {
         let matrix = [vec![2.0, 1.9], vec![1.9, 2.0]];
         let pairings = [Pairing::Complementary; 2];
         assert_eq!(complementary(&matrix, &[-2.0, -0.1], &pairings).unwrap(), [1.0, 0.0]);
@@ -97,7 +97,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_unknown_and_no_answer_is_negative_and_one_of_them_vanishes(
+        fn complementarity_solution_satisfies_all_conditions(
             entries in prop::collection::vec(-1.0..1.0_f64, 49),
             q in prop::collection::vec(-1.0..1.0_f64, 7),
             tied in prop::collection::vec(any::<bool>(), 7),

@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_number_loses_the_second_keeps() {
+    fn low_part_keeps_the_rounding_error_of_the_high_part() {
         let third = DoubleDouble { high: 3.0, low: 0.0 }.inverse();
         assert_eq!(third.high, 1.0 / 3.0);
         let back = third.times(3.0).plus(DoubleDouble { high: -1.0, low: 0.0 });

@@ -273,7 +273,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_solution_with_many_blocks_is_the_dense_one_wherever_they_go(
+        fn solution_with_blocks_agrees_with_the_dense_solution(
             size in 12_usize..50, reach in 0_usize..5, own in prop::collection::vec(any::<bool>(), 1..8),
             touches in prop::collection::vec((0_usize..50, 1_usize..7, prop::option::of(0_usize..50)), 16),
             entries in prop::collection::vec(-1.0..1.0_f64, 997),
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn what_blocks_touch_far_apart_is_brought_together() {
+    fn ordering_brings_distant_unknowns_of_a_block_together() {
         let (size, own) = (300, [false; 30]);
         let (layout, all) = layout(size, 2, &own);
         let mut matrix = BorderedMatrix::with_blocks(all, 2, layout.clone());
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_that_determines_nothing_is_named_by_its_unknown() {
+    fn singular_block_error_names_the_unknown() {
         let layout = BlockLayout { own: vec![vec![]], groups: [].into(), block_entries: 1 };
         let mut matrix = BorderedMatrix::with_blocks(2, 0, layout);
         matrix.band_mut().add(0, 0, 1.0);

@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_chain_keeps_its_natural_order() {
+    fn cuthill_mckee_keeps_the_natural_order_of_a_chain() {
         let groups: Vec<Vec<usize>> = (0..9).map(|i| vec![i, i + 1]).collect();
         let ordering = reverse_cuthill_mckee(10, &groups);
         assert_eq!(ordering.half_bandwidth, 1);
@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shuffled_chain_and_a_ring_become_narrow() {
+    fn shuffled_chain_and_ring_get_the_smallest_bandwidth() {
         let shuffle = |i: usize| (i * 7) % 20;
         let chain: Vec<Vec<usize>> = (0..19).map(|i| vec![shuffle(i), shuffle(i + 1)]).collect();
         assert_eq!(reverse_cuthill_mckee(20, &chain).half_bandwidth, 1);
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn the_numbering_is_a_permutation_even_with_loose_parts() {
+    fn numbering_with_disconnected_parts_is_a_permutation() {
         let groups = vec![vec![0, 5], vec![5, 2], vec![7, 1]];
         let mut position = reverse_cuthill_mckee(9, &groups).position;
         position.sort_unstable();

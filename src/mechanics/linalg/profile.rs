@@ -87,7 +87,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_solution_in_a_profile_is_the_dense_one_again_and_again(
+        fn reused_profile_matrix_agrees_with_the_dense_solution(
             reaches in prop::collection::vec(0_usize..15, 1..60), entries in prop::collection::vec(-1.0..1.0_f64, 2000),
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
         ) {
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_column_is_named() {
+    fn zero_column_error_names_the_unknown() {
         let mut matrix = ProfileMatrix::with_capacity(3, 1);
         matrix.remake(&[1, 1, 2], 0);
         matrix.add(0, 0, 1.0);

@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn entries_of_one_place_add_up() {
+    fn sparse_entries_at_one_position_are_summed() {
         let entries = [(2, 0, 3.0), (0, 0, 1.0), (0, 2, 3.0), (0, 0, 4.0)];
         let matrix = SymmetricSparse::new(3, |add| entries.iter().for_each(|e| add(e.0, e.1, e.2)));
         assert_eq!(matrix.row(0).collect::<Vec<_>>(), [(0, 5.0), (2, 3.0)]);

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_in_others_can_be_taken_out() {
+    fn strips_are_projected_out_and_recombined() {
         let x: Vec<[f64; 4]> =
             (0..4).map(|i| std::array::from_fn(|k| f64::from(u8::from(i == k)))).collect();
         let mut y = vec![[1.0, 2.0, 3.0, 4.0]; 4];

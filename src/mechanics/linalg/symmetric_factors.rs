@@ -248,7 +248,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn solutions_and_signs_are_those_of_the_dense_matrix(
+        fn symmetric_solutions_and_inertia_agree_with_the_dense_matrix(
             size in 12_usize..30, width in 2_usize..12, shift in 0.5..2.0_f64, signs in any::<bool>(),
             entries in prop::collection::vec(-1.0..1.0_f64, 997),
         ) {
@@ -278,7 +278,7 @@ mod tests {
         }
 
         #[test]
-        fn entries_of_unknowns_in_any_order_add_up(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
+        fn band_products_are_summed_for_unknowns_in_any_order(entries in prop::collection::vec(-1.0..1.0_f64, 8)) {
             let (mut band, mut dense) = (PreciseBand::zeros(5, 4), DMatrix::<f64>::zeros(5, 5));
             let unknowns = [3, 1, 3, 7];
             let (p, q) = entries.split_at(4);
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pivot_of_zero_or_none_is_told() {
+    fn zero_and_nan_pivots_are_errors() {
         let unit = SymmetricSparse::new(3, |add| [0, 2].into_iter().for_each(|i| add(i, i, 1.0)));
         let band = PreciseBand::zeros(3, 1);
         assert_eq!(band.pivots(-1.0, &unit).unwrap().negative, 2);

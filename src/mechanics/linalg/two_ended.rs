@@ -253,7 +253,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_solution_from_both_ends_is_that_from_one_and_the_same_on_two_threads(
+        fn two_ended_solution_is_accurate_and_bit_identical_on_two_threads(
             size in 60_usize..200, half_bandwidth in prop::sample::select(vec![1_usize, 5, 6, 8, 11, 14]),
             entries in prop::collection::vec(-1.0..1.0_f64, 2000),
             diagonal in prop::sample::select(vec![0.0, 0.5, 3.0, 30.0]),
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_column_is_named_wherever_it_is() {
+    fn singular_column_at_any_position_is_named() {
         for zero in [3, 40, 50, 55, 60, 99] {
             let mut matrix = BandedMatrix::zeros(100, 6);
             (0..100).filter(|row| *row != zero).for_each(|row| matrix.add(row, row, 2.0));

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn jumps_at_the_start_are_known_from_what_is_fast() {
+    fn jumps_at_the_start_are_distinguished_from_fast_functions() {
         assert_eq!(at_start(|t| if t > 0.0 { 0.1 } else { 0.0 }), Some(true));
         assert_eq!(at_start(|t| 1e-3 * t.sqrt()), Some(false));
         let fine: [fn(f64) -> f64; 6] = [
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn jumps_in_a_step_are_found_wherever_they_are() {
+    fn jumps_are_located_anywhere_in_a_step() {
         for place in [0.100_001, 0.103, 0.1444, 0.15, 0.1999] {
             let step = move |t: f64| t + if t > place { 0.5 } else { 0.0 };
             for (from, to) in [(0.1, 0.2), (0.2, 0.1)] {

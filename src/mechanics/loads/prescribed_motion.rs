@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polynomial_of_degree_four_has_its_rates_and_accelerations() {
+    fn prescribed_quartic_has_exact_rates_and_accelerations() {
         let place =
             PrescribedMotion::Position(of(|t| t + 2.0 * t * t - t.powi(3) + 0.5 * t.powi(4)));
         let (rate, bent) = (
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_begins_as_its_function_does_whatever_its_time_scale() {
+    fn initial_rate_and_acceleration_are_accurate_at_any_time_scale() {
         for scale in [1e-6, 1e-3, 1.0, 1e3] {
             let function = move |t: f64| Ok((3.0 * t / scale).sin() + (t / scale).powi(2));
             let place = PrescribedMotion::Position(Schedule::Function {

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn samples_and_commands_come_in_their_order() {
+    fn clock_returns_sample_and_command_times_in_order() {
         let beat = SampleClock::new(0.1, 0.03).unwrap();
         let mut times = vec![0.0];
         while times[times.len() - 1] < 0.5 {
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_delay_may_be_longer_than_the_period() {
+    fn sample_clock_accepts_a_delay_longer_than_its_period() {
         let beat = SampleClock::new(0.01, 0.025).unwrap();
         assert_eq!(beat.sample_active_after(0.055, 1e-12), Some(3));
         assert_eq!(beat.next(0.0, 1e-12), 0.01);
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused() {
+    fn invalid_periods_and_delays_are_rejected() {
         for (period, delay) in [(0.0, 0.0), (-1.0, 0.0), (f64::NAN, 0.0), (1.0, -0.1)] {
             assert!(SampleClock::new(period, delay).is_err());
         }

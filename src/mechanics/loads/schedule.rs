@@ -351,7 +351,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_held_load_ends_at_its_time_from_either_side() {
+    fn held_load_has_left_and_right_limits_at_its_end() {
         let hold = Schedule::hold_for(2.5).unwrap();
         assert_eq!(hold.value(2.5, LimitSide::Before), Ok(1.0));
         assert_eq!(hold.value(2.5, LimitSide::After), Ok(0.0));
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_have_their_values_and_means() {
+    fn schedule_pieces_have_exact_values_and_means() {
         let ramp = Schedule::ramp(1.0, 3.0).unwrap();
         assert_eq!(ramp.value(2.0, LimitSide::After), Ok(0.5));
         assert!((ramp.mean(1.0, 3.0).unwrap().mean - 0.5).abs() < 1e-15);
@@ -378,7 +378,7 @@ mod tests {
     }
 
     #[test]
-    fn jumps_are_known_from_bends() {
+    fn schedule_jumps_are_distinguished_from_kinks() {
         let hold = Schedule::hold_for(2.0).unwrap();
         assert!(hold.may_jump_at(2.0) && !hold.may_jump_at(1.0));
         let ramp = Schedule::ramp(1.0, 2.0).unwrap();
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused_with_what_is_allowed() {
+    fn invalid_schedules_are_rejected_with_the_allowed_values() {
         assert!(Schedule::hold_for(-1.0).unwrap_err().to_string().contains("positive"));
         assert!(Schedule::ramp(2.0, 1.0).unwrap_err().to_string().contains("later"));
         assert!(Schedule::constant(f64::NAN).is_err());

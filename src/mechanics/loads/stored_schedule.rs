@@ -96,7 +96,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn a_schedule_comes_back_as_it_was() {
+    fn stored_schedule_is_restored_unchanged() {
         let product = |a, b| Schedule::combined(Operation::Product, a, b).unwrap();
         let parts =
             product(Schedule::hold_for(2.0).unwrap(), Schedule::sine(1.0, 2.0, 0.3).unwrap());
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_refused() {
+    fn invalid_stored_terms_are_rejected() {
         let refused = |terms: Vec<StoredTerm>| Schedule::try_from(terms).unwrap_err();
         let (one, sum) = (StoredTerm::Constant(1.0), StoredTerm::Combine(Operation::Sum));
         assert_eq!(refused(vec![]), LoadError::StoredTerms);

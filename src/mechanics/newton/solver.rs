@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn it_converges_quadratically_to_rounding() {
+    fn newton_converges_quadratically_to_rounding() {
         let (report, u) = solve([1.5, 1.0]);
         assert!(report.unwrap().iterations <= 5);
         assert!((u[0] - 2.0_f64.sqrt()).abs() < 1e-15 && (u[1] - 0.5_f64.sqrt()).abs() < 1e-15);
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn a_correction_that_leaves_the_finite_numbers_is_an_error_that_shows_it() {
+    fn nonfinite_residual_is_an_error_with_its_history() {
         let near = ResidualNorms { force: 1e-12, ..ResidualNorms::default() };
         let spoilt = [
             ResidualNorms { force: f64::NAN, ..near },
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_tangent_and_a_lost_iteration_are_errors_with_their_history() {
+    fn singular_tangent_and_nan_start_are_errors_with_history() {
         assert!(matches!(solve([0.0, 1.0]).0, Err(NewtonError::Linear { .. })));
         let error = solve([f64::NAN, 1.0]).0.unwrap_err();
         assert!(error.history().len() <= 1, "{error}");

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stretched_and_turned_axis_is_stretched_and_turned() {
+    fn axis_station_has_stretch_and_direction_of_the_axis() {
         let basis = Basis::BSpline(KnotVector::uniform(3, 3, 2).unwrap());
         let drawn = along(&basis, |s| Vec2::new(s, 0.0));
         let now = along(&basis, |s| Vec2::new(1.0 - 1.1 * s * sin(0.3), 1.1 * s * cos(0.3)));
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parabola_has_the_curvature_of_its_top() {
+    fn axis_station_has_the_curvature_at_a_parabola_vertex() {
         let basis = Basis::BSpline(KnotVector::uniform(1, 2, 1).unwrap());
         let drawn = along(&basis, |s| Vec2::new(s, 0.0));
         let now = [Vec2::new(0.0, 0.25), Vec2::new(1.0, -0.25), Vec2::new(2.0, 0.25)];
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn straight_elements_have_no_curvature() {
+    fn curvature_of_linear_elements_is_nan() {
         let basis = Basis::Lagrange(LagrangeBasis::uniform(2, 1).unwrap());
         let drawn = along(&basis, |s| Vec2::new(s, 0.0));
         let station = AxisStation::new(basis.evaluate(0.3).unwrap(), 1, &drawn);

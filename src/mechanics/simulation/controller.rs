@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_settle_a_little_below_the_size_that_is_right() {
+    fn step_size_settles_slightly_below_the_ideal_size() {
         for first in [1e-3, 1.0, 9.0] {
             let (sizes, rejected) = sizes(first, |_| 1.0);
             assert!((sizes[29] - SAFETY).abs() < 0.01, "{first}: {}", sizes[29]);
@@ -151,14 +151,14 @@ mod tests {
     }
 
     #[test]
-    fn steps_follow_a_right_size_that_changes() {
+    fn step_size_follows_a_changing_ideal_size() {
         let (sizes, rejected) = sizes(0.5, |step| if step < 15 { 1.0 } else { 0.1 });
         assert!(sizes[14] > 0.6 && sizes[15] < 0.1 && sizes[29] > 0.06, "{sizes:?}");
         assert!(rejected <= 3, "{rejected}");
     }
 
     #[test]
-    fn a_cut_step_changes_nothing_unless_the_wish_was_too_small() {
+    fn accepted_cut_step_only_raises_too_small_step_sizes() {
         let mut state = StepSizeState { unconstrained_size: 1.0, error: Some(0.5), tries: 0 };
         let before = state;
         CONTROLLER.accept_cut(&mut state, TriedStep { duration: 1e-2, error: 1e-9 });
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_is_halved_until_it_is_the_smallest() {
+    fn failed_steps_are_halved_down_to_the_smallest() {
         let mut state = CONTROLLER.start();
         CONTROLLER.fail(&mut state, 0.1);
         assert_eq!((state.unconstrained_size, state.tries), (0.05, 1));
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_beyond_all_numbers_is_shortened_too() {
+    fn infinite_steps_are_shortened_after_failure() {
         let mut state = StepSizeState { unconstrained_size: 4.0, error: None, tries: 0 };
         CONTROLLER.fail(&mut state, f64::INFINITY);
         assert_eq!(state.unconstrained_size, 2.0);
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn after_a_jump_steps_begin_as_at_the_start() {
+    fn step_size_restarts_after_a_jump() {
         let mut state = StepSizeState { unconstrained_size: 3.0, error: Some(0.5), tries: 2 };
         CONTROLLER.restart(&mut state);
         assert_eq!(state, CONTROLLER.start());

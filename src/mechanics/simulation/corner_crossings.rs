@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn rates_count_where_a_branch_changes() {
+    fn crossing_difference_is_nonzero_only_if_a_branch_changes() {
         let (start, middle) = (branch(1, -2.0), branch(1, -2.0));
         let mut crossings =
             CornerCrossings { start, middle, whole: branch(1, -2.0), halves: branch(1, -2.5) };

@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn the_scales_of_isolated_particles_follow_the_units() {
+    fn first_step_of_isolated_particles_scales_with_the_units() {
         let above = Vec2::new(0.0, 10.0);
         let (rest, fast, slow) = (Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1e-3, 0.0));
         for (at, velocity, gravity, force) in [

@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn drift_is_relative_to_the_largest_energy_and_windows_start_anew() {
+    fn energy_drift_is_relative_to_the_largest_energy_of_the_window() {
         let history = history(&[2.0, 4.0, 4.0]);
         assert_eq!(history.drift(Invariant::Energy), 0.5);
         assert_eq!(history.between(1.0, f64::INFINITY).drift(Invariant::Energy), 0.0);
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn the_energy_grows_above_any_earlier_value() {
+    fn energy_growth_is_the_largest_rise_above_an_earlier_value() {
         assert_eq!(history(&[4.0, 1.0, 3.0, 2.0, 2.5]).energy_growth(), 0.5);
         assert_eq!(history(&[4.0, 3.0, 3.0]).energy_growth(), 0.0);
         assert!(history(&[1.0, f64::NAN, 1.0]).energy_growth().is_nan());
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_run_has_no_small_drift() {
+    fn drift_of_a_run_with_nan_energy_is_nan() {
         assert!(history(&[1.0, f64::NAN, 1.0]).drift(Invariant::Energy).is_nan());
     }
     fn slider_columns() -> Vec<ExtraColumn> {
@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn extra_columns_are_named_after_the_others() {
+    fn extra_columns_are_listed_after_the_standard_columns() {
         let history = history_with(slider_columns(), &[]);
         let names: Vec<_> = history.columns().map(|(name, _)| name).collect();
         assert_eq!(names[..2], ["t", "kinetic"]);
@@ -339,13 +339,13 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "one value for each extra column")]
-    fn a_row_with_a_value_too_few_is_a_mistake() {
+    fn row_with_a_missing_value_panics() {
         let mut history = history_with(slider_columns(), &[]);
         history.push(Sample::default(), std::iter::once(1.0));
     }
 
     #[test]
-    fn a_mean_of_two_rows_removes_a_sawtooth() {
+    fn mean_of_adjacent_rows_removes_alternating_values() {
         let rows = history(&[1.0, 3.0, 1.0, 3.0]);
         assert_eq!(rows.averaged("kinetic"), Some(vec![1.0, 2.0, 2.0, 2.0]));
         assert_eq!(history(&[]).averaged("kinetic"), Some(vec![]));

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_due_and_how_much_that_is() {
+    fn recording_states_which_and_how_many_rows_are_due() {
         let every = |count| Recording::Every(NonZeroUsize::new(count).unwrap());
         assert!(Recording::default().is_due(7) && Recording::default().is_complete());
         assert!(every(3).is_due(6) && !every(3).is_due(7) && !every(3).is_complete());

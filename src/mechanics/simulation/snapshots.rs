@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_and_the_last_are_kept() {
+    fn first_and_latest_snapshots_are_kept_within_the_limit() {
         let snapshots = filled(10 * size_of::<Snapshot>(), 100);
         assert_eq!((snapshots.count(), snapshots.unbroken_from(100)), (10, Some(92)));
         assert!(snapshots.bytes() <= snapshots.limit());
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_smaller_limit_forgets_the_oldest_and_none_forgets_all() {
+    fn smaller_memory_limit_drops_the_oldest_snapshots() {
         let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
         assert_eq!(snapshots.unbroken_from(9), Some(1));
         snapshots.set_limit(4 * size_of::<Snapshot>(), || snapshot(9));
@@ -183,13 +183,13 @@ mod tests {
     }
 
     #[test]
-    fn where_there_is_room_for_the_first_alone_no_step_is_kept() {
+    fn memory_for_one_snapshot_keeps_only_the_first() {
         let snapshots = filled(size_of::<Snapshot>(), 9);
         assert_eq!((snapshots.count(), snapshots.unbroken_from(9)), (1, Some(9)));
     }
 
     #[test]
-    fn what_lies_ahead_is_forgotten_on_the_way_back() {
+    fn truncation_removes_later_snapshots() {
         let mut snapshots = filled(10 * size_of::<Snapshot>(), 9);
         snapshots.truncate(5);
         assert!(snapshots.find(5).is_some() && snapshots.find(6).is_none());

@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn sines_are_found_with_frequency_and_amplitude_beside_a_mean() {
+    fn spectrum_finds_frequency_and_amplitude_of_sines() {
         let of = sampled(777, 0.02, |t| {
             5.0 + 2.0 * sin(TAU * 1.37 * t + 0.4) + 0.003 * sin(TAU * 7.21 * t)
         });
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn the_transform_is_that_of_the_definition() {
+    fn fft_agrees_with_the_definition() {
         let values = [3.0, -1.0, 0.5, 2.0, 0.0, 1.0, -2.0, 4.0];
         let mut numbers = values.map(|value| (value, 0.0));
         transform(&mut numbers);
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn uneven_few_and_lost_rows_are_refused() {
+    fn spectrum_of_uneven_few_or_nan_rows_is_rejected() {
         let mut of = sampled(40, 0.1, |t| t);
         assert_eq!(sampled(9, 0.1, |t| t).spectrum(1), Err(SpectrumError::TooFewRows { rows: 9 }));
         of.values[3] = f64::NAN;

@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polygon_is_summed_up_exactly() {
+    fn summary_of_a_piecewise_linear_series_is_exact() {
         let of = series(&[(0.0, 0.0), (1.0, 2.0), (3.0, -2.0), (3.0, 1.0), (4.0, 1.0)]);
         let Summary { min, min_at, max, max_at, mean, rms, integral } = of.summary().unwrap();
         assert_eq!((min, min_at, max, max_at), (-2.0, 3.0, 2.0, 1.0));
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_parabola_has_its_derivative_at_uneven_rows_and_at_the_ends() {
+    fn derivative_of_a_parabola_is_exact_at_uneven_rows() {
         let times = [0.0, 0.3, 0.4, 1.0, 1.5];
         let of = series(&times.map(|t| (t, 2.0 * t * t - t)));
         for (found, t) in of.derivative().iter().zip(times) {
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_touches_a_level_does_not_cross_it() {
+    fn touching_a_level_is_not_a_crossing() {
         let of =
             series(&[(0.0, -1.0), (1.0, 1.0), (2.0, 0.0), (3.0, 1.0), (4.0, 0.0), (5.0, -2.0)]);
         assert_eq!(of.crossings(0.0), [0.5, 4.0]);

@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_step_that_fails_is_halved_and_grows_again() {
+    fn failed_step_is_halved_and_then_doubled_again() {
         let mut halving = StepRetry::new(Interval::between(0.0, 1.0));
         assert!(halving.fail() && halving.fail());
         let mut ends = Vec::new();
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_that_make_no_sense_are_no_step() {
+    fn inconsistent_stored_retries_are_rejected() {
         let mut halving = StepRetry::new(Interval::between(1.0, 2.0));
         halving.fail();
         halving.succeed();

@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_out_of_range_are_refused_and_named() {
+    fn step_sizes_out_of_range_are_rejected_by_name() {
         let message = |size: StepSize| size.check().unwrap_err().to_string();
         assert!(StepSize::Fixed(0.1).check().is_ok());
         for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {

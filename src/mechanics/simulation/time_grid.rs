@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_far_away_is_reached_at_once() {
+    fn distant_grid_time_is_reached_in_one_call() {
         let mut grid = TimeGrid::new(0.0, 0.1, vec![]);
         grid.mark_reached(1e10);
         assert_eq!(grid.passed(), 100_000_000_000);
@@ -162,14 +162,14 @@ mod tests {
     }
 
     #[test]
-    fn times_are_not_accumulated() {
+    fn grid_times_do_not_accumulate_rounding() {
         assert_eq!(times(0.05, vec![], 25.0).len(), 500);
         assert_eq!(times(0.1, vec![2.5], 7.5)[24], 2.5);
         assert_eq!(times(0.1, vec![], 1.0)[5], 0.6);
     }
 
     #[test]
-    fn going_back_leads_to_the_same_points_and_keeps_cuts() {
+    fn restored_grid_has_the_same_points_and_cuts() {
         let mut grid = TimeGrid::new(0.0, 1.0, vec![]);
         grid.mark_reached(3.0);
         grid.cut_at(2.5);
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn without_points_only_cuts_and_limits_end_steps() {
+    fn grid_of_cuts_ends_steps_only_at_cuts_and_limits() {
         let mut grid = TimeGrid::of_cuts(0.0, 1e-6, vec![3.0, 1.0]);
         assert_eq!(
             (grid.next(0.0, 9.0), grid.next(1.0, 2.0), grid.next(3.0, 9.0)),
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn the_grid_is_cut_where_controllers_are_asked_and_act() {
+    fn grid_is_cut_at_sample_and_command_times() {
         let beats = [SampleClock::new(0.5, 0.25).unwrap(), SampleClock::new(2.0, 0.0).unwrap()];
         let grid = TimeGrid::new(0.0, 1.0, vec![]).with_beats(beats.into_iter());
         let (mut now, mut times) = (0.0, Vec::new());
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn the_grid_is_cut_at_jumps_and_goes_on_as_before() {
+    fn cuts_at_jumps_do_not_shift_the_grid() {
         assert_eq!(times(1.0, vec![2.5], 4.0), [1.0, 2.0, 2.5, 3.0, 4.0]);
         assert_eq!(times(0.3, vec![0.6], 0.9).len(), 3);
         assert_eq!(times(1.0, vec![], 2.5), [1.0, 2.0, 2.5]);

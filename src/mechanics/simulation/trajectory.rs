@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn old_configurations_thin_out_evenly() {
+    fn stored_configurations_are_thinned_evenly() {
         let mut trajectory = Trajectory::new(1 << 22);
         for index in 0..40 {
             trajectory.push(f64::from(index), std::iter::repeat_n(f64::from(index), 1 << 22));
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn going_back_behind_a_thinning_and_on_again_changes_nothing() {
+    fn truncated_and_continued_trajectory_is_unchanged() {
         let offer = |trajectory: &mut Trajectory, from: i32| {
             for index in from..21 {
                 trajectory.push(f64::from(index), std::iter::repeat_n(f64::from(index), 1 << 22));

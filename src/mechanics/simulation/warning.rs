@@ -524,7 +524,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_told_is_told_again_when_it_is_new_or_twice_as_bad() {
+    fn warnings_are_repeated_if_new_or_twice_as_large() {
         let spans_warning = |slider: &str, spans| Warning::SpansPerStep {
             slider: slider.to_owned(),
             dt: 1.0,
@@ -539,7 +539,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_have_three_digits() {
+    fn numbers_in_warnings_have_three_digits() {
         let shown = [0.119_37, 42.04, 5.0, 1.0 / 3.0 * 1e-7, 0.0].map(short);
         assert_eq!(shown, ["0.119", "42", "5", "3.33e-8", "0"]);
     }

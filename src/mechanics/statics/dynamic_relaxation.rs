@@ -153,7 +153,7 @@ mod tests {
         [(1e-9, 1.0), (1e-6, 1e-6), (1e6, 1.0), (1.0, 1e6), (1e3, 1e3), (1e9, 1e-9)];
 
     #[test]
-    fn the_units_do_not_decide_whether_a_sagging_chain_is_found() {
+    fn equilibrium_of_a_sagging_chain_is_found_in_any_units() {
         let sag = |units: (f64, f64)| {
             let mut scene = chain(4, units);
             scene.gravity = Vec2::new(0.0, -9.81) * (units.0 / (units.1 * units.1));
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn the_units_do_not_decide_which_modes_are_found() {
+    fn modes_of_a_chain_are_the_same_in_any_units() {
         const COUNT: usize = 150;
         let lowest = |units: (f64, f64)| {
             let mut scene = chain(COUNT, units);

@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn limit_points_are_vertices_of_parabolas_whatever_the_steps_between() {
+    fn limit_points_are_parabola_vertices_for_any_step_lengths() {
         let limits = path(&[0.0, 0.9, 1.7, 3.0, 3.5, 5.0], |s| 2.0 - (s - 2.25).powi(2));
         let limits = limits.limit_points();
         assert!(limits.len() == 1 && (limits[0] - 2.0).abs() < 1e-14, "{limits:?}");

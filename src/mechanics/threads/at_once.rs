@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_task_is_worked_on_once_whatever_the_threads() {
+    fn every_task_runs_once_on_any_number_of_threads() {
         let mut counts = [0; 9];
         run_concurrently(counts.iter_mut().enumerate(), |(index, count)| *count += index);
         assert_eq!(counts, [0, 1, 2, 3, 4, 5, 6, 7, 8]);

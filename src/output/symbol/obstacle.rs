@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_crosses_the_plot_and_its_hatching_is_opposite_to_its_normal() {
+    fn wall_crosses_the_plot_with_hatching_behind_its_normal() {
         for (normal, is_behind) in [
             ((0.0, 1.0), (|(_, y)| y >= 250.0) as fn(Point) -> bool),
             ((0.0, -1.0), |(_, y)| y <= 250.0),
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slanted_wall_is_clipped() {
+    fn inclined_wall_is_clipped_to_the_plot() {
         let (strokes, outlines) = drawn(wall((0.5, 0.5), (-0.6, 0.8)));
         let ends = [(100.0, 275.0), (300.0, 125.0)];
         let is_end = |at: &Point| ends.iter().any(|end| distance(*at, *end) < 1e-9);
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_that_is_much_larger_than_the_plot_is_round_in_the_plot() {
+    fn large_disc_is_drawn_accurately_inside_the_plot() {
         for radius in [1.0, 1e2, 1e6] {
             let (_, outlines) = drawn(disc((0.5, 0.25 - radius), radius));
             let [outline] = outlines.as_slice() else { panic!("{radius}: {outlines:?}") };
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_are_enlarged_for_discs_and_near_walls() {
+    fn view_is_enlarged_for_discs_and_near_walls() {
         let corners = [(0.0, 0.0), (10.0, 5.0)];
         let bodies = View::of(corners.into_iter(), &AxisLimits::default());
         let shown = |obstacle: PlacedSymbol| obstacle.shown_points(&bodies);

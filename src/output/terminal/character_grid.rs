@@ -89,7 +89,7 @@ mod tests {
     use crate::output::terminal::Glyphs;
 
     #[test]
-    fn wide_characters_take_two_places() {
+    fn wide_characters_occupy_two_grid_cells() {
         let style =
             TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::None, width: 6, height: 2 };
         let mut sheet = CharacterGrid::new(&style);
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn inks_are_colours_only_where_there_are_some() {
+    fn text_is_coloured_only_if_colours_are_enabled() {
         let plain =
             TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::None, width: 6, height: 2 };
         let written = |style: &TerminalStyle| {

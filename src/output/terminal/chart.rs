@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chart_in_ascii() {
+    fn ascii_chart_equals_the_reference() {
         let style = TerminalStyle { glyphs: Glyphs::Ascii, ..PLAIN };
         let expected = [
             "waves",
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chart_in_braille() {
+    fn braille_chart_equals_the_reference() {
         let expected = [
             "waves",
             "a sine   b cosine",
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_replace_letters() {
+    fn colours_replace_curve_letters() {
         let text = chart().text(&TerminalStyle { colours: Colours::Ansi, ..PLAIN });
         assert!(text.contains("\x1b[36m── sine\x1b[0m"), "{text}");
         assert!(text.contains("\x1b[33m── cosine\x1b[0m"), "{text}");
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_logarithmic_axis_has_powers_of_ten() {
+    fn logarithmic_terminal_axis_has_powers_of_ten() {
         let points = (1..50).map(|i| (f64::from(i), 10f64.powi(-i / 5))).collect();
         let chart = LineChart::new("drift").y_scale(AxisScale::Logarithmic);
         let chart = chart.series(Series::new("energy", points));
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_draw_is_said() {
+    fn empty_terminal_chart_shows_no_data() {
         let nothing = LineChart::new("none").series(Series::new("a", vec![(f64::NAN, 1.0)]));
         assert!(nothing.text(&PLAIN).contains("no data"));
         assert!(LineChart::new("").text(&PLAIN).contains("no data"));
@@ -342,7 +342,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
         #[test]
-        fn any_data_fits_any_size(
+        fn terminal_chart_of_any_data_fits_any_size(
             series in prop::collection::vec(prop::collection::vec(
                 (value(), value()), 0..6), 0..5),
             name in ".{0,30}",

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_are_dots_and_signs() {
+    fn lines_are_drawn_as_braille_dots_or_ascii_characters() {
         let down = curve(&[(0.0, 0.0), (7.0, 7.0)]);
         assert_eq!(drawn(&down, Glyphs::Braille), "⠑⢄  \n  ⠑⢄");
         let level = curve(&[(0.0, 0.0), (7.0, 0.0)]);
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_the_same_both_ways_at_its_ends_and_has_no_gaps() {
+    fn dotted_line_reaches_its_end_without_gaps() {
         for to in [(7, 3), (-7, 3), (2, -9), (0, 5), (5, 5), (0, 0)] {
             let dots: Vec<_> = [(0, 0)].into_iter().chain(line_dots((0, 0), to)).collect();
             assert_eq!(dots.last(), Some(&to));
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_is_a_gap_and_what_is_beyond_is_cut_off() {
+    fn nan_points_are_gaps_and_curves_are_clipped() {
         let gap = curve(&[(0.0, 0.0), (f64::NAN, 0.0), (7.0, 0.0)]);
         assert_eq!(drawn(&gap, Glyphs::Ascii), "'  '\n    ");
         let beyond = curve(&[(-1e6, 0.0), (1e6, 0.0), (1e6, 1e6), (f64::INFINITY, 1.0)]);

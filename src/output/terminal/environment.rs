@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn a_terminal_gets_what_it_can_show() {
+    fn glyphs_and_colours_follow_the_terminal_environment() {
         use {Colours::*, Glyphs::*};
         let modern = ("TERM", "xterm-256color");
         assert_eq!(abilities(&[modern, ("LANG", "en_GB.UTF-8")]), (Braille, Ansi));
@@ -70,21 +70,21 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_the_locale_variables_decides_and_an_empty_one_does_not_count() {
+    fn first_nonempty_locale_variable_selects_the_glyphs() {
         let lang = ("LANG", "C.UTF-8");
         assert_eq!(abilities(&[("LC_ALL", "C"), lang]).0, Glyphs::Ascii);
         assert_eq!(abilities(&[("LC_ALL", ""), ("LC_CTYPE", ""), lang]).0, Glyphs::Braille);
     }
 
     #[test]
-    fn no_color_counts_when_it_is_not_empty() {
+    fn nonempty_no_color_variable_disables_colours() {
         let modern = ("TERM", "xterm");
         assert_eq!(abilities(&[modern, ("NO_COLOR", "1")]).1, Colours::None);
         assert_eq!(abilities(&[modern, ("NO_COLOR", "")]).1, Colours::Ansi);
     }
 
     #[test]
-    fn sizes_are_believed_within_reason() {
+    fn terminal_sizes_are_limited_to_a_valid_range() {
         let size = |columns, lines| {
             let style = style(&[("COLUMNS", columns), ("LINES", lines)]);
             (style.width, style.height)

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_is_a_table_with_blocks() {
+    fn terminal_heat_map_equals_the_reference() {
         let style =
             TerminalStyle { glyphs: Glyphs::Ascii, colours: Colours::None, width: 60, height: 1 };
         let expected = "trapezoidal\n\
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_there_where_they_are_wanted() {
+    fn terminal_heat_map_is_coloured_if_enabled() {
         let style =
             TerminalStyle { glyphs: Glyphs::Braille, colours: Colours::Ansi, width: 60, height: 1 };
         let text = map().text(&style);

@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_in_braille() {
+    fn braille_picture_equals_the_reference() {
         let expected = [
             "┌─ rod ────────────────────── t = 2.5 ─┐",
             "│                          ⢀●          │",
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_in_ascii() {
+    fn ascii_picture_equals_the_reference() {
         let style = TerminalStyle { glyphs: Glyphs::Ascii, width: 44, ..PLAIN };
         let expected = [
             "+- rod -------------------------- t = 2.5 -+",
@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn a_floor_below_a_beam_is_shown() {
+    fn wall_below_a_beam_is_drawn() {
         let symbol = crate::output::symbol::Symbol::Wall;
         let floor = PlacedSymbol { symbol, at: (9.0, -0.5), direction: (0.0, 1.0) };
         let text = picture().obstacle(floor).text(&PLAIN);
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn scales_are_equal() {
+    fn both_axes_of_a_picture_have_equal_scales() {
         let circle = (0..=360).map(|angle| f64::from(angle).to_radians().sin_cos()).collect();
         let picture = ConfigurationPicture::new("").line(circle);
         let (rows, window) = picture.window(60, 15).unwrap();
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flat_drawing_takes_few_lines() {
+    fn flat_picture_needs_few_lines() {
         let flat = ConfigurationPicture::new("flat").line(vec![(0.0, 0.0), (10.0, 0.0)]);
         assert_eq!(flat.text(&PLAIN).lines().count(), 5);
         assert_eq!(ConfigurationPicture::new("none").text(&PLAIN), "nothing to draw");
@@ -347,7 +347,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(200))]
         #[test]
-        fn any_drawing_fits_any_size(
+        fn picture_of_any_data_fits_any_size(
             line in prop::collection::vec((number(), number()), 0..6),
             ghost in prop::collection::vec((number(), number()), 0..4),
             mark in (number(), number()),

@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ascii_has_a_word_for_every_sign_of_a_chart() {
+    fn typographic_characters_are_replaced_in_ascii() {
         let typeset = |text| Glyphs::Ascii.typeset(text);
         assert_eq!(typeset("drift (×10⁻⁷)"), "drift (x1e-7)");
         assert_eq!(typeset("≤ 10⁻¹²"), "<= 1e-12");
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_text_is_cut_where_it_is_seen() {
+    fn long_text_is_cut_with_a_visible_mark() {
         assert_eq!(Glyphs::Braille.fit("energy", 6), "energy");
         assert_eq!(Glyphs::Braille.fit("energy", 5), "ener…");
         assert_eq!(Glyphs::Ascii.fit("energy", 5), "ener~");

@@ -100,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_number_is_off_by_half_a_step_at_most() {
+    fn quantisation_error_is_at_most_half_a_step() {
         let numbers = [-3.0, 0.1, 2.7, 9.0, f64::NAN];
         let scale = Quantisation::over(numbers.into_iter(), FINEST);
         for number in &numbers[..4] {
@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn even_motion_has_no_second_differences() {
+    fn second_differences_of_uniform_motion_are_zero() {
         let codes: Vec<u16> = (0..5).map(|frame| 64_000 + 300 * frame).collect();
         let second: Vec<u16> = differences(&codes, 2).collect();
         assert_eq!(second[2..], [0, 0, 0]);

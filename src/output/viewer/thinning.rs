@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn short_histories_stay_whole_and_peaks_of_long_ones_too() {
+    fn thinned_histories_keep_peaks_and_short_ones_are_unchanged() {
         assert_eq!(rows_to_keep(3, &[&[1.0, 2.0, 3.0]]), [0, 1, 2]);
         let mut column = vec![0.0; 100_000];
         column[54_321] = 1.0;

@@ -37,7 +37,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_of_other_prompts_are_understood() {
+    fn commands_without_a_colon_are_recognised() {
         let name = |text| meant(text, |name| name == "exit").map(|(of, rest)| (of.name, rest));
         assert_eq!(name("quit"), Some((":quit", "")));
         assert_eq!(name("quit();"), Some((":quit", "")));

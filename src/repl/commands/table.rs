@@ -205,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn beginnings_of_names_will_do_where_they_are_clear() {
+    fn unambiguous_command_prefixes_are_accepted() {
         let name = |text| find(text).map(|command| command.name).ok();
         assert_eq!(name(":inv"), Some(":invariants"));
         assert_eq!(name(":step"), Some(":step"));
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn summaries_fit_a_line_of_the_help() {
+    fn command_summaries_fit_a_help_line() {
         for command in COMMANDS {
             assert!(command.usage().len() + command.summary.len() < 110, "{}", command.name);
             assert!(!command.summary.ends_with('.'), "{}", command.name);

@@ -107,7 +107,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_have_three_digits() {
+    fn durations_are_shown_with_three_digits() {
         assert_eq!(in_words(Duration::from_nanos(1234)), "1.23 µs");
         assert_eq!(in_words(Duration::from_micros(45678)), "45.7 ms");
         assert_eq!(in_words(Duration::from_secs(321)), "321 s");

@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn prefixes_come_before_looser_matches() {
+    fn prefix_matches_precede_abbreviations() {
         assert_eq!(names("plot"), ["plot_history", "plot_motion"]);
         assert_eq!(names("ph"), ["plot_history"]);
         assert_eq!(names("ei"), ["EI"]);
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn calls_are_written_with_their_bracket() {
+    fn completed_calls_include_their_brackets() {
         assert_eq!(Candidate::call("step", "([count])", "").replacement, "step(");
         assert_eq!(Candidate::call("energy_momentum", "()", "").replacement, "energy_momentum()");
     }

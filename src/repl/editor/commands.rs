@@ -114,7 +114,7 @@ mod tests {
     use crate::repl::editor::samples::surroundings;
 
     #[test]
-    fn words_and_options_of_commands_are_completed() {
+    fn operands_and_options_of_commands_are_completed() {
         let mut known = surroundings();
         let command = |name, operand| CommandWord { name, summary: "", operand };
         known.commands.push(command(":along", CommandOperand::OneOf(&["M", "N", "speed"])));

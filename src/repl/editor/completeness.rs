@@ -207,7 +207,7 @@ mod tests {
     use crate::script::state::settings::{RunMode, RunSettings};
 
     #[test]
-    fn brackets_texts_and_comments_keep_an_input_open() {
+    fn open_brackets_strings_and_comments_make_input_incomplete() {
         for open in [
             "f(",
             "[1, 2",
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn an_operator_at_the_end_keeps_an_input_open() {
+    fn trailing_operator_makes_input_incomplete() {
         for open in [
             "1 +",
             "let x =",
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn keywords_wait_for_their_blocks() {
+    fn keywords_without_their_block_make_input_incomplete() {
         for open in [
             "if a",
             "if a { } else",
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_mended_is_complete() {
+    fn input_with_an_unrecoverable_error_is_complete() {
         for wrong in ["f(]", "}", "(}", "f(\"abc", "f(\"abc\n", "`${ ) "] {
             assert_eq!(completeness(wrong), Complete, "{wrong}");
         }
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn the_next_line_is_indented_by_what_is_open() {
+    fn indentation_equals_the_number_of_open_brackets() {
         for (text, levels) in [
             ("fn f() {", 1),
             ("fn f() {\n    if a {", 2),
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_that_begins_with_a_colon_is_told_at_once() {
+    fn python_blocks_with_a_colon_are_complete_input() {
         for habit in ["def f(x):", "for i in range(3):", "if a == 1:", "let o = {a:"] {
             assert_eq!(completeness(habit), Complete, "{habit}");
         }
@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn the_scripts_of_the_repository_can_be_typed() {
+    fn repository_scripts_can_be_entered_line_by_line() {
         let context = Context::new(RunSettings::silent(RunMode::DryRun));
         let engine = engine::build(&language(), &context).expect("an engine");
         let scripts = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts");

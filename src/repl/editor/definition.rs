@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn names_lead_to_their_declarations() {
+    fn definitions_of_names_are_found() {
         for (text, name, of, expected) in [
             ("let älter = 1; älter + 2", "älter", 1, Some(0)),
             ("let n = 1; let n = n + 1; n", "n", 2, Some(0)),
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn names_of_imports_lead_to_their_files() {
+    fn definitions_of_imported_names_are_in_their_files() {
         let text = "import \"std/sections\" as s; s::pipe(1, 2)";
         let in_file = |name| Some(Definition::Imported { path: "std/sections", name });
         assert_eq!(definition(text, find(text, "pipe", 0)), in_file(Some("pipe")));
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn unfinished_texts_have_no_effect_but_missing_definitions() {
+    fn definition_search_accepts_unfinished_text() {
         let text =
             "import \"a\" as b; fn f(x, |y| { for (i, j) in `${x}` { let z = #{ a: b::c.d(\"";
         for end in (0..=text.len()).filter(|end| text.is_char_boundary(*end)) {

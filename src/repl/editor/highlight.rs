@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn words_have_the_colour_of_what_they_are() {
+    fn tokens_are_coloured_by_kind() {
         let text = "let a = line(1.5, PI) + \"b\" // c";
         for (piece, style) in [
             ("let", KEYWORD),
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bracket_at_the_cursor_and_its_partner_stand_out() {
+    fn bracket_at_the_cursor_and_its_partner_are_highlighted() {
         let marked = |cursor| pieces("f((a))", Some(cursor)).len();
         assert_eq!(marked(1), 2);
         assert_eq!(marked(6), 2);
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_member_that_a_variable_has_not_is_underlined() {
+    fn unknown_members_of_a_variable_are_underlined() {
         assert_eq!(style_of("rod.lenght * 2", "lenght").as_deref(), Some(UNKNOWN_MEMBER.0));
         assert_eq!(style_of("rod.length * 2", "length"), None);
         assert_eq!(style_of("rod.leng", "leng"), None, "it is still being typed");
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_stand_out_and_their_expressions_have_colours() {
+    fn commands_and_their_expressions_are_coloured() {
         assert_eq!(style_of(":step 10", ":step").as_deref(), Some(COMMAND.0));
         assert_eq!(style_of(":time sqrt(2)", "sqrt").as_deref(), Some(FUNCTION.0));
         assert_eq!(style_of(":plot sqrt(sim.t)", "sqrt").as_deref(), Some(FUNCTION.0));
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_command_that_nobody_knows_is_red_unless_it_is_still_typed() {
+    fn unknown_commands_are_red_after_their_name_is_complete() {
         for unknown in [":nonsense 10", ":nonsense", ":s 10"] {
             let word = unknown.split(' ').next().unwrap_or_default();
             assert_eq!(style_of(unknown, word).as_deref(), Some(UNMATCHED.0), "{unknown}");
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_input_is_drawn_whole() {
+    fn long_input_is_highlighted_without_loss() {
         let vocabulary = vocabulary();
         let line = "let a = scene.beam(#{ axis: line([0, 0], [1.5, 2]) }); // `x`\n";
         for part in [line, "(", "#", "`${a}", "rod.x.", "\"'"] {
@@ -181,7 +181,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn colours_never_change_what_is_read(
+        fn highlighting_any_input_keeps_its_text(
             text in "([ -~äξ\n]|rod\\.|let |\\(|\\)|#\\{|\\}|\"|`|\\$\\{|:time |/\\*|//){0,40}", cursor in 0..60_usize
         ) {
             let drawn = highlight(&text, Some(cursor), &vocabulary());

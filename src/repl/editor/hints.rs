@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_call_shows_its_signature_with_the_current_parameter() {
+    fn call_hint_shows_the_signature_with_the_current_parameter() {
         assert!(
             shown("line(").starts_with("line(‹from›, to)  from: a point [x, y]"),
             "{}",
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn option_maps_show_their_keys_and_what_they_may_be() {
+    fn option_map_hint_shows_keys_and_allowed_values() {
         assert_eq!(shown("scene.start(#{ "), "dt, integrator, name, notes, record, snapshots");
         assert_eq!(
             shown("scene.start(#{ dt: "),
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_only_member_that_fits_is_completed() {
+    fn only_matching_member_is_hinted() {
         let hint = hint("rod.e", 5, &surroundings()).expect("a hint");
         assert_eq!((hint.shown.as_str(), hint.insertable.as_deref()), ("nd", Some("nd")));
         assert_eq!(shown("rod.st"), "art");
@@ -256,14 +256,14 @@ mod tests {
     }
 
     #[test]
-    fn inside_a_line_and_in_comments_there_are_no_hints() {
+    fn no_hints_are_shown_inside_lines_and_comments() {
         assert_eq!(hint("line(", 3, &surroundings()), None);
         assert_eq!(shown("line( // x"), "");
         assert_eq!(shown("ro"), "");
     }
 
     #[test]
-    fn a_long_input_before_a_call_changes_no_hint() {
+    fn hint_does_not_depend_on_long_preceding_input() {
         for part in ["(", "f(", "#{ a: ", "a.", "let a = a; ", "[", "sim.history.", "line(1, "] {
             let text = format!("{}; line(", part.repeat(10_000 / part.len()));
             assert!(shown(&text).starts_with("line(‹from›, to)"), "{part}: {}", shown(&text));

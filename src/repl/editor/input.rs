@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn open_brackets_know_their_calls_arguments_and_keys() {
+    fn open_brackets_are_assigned_calls_arguments_and_keys() {
         let text = "f(g(1, 2), [3], scene.beam(#{ a: h(1), \"b\": [1, ";
         let input = Input::before(text, text.len());
         let levels = input.levels();

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn every_member_that_the_catalogue_has_is_offered_and_no_other() {
+    fn offered_members_equal_those_of_the_catalogue() {
         let surroundings = surroundings();
         let ours = surroundings.catalog.tables().flat_map(|table| table.types);
         let plain = ["number", "whole number", "text", "character", "function", "map", "array"];
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_offered_is_known_to_the_engine() {
+    fn offered_built_in_members_exist_in_the_engine() {
         let engine = crate::script::dialect::foundation::engine();
         let signatures = engine.gen_fn_signatures(true);
         let has = |opening: &str| signatures.iter().any(|known| known.starts_with(opening));

@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_and_folders_are_completed_part_by_part() {
+    fn paths_are_completed_one_component_at_a_time() {
         let folder = tempfile::tempdir().expect("a folder");
         fs::create_dir(folder.path().join("parts")).expect("a folder");
         for name in ["rods.rhai", "rods.csv", ".hidden", "parts/arch.rhai"] {

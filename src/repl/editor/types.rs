@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn chains_are_followed_by_what_rows_return() {
+    fn types_of_member_chains_follow_declared_return_types() {
         for (text, of) in [
             ("rod", "beam"),
             ("rod.end", "station"),
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_input_itself_declares_comes_first() {
+    fn declarations_in_the_input_precede_session_variables() {
         assert_eq!(type_of("let arm = scene.beam(#{ }); arm"), Some("beam"));
         assert_eq!(type_of("let rod = 1; rod"), Some("number"));
         assert_eq!(type_of("let rod = 1 + x; rod"), None);
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn deep_nesting_is_given_up() {
+    fn types_of_deeply_nested_expressions_are_unknown() {
         let deep = |count: usize| format!("{}rod{}", "(".repeat(count), ")".repeat(count));
         assert_eq!(type_of(&deep(10)), Some("beam"));
         assert_eq!(type_of(&deep(100_000)), None);
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn every_type_that_rows_return_is_one_of_the_language() {
+    fn every_return_type_of_the_catalogue_is_known() {
         let catalog = surroundings().catalog;
         let built_ins = catalog.built_ins().map(|known| (known.name(), known.returns));
         for (name, returns) in catalog.rows().map(|row| (row.name, row.returns)).chain(built_ins) {

@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn short_lists_say_what_the_candidates_are() {
+    fn short_candidate_lists_show_summaries() {
         let (_, candidates) = complete(":s", 2, &surroundings());
         let listed = list(candidates, 30);
         let shown: Vec<_> = listed.iter().map(|candidate| candidate.display.as_str()).collect();
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn without_colours_only_notes_are_shown() {
+    fn completions_are_not_hinted_without_colours() {
         let history = rustyline::history::DefaultHistory::new();
         let context = Context::new(&history);
         let plain = Assistant::new(SessionNames::of(surroundings()), 80, 2, Colours::None);
@@ -199,14 +199,14 @@ mod tests {
     }
 
     #[test]
-    fn of_an_entry_of_several_lines_the_first_is_shown() {
+    fn history_hint_shows_the_first_line_of_an_entry() {
         let hint = remembered("(x) {\n    x\n}".into());
         assert_eq!(hint.shown, "(x) { …");
         assert_eq!(hint.insertable.as_deref(), Some("(x) {\n    x\n}"));
     }
 
     #[test]
-    fn notes_are_cut_to_the_room_beside_the_line() {
+    fn hints_are_cut_to_the_remaining_width() {
         let note = || hints::hint("line(", 5, &surroundings()).expect("a hint");
         let shown = assistant(40).fit("line(", note()).expect("room").shown;
         assert!(shown.chars().count() == 32 && shown.ends_with('…'), "{shown}");

@@ -33,14 +33,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_environment_chooses_the_file() {
+    fn history_file_is_set_by_the_environment() {
         assert_eq!(file(Some("".into())), None);
         assert_eq!(file(Some("lines".into())), Some(PathBuf::from("lines")));
         assert!(file(None).is_none_or(|path| path.ends_with("withy/history")));
     }
 
     #[test]
-    fn blank_and_enormous_entries_are_not_kept() {
+    fn blank_and_huge_history_entries_are_not_stored() {
         assert!(should_store("let a = 1;"));
         assert!(!should_store(" \n "));
         assert!(!should_store(&"x".repeat(LONGEST_ENTRY + 1)));

@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_open_input_goes_on_indented() {
+    fn incomplete_input_continues_on_an_indented_line() {
         assert_eq!(next_line("fn f() {", 8).as_deref(), Some("\n    "));
         assert_eq!(next_line("`a", 2).as_deref(), Some("\n"));
         assert_eq!(next_line("fn f() {", 3), None);
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn indentation_is_taken_back_by_whole_levels() {
+    fn backspace_removes_whole_indentation_levels() {
         assert!(is_indentation("fn f() {\n    ", 13));
         assert!(is_indentation("fn f() {\n        ", 17));
         for line in ["fn f() {\n", "fn f() {\n  ", "fn f() {\n    a", "    "] {
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn arrows_search_for_what_is_typed() {
+    fn arrow_keys_search_history_for_the_typed_prefix() {
         assert!(searches("let", 3, false));
         assert!(searches("let a = 1", 3, true), "the search goes on");
         assert!(!searches("let a = 1", 9, true));

@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn entries_survive_the_session_and_stay_whole() {
+    fn history_entries_are_stored_unchanged_between_sessions() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("state").join("history");
         let mut first = editor(file.clone());
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_history_that_cannot_be_used_is_noted_once_and_left_alone() {
+    fn unusable_history_file_is_reported_once_and_not_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("picture");
         fs::write(&file, b"\xff\xfe\n").expect("a file");
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_have_names() {
+    fn key_bindings_are_found_by_name() {
         assert_eq!(Keys::named("VI"), Some(Keys::Vi));
         assert_eq!(Keys::named("emacs"), Some(Keys::Emacs));
         assert_eq!(Keys::named("joe"), None);

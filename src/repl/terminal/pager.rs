@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn the_environment_says_whether_there_are_pages() {
+    fn environment_selects_or_disables_the_pager() {
         let xterm = ("TERM", "xterm");
         assert!(pager(&[xterm]).is_some_and(|pager| pager.program.is_none()));
         assert!(pager(&[xterm, ("PAGER", "less -S")]).is_some_and(|pager| pager.program.is_some()));
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_on_the_terminal_is_not_long() {
+    fn text_that_fits_the_terminal_is_not_paged() {
         let mut pager = pager(&[("TERM", "xterm")]).expect("a pager");
         assert!(!pager.is_long(&"a\n".repeat(1000)), "of unknown size");
         pager.resize(20, 10);

@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn forms_are_taken_apart() {
+    fn written_forms_are_parsed() {
         let form = written("array.extract(start, [count])");
         assert_eq!((form.receiver, form.name), (Some("array"), "extract"));
         assert_eq!(form.arguments, "(start, [count])");
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_before_a_dot_may_mean_several_types() {
+    fn receiver_word_may_stand_for_several_types() {
         let sign = built_in(&["number.sign()"], "", "");
         assert!(sign.is_of("whole number") && sign.is_of("number") && !sign.is_of("text"));
         assert!(built_in(&["value.to_string()"], "", "").is_of("beam"));

@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_in_statements_and_functions_are_found_apart() {
+    fn input_names_in_statements_and_functions_are_distinguished() {
         let text = "let a = input(\"a\", 1); let f = |x| x + input(\"b\", [1, -2]);
             fn g() { input(\"c\", f(1)) } input(\"one\"); m::input(\"other\", 1); input(x, 1);";
         let ast = rhai::Engine::new().compile(text).expect("a script");

@@ -265,7 +265,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranges_refuse_what_is_not_finite() {
+    fn number_ranges_reject_nonfinite_values() {
         for range in [NumberRange::Finite, NumberRange::Positive, NumberRange::NonNegative] {
             assert!(!range.contains(f64::NAN) && !range.contains(f64::INFINITY), "{range:?}");
         }

@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_is_the_default_or_nothing() {
+    fn omitted_options_have_their_default_or_are_none() {
         let drawn =
             GeneratedFields::of(&Options::defaults(GeneratedFields::KEYS)).expect("the defaults");
         assert_eq!((drawn.width, drawn.count, drawn.title), (2.0, 3, None));
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_of_two_sets_stand_one_after_the_other() {
+    fn combined_option_sets_list_both_key_sets_in_order() {
         const BOTH: [Parameter; 4] = both(GeneratedFields::KEYS, FieldError::KEYS);
         assert_eq!(BOTH.map(|key| key.name), ["width", "count", "title", "width"]);
     }

@@ -178,7 +178,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_given_back_is_said_in_words() {
+    fn return_descriptions_are_readable() {
         for (returns, words) in [
             (Returns::NOTHING, ""),
             (Returns::NUMBER.unit("time"), "a number [time]"),
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn kinds_are_found_by_the_names_of_their_types() {
+    fn value_kinds_are_found_by_type_name() {
         for kind in PLAIN {
             let name = kind.type_name().expect("a plain kind has a type");
             assert_eq!(ValueKind::plain(name).and_then(|found| found.type_name()), Some(name));

@@ -161,7 +161,7 @@ mod tests {
     use crate::script::source::program::Program;
 
     #[test]
-    fn a_line_that_nobody_reads_is_not_drawn() {
+    fn long_source_line_is_not_quoted_completely() {
         let program =
             Program::named("long.rhai", &format!("\nlet a = [{}wrong];", "1, ".repeat(20_000)));
         let at = Location { program: Arc::new(program), line: 2, column: 60_010, length: 5 };
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_that_a_terminal_obeys_is_drawn_and_the_caret_stays_at_its_place() {
+    fn control_characters_are_replaced_and_the_caret_stays_aligned() {
         let line = "let a = \"\u{1b}]0;title\u{7}\u{202e}\" + wrong; // \u{9b}2J";
         let program = Program::named("a\u{1b}[2J.rhai", line);
         let column = line.chars().take_while(|letter| *letter != 'w').count() + 1;
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn hints_are_broken_between_words() {
+    fn hints_are_wrapped_between_words() {
         let diagnostic =
             Diagnostic::general("wrong").with_hint(format!("{}\nend", "word ".repeat(12)));
         let shown = diagnostic.render_within(Colours::None, 40);

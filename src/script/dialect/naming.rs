@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_function_declares_its_variables() {
+    fn variables_declared_by_a_function_are_found() {
         let declares = |text: &str| {
             let source = Source::from(text);
             let definition = definitions(source.tokens()).next().expect("a function");

@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_counted_is_refused() {
+    fn scripts_beyond_the_position_limits_are_rejected() {
         let engine = engine();
         let long = format!("let a = [{}]; 2^3^2", "1, ".repeat(25_000));
         let message = value(&engine, &long).expect_err("a line of 75 000 characters");
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reading_that_is_stopped_within_a_text_ends() {
+    fn interrupted_reading_inside_an_interpolated_string_ends() {
         let settings = RunSettings::silent(RunMode::Run);
         settings.interrupt.store(true, std::sync::atomic::Ordering::Relaxed);
         let context = Context::new(settings);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_can_be_counted_means_the_same_everywhere() {
+    fn meaning_of_a_script_does_not_depend_on_its_position() {
         let engine = engine();
         let made = "let made = []; for i in 0..3 { made.push(|| i); } made.map(|f| f.call())";
         for before in ["\n".repeat(MOST - 1), " ".repeat(MOST - made.len())] {
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_read_before_changes_nothing() {
+    fn earlier_scripts_do_not_affect_later_ones() {
         let engine = engine();
         assert_eq!(value(&engine, "-3").as_deref(), Ok("-3"));
         assert_eq!(value(&engine, "\n\n5^2").as_deref(), Ok("25"), "no minus stands before it");

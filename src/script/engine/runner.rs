@@ -204,7 +204,7 @@ mod tests {
     use crate::script::source::lexing::lexings;
 
     #[test]
-    fn a_script_is_lexed_once_whether_it_is_right_or_wrong() {
+    fn valid_and_invalid_scripts_are_lexed_once() {
         for text in [
             "fn f(x) { for i in 0..x { |y| y + i }; x }\nlet E = 2; f(E); // good",
             "fn f(x) { x + unknown }\nf(2);",
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn only_scripts_that_may_go_back_pay_for_it() {
+    fn scripts_that_may_rewind_are_detected() {
         let may = |text: &str| may_go_back(&Program::named("a", text));
         assert!(may("sim.back(3);") && may("import \"parts\" as parts;"));
         assert!(!may("import \"std/checks\" as checks; // back"));

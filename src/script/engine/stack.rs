@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stacks_leave_half_of_a_limited_address_space() {
+    fn stacks_use_at_most_half_of_a_limited_address_space() {
         let limits = Limits::default();
         let whole = limits.stack();
         assert_eq!(script_stack(&limits, None), whole);

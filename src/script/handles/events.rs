@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_ahead_again_is_called_again() {
+    fn rescheduled_events_are_called_again() {
         let mut events = Events::default();
         for (time, name) in [(2.0, "second"), (1.0, "first"), (2.0, "third")] {
             events.insert(time, name);

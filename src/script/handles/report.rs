@@ -108,7 +108,7 @@ mod tests {
     use crate::simulation::{DriftScales, ExtraColumn, Sample};
 
     #[test]
-    fn a_table_has_the_columns_of_the_scene_too() {
+    fn history_table_contains_extra_columns() {
         let extra = vec![ExtraColumn { name: "slider.force".into(), dimension: "force" }];
         let mut history = History::new(DriftScales::default(), extra);
         history.push(Sample::default(), std::iter::once(2.0));

@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn words_have_the_colours_of_the_prompt() {
+    fn grammar_gives_words_the_colours_of_the_prompt() {
         let catalog = language();
         let vocabulary = Vocabulary::of_language(&catalog);
         let grammar: Value = serde_json::from_str(&grammar(&catalog)).unwrap();

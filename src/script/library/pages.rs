@@ -177,7 +177,7 @@ mod tests {
     use crate::script::state::settings::{RunMode, RunSettings};
 
     #[test]
-    fn a_comment_is_taken_apart() {
+    fn doc_comment_is_parsed_into_blocks() {
         let lines = [
             " One",
             " sentence.",
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn the_keys_of_options_are_read_off() {
+    fn option_keys_are_read_from_doc_comments() {
         let page = page_of("std/sections").expect("a module");
         let keys = page.named("rectangle").expect("a function").keys();
         let names: Vec<&str> = keys.iter().map(|(name, _)| name.as_str()).collect();

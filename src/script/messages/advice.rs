@@ -291,7 +291,7 @@ mod tests {
     use crate::linalg::LinearError;
 
     #[test]
-    fn advice_is_found_behind_other_errors() {
+    fn advice_is_found_for_nested_errors() {
         let empty = || SystemError::Empty { scene: "a".into() };
         for error in [
             &empty() as &(dyn Error + 'static),

@@ -24,7 +24,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_long_texts_are_cut_and_only_in_the_middle() {
+    fn only_long_texts_are_shortened_in_the_middle() {
         assert_eq!(brief("as it is".into()), "as it is");
         let borderline = "é".repeat(MOST);
         assert_eq!(brief(borderline.clone()), borderline);

@@ -73,14 +73,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn digits_can_be_chosen() {
+    fn numbers_are_formatted_with_the_given_digits() {
         assert_eq!(format_scientific(1.234e-13, 2), "1.23e-13");
         assert_eq!(format_scientific(f64::NAN, 2), "nan");
         assert_eq!(format_fixed(0.05, 3), "0.050");
     }
 
     #[test]
-    fn a_whole_number_may_come_as_a_number_without_fraction() {
+    fn integral_numbers_are_accepted_as_integers() {
         assert_eq!(as_integer(&Dynamic::from(3.0)), Some(3));
         assert_eq!(as_integer(&Dynamic::from(3.5)), None);
         assert_eq!(as_integer(&Dynamic::from(1e300)), None);

@@ -50,7 +50,7 @@ mod tests {
     use crate::simulation::SimulationError;
 
     #[test]
-    fn an_error_comes_back_whole_through_all_layers() {
+    fn script_error_is_recovered_from_all_layers() {
         let thrown = EvalAltResult::ErrorRuntime(42.into(), rhai::Position::NONE);
         let raised = Raised::new("thrown".to_owned(), thrown.into());
         let load = LoadError::Function(FunctionError::new(raised));

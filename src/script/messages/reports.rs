@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn objects_out_of_use_are_released_and_stay_in_the_report() {
+    fn unused_objects_are_released_but_reported() {
         let reports = Reports::default();
         let used = Rc::new(());
         for number in 0..1000 {

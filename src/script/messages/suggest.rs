@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slip_is_recognised_and_a_stranger_is_not() {
+    fn suggestions_are_made_only_for_similar_names() {
         let known = ["length", "EA", "EI", "rho_A", "section"];
         assert_eq!(nearest("lenght", known), Some("length"));
         assert_eq!(nearest("ea", known), Some("EA"));
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_of_a_name_finds_it() {
+    fn names_are_found_by_their_parts() {
         let known = ["run_to", "plot_motion", "plot_history", "truncate"];
         assert_eq!(related("run", known), ["run_to"]);
         assert_eq!(related("plot", known), ["plot_motion", "plot_history"]);

@@ -23,7 +23,7 @@ fn every_row_has_a_summary_and_an_example() {
 }
 
 #[test]
-fn every_example_runs() {
+fn every_row_example_runs() {
     for (table, row) in
         TABLES.iter().flat_map(|table| table.rows.iter().map(move |row| (table, row)))
     {
@@ -36,7 +36,7 @@ fn every_example_runs() {
 }
 
 #[test]
-fn optional_parameters_stand_last() {
+fn optional_parameters_are_last() {
     for row in rows() {
         let required =
             row.parameters.iter().take_while(|parameter| parameter.is_required()).count();
@@ -45,7 +45,7 @@ fn optional_parameters_stand_last() {
 }
 
 #[test]
-fn no_two_rows_can_be_meant_by_the_same_call() {
+fn every_call_matches_at_most_one_row() {
     let mut seen = HashSet::new();
     for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         for count in row.required()..=row.parameters.len() {
@@ -57,7 +57,7 @@ fn no_two_rows_can_be_meant_by_the_same_call() {
 }
 
 #[test]
-fn related_names_exist() {
+fn related_names_of_rows_exist() {
     let known: HashSet<_> = rows().map(|row| row.name).collect();
     for row in rows() {
         for name in row.see {
@@ -67,7 +67,7 @@ fn related_names_exist() {
 }
 
 #[test]
-fn no_name_is_reserved() {
+fn no_row_or_constant_name_is_reserved() {
     for row in rows().filter(|row| !matches!(row.form, CallSyntax::Operator)) {
         assert!(can_be_written(row.name), "{}", row.signature());
         for parameter in row.parameters {
@@ -110,7 +110,7 @@ fn reserved_words_are_recognised() {
 }
 
 #[test]
-fn domains_that_follow_parameters_are_there() {
+fn domains_named_by_parameter_variants_exist() {
     for name in crate::script::bindings::parameter_variants::NAMED.into_iter().flatten() {
         assert!(TABLES.iter().any(|table| table.name == *name), "{name}");
     }

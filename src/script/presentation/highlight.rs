@@ -172,7 +172,7 @@ mod tests {
     use crate::script::packages::language;
 
     #[test]
-    fn a_file_can_be_drawn_without_a_session() {
+    fn files_are_highlighted_without_a_session() {
         let mut vocabulary = Vocabulary::of_language(&language());
         let drawn = highlight("let a = line(1); // b", None, &vocabulary);
         let expected =

@@ -315,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_become_a_chart_and_a_summary() {
+    fn history_columns_give_a_chart_and_a_summary() {
         let simulation = turning();
         let columns = ["kinetic", "strain"].map(str::to_owned);
         let chart = history_chart(simulation.history(), &columns, &STYLE).unwrap();
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_column_is_refused_with_the_nearest_name() {
+    fn unknown_column_is_rejected_with_the_nearest_name() {
         let simulation = turning();
         let (message, hint) =
             failure(history_chart(simulation.history(), &["energi".into()], &STYLE).unwrap_err());
@@ -343,14 +343,14 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_history_has_a_summary_too() {
+    fn empty_history_has_a_summary() {
         let history = History::new(DriftScales::default(), vec![]);
         assert_eq!(column_summary(&history, "retries").unwrap(), "retries: no rows");
         assert!(history_chart(&history, &["energy".into()], &STYLE).unwrap().contains("no data"));
     }
 
     #[test]
-    fn the_start_is_a_ghost_behind_the_present() {
+    fn configuration_picture_shows_the_start_behind_the_present() {
         let simulation = turning();
         let now = configuration_picture(&simulation, None, &STYLE).unwrap();
         assert!(now.lines().next().unwrap().contains("turning -") && now.contains("t = 1.5"));
@@ -366,14 +366,14 @@ mod tests {
     }
 
     #[test]
-    fn a_configuration_has_a_summary() {
+    fn configuration_summary_states_time_and_beam_ends() {
         let start = configuration_summary(&turning(), Some(0.0)).unwrap();
         assert_eq!(start, "t = 0\nrod: from (0, 0) to (2, 0)");
         assert!(configuration_summary(&turning(), None).unwrap().starts_with("t = 1.5\nrod: from"));
     }
 
     #[test]
-    fn stations_are_where_the_lines_are() {
+    fn station_positions_lie_on_the_drawn_lines() {
         let simulation = turning();
         let end = [Station::on_beam(0, 2.0)];
         for time in [0.0, 0.7, 1.5] {
@@ -390,7 +390,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_has_the_dimension_that_all_columns_share() {
+    fn axis_dimension_is_shared_by_all_columns() {
         let column = |name: &str, dimension| ExtraColumn { name: name.to_owned(), dimension };
         let extra = vec![column("my_slider.force", "force"), column("my_slider.force_x", "force")];
         let history = History::new(DriftScales::default(), extra);
@@ -403,7 +403,7 @@ mod tests {
     }
 
     #[test]
-    fn legends_keep_the_names_of_things() {
+    fn legend_keeps_object_names() {
         assert_eq!(series_name("momentum_x"), "momentum x");
         assert_eq!(series_name("my_slider.force_x"), "my_slider force x");
     }

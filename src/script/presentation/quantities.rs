@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_quantities_agree() {
+    fn beam_quantity_names_agree_with_their_table() {
         let names: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.name).collect();
         assert_eq!(names, NAMES);
         assert_eq!(

@@ -95,7 +95,7 @@ mod tests {
     use crate::script::source::text::Source;
 
     #[test]
-    fn functions_are_found_with_their_names_and_parameters() {
+    fn function_definitions_are_found_with_names_and_parameters() {
         let source = Source::from(
             "fn a() { f(1) } private fn b(x, y) { |z| #{ k: x } } fn \"whole number\".c(x) { x }",
         );
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finished_is_looked_at_as_well() {
+    fn unfinished_function_definitions_are_found() {
         for text in ["fn", "fn f", "fn f(", "fn f(x", "fn f(x)", "fn f(x) {", "private fn f() { {"]
         {
             let source = Source::from(text);

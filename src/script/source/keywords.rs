@@ -17,7 +17,7 @@ mod tests {
     use crate::script::source::text::Source;
 
     #[test]
-    fn the_engine_takes_them_for_no_names() {
+    fn keywords_are_not_names_for_the_engine() {
         let is_name = |word: &str| Source::from(word).names().next().is_some();
         for word in KEYWORDS {
             assert!(!is_name(word) || *word == "global", "{word}");

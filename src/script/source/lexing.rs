@@ -56,7 +56,7 @@ mod tests {
     use crate::script::source::text::name_of;
 
     #[test]
-    fn interpolated_texts_do_not_confuse_the_lexer() {
+    fn names_in_interpolated_strings_are_lexed() {
         let found = lex("let a = `x ${ #{b: c}.b } / ${d} y`; e").tokens;
         let names: Vec<_> = found.iter().filter_map(|(token, _)| name_of(token)).collect();
         assert_eq!(names, ["a", "b", "c", "b", "d", "e"]);

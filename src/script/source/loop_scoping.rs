@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn loops_whose_closures_mention_the_variable_are_found() {
+    fn loops_with_closures_over_their_variable_are_found() {
         assert_eq!(letters("for x in xs { f(|t| t * x); }"), [ONE]);
         assert_eq!(letters("for (x, i) in xs { f(|| i); }"), [TWO]);
         assert_eq!(letters("for x in `a${b}`.split() { for y in x { f(|| x + y) } }"), [ONE, ONE]);
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_stay_where_there_are_blanks() {
+    fn inserted_scope_uses_blanks_to_keep_columns() {
         let put_into = |text: &str| {
             let mut line: Vec<char> = text.chars().collect();
             let column = text.find('{').expect("a brace");

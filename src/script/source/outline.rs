@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn declarations_are_found() {
+    fn outline_lists_declarations_and_imports() {
         let found = outline("let a = 1;\nfn f(x, y) { let b = #{ key: x }; b }\nfor i in 0..3 { }");
         assert_eq!(found.top_level, [("a".to_owned(), 1)]);
         assert_eq!(found.functions, [("f".to_owned(), 2)]);

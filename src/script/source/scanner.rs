@@ -308,14 +308,14 @@ mod tests {
     }
 
     #[test]
-    fn texts_hide_what_they_contain() {
+    fn string_and_comment_contents_are_not_tokens() {
         assert_eq!(written(r#"f("a\"(", '{') // ("#), ["f", "(", r#""a\"(""#, ",", "'{'", ")"]);
         assert_eq!(written("##\"a\"# \"## b"), ["##\"a\"# \"##", "b"]);
         assert_eq!(written("/* ( /* */ ( */ c"), ["c"]);
     }
 
     #[test]
-    fn a_text_goes_on_after_an_interpolation() {
+    fn string_continues_after_an_interpolation() {
         let text = "`x ${ #{b: `}`}.b }${d} y` + e";
         let pieces = written(text);
         assert_eq!(
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finished_says_so() {
+    fn unfinished_tokens_have_their_own_kinds() {
         let last = |text: &str| scan(text).last().map(|token| token.kind);
         assert_eq!(last("\"abc"), Some(TokenKind::OpenText));
         assert_eq!(last("`abc"), Some(TokenKind::OpenPiece));

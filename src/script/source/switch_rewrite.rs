@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_stay_where_there_is_a_blank() {
+    fn inserted_wrapper_uses_a_blank_to_keep_columns() {
         let put_into = |text: &str| {
             let mut line: Vec<char> = text.chars().collect();
             insert_wrapper(&mut line, 0);

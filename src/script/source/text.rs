@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn copies_are_lexed_once_and_only_when_asked() {
+    fn copies_of_a_source_are_lexed_once_on_demand() {
         let before = lexings();
         let text = source("let a = b; import \"std/checks\" as c;");
         let copy = text.clone();
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_that_is_never_closed_is_found() {
+    fn unclosed_comments_are_found() {
         let open = |text: &str| source(text).open_comment();
         assert_eq!(open("let a = 1;\n  /* lost"), Some(Position::new(2, 3)));
         assert!(open(&"/*".repeat(100_000)).is_some());
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_counted_from_the_lines_before() {
+    fn positions_are_shifted_by_preceding_lines() {
         assert_eq!(moved_down(Position::new(2, 3), 10), Position::new(12, 3));
         assert_eq!(moved_down(Position::NONE, 10), Position::NONE);
         assert_eq!(source("ab\nξc").offset(2, 2), "ab\nξ".len());

@@ -263,7 +263,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_do_not_lead_out() {
+    fn links_do_not_lead_outside_the_folders() {
         use std::os::unix::fs::symlink;
         let home = tempfile::tempdir().expect("a temporary folder");
         let (own, other) = (home.path().join("own"), home.path().join("other"));
@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn only_names_inside_the_folder_are_written() {
+    fn only_paths_inside_the_output_folder_are_written() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let output = OutputFolder::new(folder.path().join("out"), PathBuf::from("."), RunMode::Run);
         for name in ["", "/etc/motion.svg", "../motion.svg", "a/../../b"] {
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_cannot_be_made_is_named() {
+    fn output_folder_that_cannot_be_created_is_reported() {
         let file = tempfile::NamedTempFile::new().expect("a temporary file");
         let output = OutputFolder::new(file.path().join("out"), PathBuf::from("."), RunMode::Run);
         let Err(ScriptError::Failure(failure)) = output.write("a.csv", b"") else {
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_somebody_else_are_kept_and_our_own_are_replaced() {
+    fn foreign_files_are_kept_and_own_files_are_replaced() {
         let out = tempfile::tempdir().expect("a temporary folder");
         let file = out.path().join("a.svg");
         fs::write(&file, "theirs").expect("a file");
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_of_somebody_else_keeps_its_name_where_nothing_can_be_written() {
+    fn foreign_file_keeps_its_name_if_writing_fails() {
         let out = tempfile::tempdir().expect("a temporary folder");
         let file = out.path().join("a.csv");
         fs::write(&file, "theirs").expect("a file");
@@ -362,7 +362,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_link_in_the_place_of_the_output_folder_is_neither_written_nor_read() {
+    fn output_folder_that_is_a_link_is_rejected() {
         let home = tempfile::tempdir().expect("a temporary folder");
         let (out, other) = (home.path().join("out"), home.path().join("other"));
         fs::create_dir(&other).expect("a folder");

@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_appears_disappears_or_changes_is_reported() {
+    fn changes_of_read_files_are_reported() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let [there, missing] = ["there", "missing"].map(|name| folder.path().join(name));
         fs::write(&there, "one").expect("a file");

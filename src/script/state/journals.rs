@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn journals_outlast_their_studies_and_end_with_the_script() {
+    fn journals_exist_until_the_script_ends() {
         let home = tempfile::tempdir().unwrap();
         let path = |name: &str| home.path().join(format!("{name}.journal"));
         let begin = |wish| {

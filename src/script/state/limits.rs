@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn time_passes_and_a_new_watch_begins_anew() {
+    fn time_limit_restarts_with_a_new_watch() {
         let time = Duration::from_millis(20);
         let meter = Meter::new(Limits { time: Some(time), ..without_limits() });
         let watchdog = meter.watch().unwrap();
@@ -262,14 +262,14 @@ mod tests {
     }
 
     #[test]
-    fn memory_is_that_of_the_process() {
+    fn memory_limit_applies_to_the_process() {
         let meter = Meter::new(Limits { memory: Some(1), ..without_limits() });
         let _watchdog = meter.watch().unwrap();
         assert_eq!(wait_for(&meter), Some(Stop::Memory(1)));
     }
 
     #[test]
-    fn the_last_allowed_step_is_taken_and_no_other() {
+    fn steps_up_to_the_limit_are_allowed() {
         let meter = Meter::new(Limits { steps: Some(2), ..without_limits() });
         for _ in 0..2 {
             assert!(meter.allows_a_step());
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn a_watchdog_ends_at_once() {
+    fn dropped_watchdog_ends_at_once() {
         let limits = Limits { time: Some(Duration::from_secs(3600)), ..without_limits() };
         let meter = Meter::new(limits);
         let begun = Instant::now();
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_counted_with_what_is_printed() {
+    fn written_and_printed_output_count_towards_one_limit() {
         let meter = Meter::new(Limits { written: Some(10), files: Some(2), ..without_limits() });
         assert!(meter.allows_to_write(6) && meter.allows_a_file(4) && meter.passed().is_none());
         assert!(!meter.allows_to_write(1));
@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn who_does_not_hear_of_a_limit_is_ended() {
+    fn run_that_ignores_a_limit_is_aborted() {
         let (send, ended) = std::sync::mpsc::channel();
         let resort: HardAbort = Arc::new(move |stop| _ = send.send(stop));
         let limit = Duration::from_millis(20);

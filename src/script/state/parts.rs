@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_found_and_what_is_wrong_with_them_is_told() {
+    fn missing_and_inconsistent_study_parts_are_reported() {
         let home = tempfile::tempdir().unwrap();
         let folder = |name: &str| home.path().join(name);
         let lay = |place: &str, number, of| {

@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_drawn_where_neighbouring_orders_agree() {
+    fn order_line_is_drawn_only_if_neighbouring_orders_agree() {
         assert!(observed_order_line(&ladder(&[6.8, 4.6, 3.5])).is_none(), "not yet at any order");
         assert!(observed_order_line(&ladder(&[1.0])).is_none(), "a single order agrees with none");
         let slope = observed_order_line(&ladder(&[0.71, 1.08, 0.9])).unwrap();
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn a_claimed_order_is_drawn_over_all_sizes() {
+    fn claimed_order_line_spans_all_sizes() {
         let ladder = ladder(&[0.3, 1.9]);
         let points = [(1.0, 1.0)];
         let slope = claimed(&ladder, 2, &points).unwrap();

@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn reasons_stand_below_the_table() {
+    fn failure_reasons_are_listed_below_the_cost_table() {
         let mut costs = table([100, 100]).costs;
         let reason =
             "a reason that is a good deal longer than any column of the table is wide".to_owned();
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn times_that_do_not_come_again_are_doubted() {
+    fn irreproducible_times_cause_a_warning() {
         assert!(!table([100, 109]).text().contains("warning"));
         assert!(table([100, 120]).text().contains("warning: the same again took 1.20 times"));
         assert!(table([100, 80]).text().contains("warning: the same again took 0.80 times"));

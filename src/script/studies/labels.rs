@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounds_are_marked_where_the_reference_does_not_tell_the_digits() {
+    fn deviation_label_is_a_bound_if_the_reference_is_inaccurate() {
         let label = |distance, trusted, is_of_own_run| {
             deviation(Some(Deviation { distance, estimated_error: trusted, is_of_own_run }))
         };
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_reason_is_cut_at_its_first_sentence_or_between_words() {
+    fn failure_reason_is_cut_after_its_first_sentence() {
         assert_eq!(first_sentence("failed at t = 0.5: lost; try again"), "failed at t = 0.5: lost");
         assert_eq!(first_sentence("a step. And another"), "a step");
         let long = first_sentence(&"word ".repeat(60));

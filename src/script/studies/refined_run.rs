@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_gives_the_next_step() {
+    fn refinement_factor_follows_from_error_and_order() {
         let converged = ErrorVerdict::Converged;
         assert_eq!(refinement(1e-3, Some(2.0), converged), 1.0);
         assert_eq!(refinement(2e-3, Some(2.0), converged), 2.0);

@@ -53,7 +53,7 @@ fn without_blanks(text: &str) -> String {
 }
 
 #[test]
-fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to_do() {
+fn first_screen_shows_title_progress_file_and_task() {
     for size in [(80, 24), (120, 40), (60, 40), (40, 60)] {
         let shown = lines(&at(1), size);
         let all = without_blanks(&shown.join("\n"));
@@ -73,7 +73,7 @@ fn the_first_screen_says_what_it_is_how_far_one_is_where_the_file_is_and_what_to
 }
 
 #[test]
-fn every_screen_fits_whatever_its_size() {
+fn every_page_fits_any_screen_size() {
     let notice =
         Some("a word to who has pressed a key that does nothing, and a long one".to_owned());
     let code: Vec<ScreenLine> =
@@ -95,7 +95,7 @@ fn every_screen_fits_whatever_its_size() {
 }
 
 #[test]
-fn words_are_not_broken() {
+fn narrow_screens_do_not_break_words_of_the_task() {
     for exercise in 1..=EXERCISES.len() {
         let all = text(&at(exercise), (40, 200));
         let known = EXERCISES[exercise - 1].start;
@@ -109,7 +109,7 @@ fn words_are_not_broken() {
 }
 
 #[test]
-fn an_error_points_to_its_line() {
+fn error_is_shown_with_its_source_line() {
     let all = text(&judged(2, broken(), &[]), (80, 40));
     for part in [
         "line 15: still to do: the second moment of area",
@@ -122,7 +122,7 @@ fn an_error_points_to_its_line() {
 }
 
 #[test]
-fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
+fn result_is_visible_after_a_run_and_the_page_scrolls() {
     let found = AttemptOutcome::WrongResult(vec!["the strip is too soft".into()]);
     let many: Vec<String> = (0..40).map(|number| format!("number {number}")).collect();
     let many: Vec<&str> = many.iter().map(String::as_str).collect();
@@ -153,7 +153,7 @@ fn after_a_run_the_result_is_seen_and_the_rest_can_be_reached() {
 }
 
 #[test]
-fn hints_are_shown_when_they_are_asked_for() {
+fn hints_are_shown_on_request() {
     let mut state =
         judged(1, AttemptOutcome::WrongResult(vec!["too soft".into()]), &["one", "two"]);
     let hints = state.exercise.judge().hints;
@@ -167,7 +167,7 @@ fn hints_are_shown_when_they_are_asked_for() {
 }
 
 #[test]
-fn passing_says_so_and_what_comes_next() {
+fn passed_exercise_shows_progress_and_the_next_exercise() {
     let all = text(&judged(1, AttemptOutcome::Passed, &[]), (80, 24));
     for part in [
         "Passed.",
@@ -189,7 +189,7 @@ fn passing_says_so_and_what_comes_next() {
 }
 
 #[test]
-fn a_run_that_takes_its_time_says_so_and_a_fast_one_does_not_flicker() {
+fn running_time_replaces_the_result_only_in_long_runs() {
     let mut state = judged(1, AttemptOutcome::WrongResult(vec!["too soft".into()]), &[]);
     let before = text(&state, (80, 24));
     state.running = Some(0);
@@ -201,7 +201,7 @@ fn a_run_that_takes_its_time_says_so_and_a_fast_one_does_not_flicker() {
 }
 
 #[test]
-fn the_list_shows_marks_and_what_is_chosen() {
+fn exercise_list_shows_marks_and_the_selection() {
     let mut state = judged(1, AttemptOutcome::Passed, &[]);
     for chosen in [0, 10, 20] {
         state.page = ScreenPage::List(chosen);
@@ -216,7 +216,7 @@ fn the_list_shows_marks_and_what_is_chosen() {
 }
 
 #[test]
-fn without_colours_nothing_is_lost() {
+fn screen_without_colours_has_the_same_text() {
     let state = judged(2, broken(), &["EI = 4.2"]);
     for line in screen(&state, (80, 24), &[]).lines {
         assert_eq!(line.drawn(Colours::None), line.text());

@@ -19,7 +19,7 @@ fn pass(state: &mut TuiState) {
 }
 
 #[test]
-fn next_asks_before_an_exercise_is_left_that_is_not_passed() {
+fn next_key_needs_confirmation_if_the_exercise_is_not_passed() {
     let mut state = at(1);
     assert_eq!(press(&mut state, "n"), KeyAction::Nothing);
     assert!(state.notice.as_ref().unwrap().contains("n again skips"));
@@ -33,7 +33,7 @@ fn next_asks_before_an_exercise_is_left_that_is_not_passed() {
 }
 
 #[test]
-fn next_goes_round_and_ends_when_all_is_passed() {
+fn next_exercise_wraps_around_until_all_are_passed() {
     let mut state = at(EXERCISES.len());
     pass(&mut state);
     assert_eq!(state.next(), Some(&EXERCISES[0]));
@@ -45,7 +45,7 @@ fn next_goes_round_and_ends_when_all_is_passed() {
 }
 
 #[test]
-fn the_solution_comes_after_passing_or_after_all_hints() {
+fn solution_is_available_after_passing_or_all_hints() {
     let mut state = at(1);
     press(&mut state, "s");
     assert_eq!(state.page, ScreenPage::Task);
@@ -65,7 +65,7 @@ fn the_solution_comes_after_passing_or_after_all_hints() {
 }
 
 #[test]
-fn the_list_is_chosen_from_with_arrows_and_digits() {
+fn arrow_and_digit_keys_select_in_the_exercise_list() {
     let mut state = at(2);
     press(&mut state, "l");
     assert_eq!(state.page, ScreenPage::List(1));
@@ -85,7 +85,7 @@ fn the_list_is_chosen_from_with_arrows_and_digits() {
 }
 
 #[test]
-fn keys_scroll_within_the_page_and_unknown_ones_are_told() {
+fn keys_scroll_within_the_page_and_unknown_keys_are_reported() {
     let mut state = at(1);
     for (key, top) in
         [(Key::Down, 3), (Key::Up, 1), (Key::PageDown, 5), (Key::PageUp, 0), (Key::End, 5)]
@@ -100,7 +100,7 @@ fn keys_scroll_within_the_page_and_unknown_ones_are_told() {
 }
 
 #[test]
-fn one_can_always_leave() {
+fn q_and_interrupt_keys_quit_on_every_page() {
     for page in [ScreenPage::Task, ScreenPage::List(0), ScreenPage::Solution] {
         for key in [Key::Letter('q'), Key::Interrupt] {
             let mut state = TuiState { page, ..at(1) };

@@ -53,7 +53,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
-    fn the_tangent_of_a_beam_has_the_same_bits_with_and_without_vector_instructions(
+    fn beam_tangent_is_bit_identical_without_vector_instructions(
         movements in prop::collection::vec(-0.05..0.05_f64, 97),
     ) {
         assert_same::<2>(&Mesh::lagrange(5, 1).unwrap(), &movements);

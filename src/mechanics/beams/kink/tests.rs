@@ -73,7 +73,7 @@ fn value(mesh: &Mesh, kink: &PiecewisePolynomial, xi: f64) -> f64 {
 }
 
 #[test]
-fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
+fn kink_length_agrees_with_dense_algebra_on_every_mesh() {
     for axis in [line(), arc()] {
         for mesh in meshes() {
             let points = interpolate(&axis, mesh.basis()).unwrap();
@@ -91,7 +91,7 @@ fn the_kink_length_is_that_of_dense_algebra_on_every_mesh_straight_or_curved() {
 }
 
 #[test]
-fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
+fn kink_length_of_a_straight_beam_is_its_missed_compliance() {
     for mesh in meshes().into_iter().filter(|mesh| mesh.basis().functions() > 2) {
         let (basis, length) = (mesh.basis(), line().length());
         let points = interpolate(&line(), basis).unwrap();
@@ -122,7 +122,7 @@ fn a_straight_beam_has_what_its_mesh_lacks_with_both_ends_held() {
 }
 
 #[test]
-fn the_kink_length_is_positive_but_where_the_mesh_itself_may_kink() {
+fn kink_length_is_positive_except_at_kinks_of_the_mesh() {
     for mesh in meshes() {
         let points = interpolate(&line(), mesh.basis()).unwrap();
         let kink = unresolved_kink(&mesh, &points).unwrap().unwrap().length;
@@ -146,7 +146,7 @@ fn the_kink_length_is_positive_but_where_the_mesh_itself_may_kink() {
 }
 
 #[test]
-fn inside_long_uniform_cubic_meshes_it_is_a_known_part_of_a_span() {
+fn kink_length_inside_long_cubic_meshes_has_known_values() {
     for spans in [40, 4000] {
         let mesh = Mesh::bspline(spans, 3, 2).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();
@@ -162,7 +162,7 @@ fn inside_long_uniform_cubic_meshes_it_is_a_known_part_of_a_span() {
 }
 
 #[test]
-fn a_mesh_with_too_few_points_has_no_missed_kink() {
+fn mesh_with_too_few_quadrature_points_has_no_unresolved_kink() {
     let mesh = Mesh::bspline(4, 3, 1).unwrap().with_quadrature(Quadrature::Points(2)).unwrap();
     let points = interpolate(&line(), mesh.basis()).unwrap();
     assert!(unresolved_kink(&mesh, &points).unwrap().is_none());
@@ -192,7 +192,7 @@ fn fourier(degree: usize, is_exact: bool) -> f64 {
 }
 
 #[test]
-fn a_kink_on_its_way_is_as_heavy_as_what_the_mesh_misses_of_its_motion() {
+fn kink_inertia_agrees_with_fourier_analysis() {
     for degree in 2..=6 {
         let mesh = Mesh::bspline(400, degree, degree - 1).unwrap();
         let points = interpolate(&line(), mesh.basis()).unwrap();

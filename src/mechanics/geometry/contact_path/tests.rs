@@ -70,7 +70,7 @@ fn cube(basis: &Basis) -> Vec<f64> {
 }
 
 #[test]
-fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
+fn difference_quotient_of_a_cube_is_exact_for_all_increments() {
     for basis in [spline(5, 3, 2), spline(5, 3, 1), spline(4, 3, 0), lagrange(4, 3)] {
         let coefficients = cube(&basis);
         for from in [0.0, 0.1, 0.2, 0.25, 0.5, 0.77, 1.0] {
@@ -97,7 +97,7 @@ fn the_quotient_of_a_cube_is_exact_near_and_far_and_beyond_the_domain() {
 }
 
 #[test]
-fn smooth_breaks_spoil_no_change_even_beside_a_kink() {
+fn quotient_derivative_is_exact_across_smooth_breaks_near_a_kink() {
     let basis = spline(4, 3, 2).with_break(0.9).unwrap();
     let coefficients = cube(&basis);
     let from = 0.5 - 1e-15;
@@ -112,7 +112,7 @@ fn smooth_breaks_spoil_no_change_even_beside_a_kink() {
 }
 
 #[test]
-fn the_mean_slope_of_a_tiny_way_across_a_kink_weighs_both_sides() {
+fn quotient_over_a_tiny_path_across_a_kink_weights_both_slopes() {
     let basis = lagrange(2, 1);
     let on = passage(&basis, 0.5 - f64::EPSILON, 0.5 + 3.0 * f64::EPSILON);
     assert_eq!((on.first(), on.difference()), (0, &[-0.5, -1.0, 1.5][..]));
@@ -120,7 +120,7 @@ fn the_mean_slope_of_a_tiny_way_across_a_kink_weighs_both_sides() {
 }
 
 #[test]
-fn a_way_from_a_break_stays_on_its_side() {
+fn path_starting_at_a_break_uses_its_own_span() {
     for basis in [lagrange(2, 2), spline(2, 2, 0), spline(2, 2, 1), spline(2, 3, 1)] {
         let spans = basis.spans();
         for (span, to) in [(spans[0], 0.3), (spans[1], 0.8), (spans[1], 0.5)] {
@@ -137,7 +137,7 @@ fn a_way_from_a_break_stays_on_its_side() {
 }
 
 #[test]
-fn a_way_of_no_length_has_the_derivatives_themselves() {
+fn path_of_zero_length_has_the_derivatives_of_the_basis() {
     for basis in [lagrange(3, 2), spline(3, 4, 2)] {
         for xi in basis.breaks().into_iter().chain([0.1, 0.7]) {
             let on = passage(&basis, xi, xi);
@@ -151,7 +151,7 @@ fn a_way_of_no_length_has_the_derivatives_themselves() {
 }
 
 #[test]
-fn beyond_the_domain_the_polynomial_of_the_end_goes_on() {
+fn end_polynomials_are_extrapolated_beyond_the_domain() {
     for basis in [lagrange(3, 2), spline(3, 3, 2)] {
         let spans = basis.spans();
         for (span, to) in [(spans[0], -0.4), (spans[2], 1.4)] {
@@ -172,7 +172,7 @@ fn beyond_the_domain_the_polynomial_of_the_end_goes_on() {
 }
 
 #[test]
-fn what_is_not_finite_gives_nan_and_leaves_nothing_behind() {
+fn nonfinite_path_gives_nan_without_affecting_later_paths() {
     let basis = spline(4, 3, 2);
     let mut on = ContactPath::new(basis.clone());
     let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -192,7 +192,7 @@ fn what_is_not_finite_gives_nan_and_leaves_nothing_behind() {
 }
 
 #[test]
-fn a_new_passage_rests_at_the_start() {
+fn new_contact_path_has_zero_length_at_the_start() {
     let basis = spline(2, 2, 1);
     let on = ContactPath::new(basis.clone());
     assert_eq!((on.basis(), on.first(), on.mean()), (&basis, 0, &[1.0, 0.0, 0.0][..]));
@@ -201,7 +201,7 @@ fn a_new_passage_rests_at_the_start() {
 
 proptest! {
     #[test]
-    fn the_way_times_the_quotient_is_what_the_functions_gain(
+    fn quotient_times_increment_equals_the_change_of_the_functions(
         basis in bases(), t in 0.0..=1.0f64, u in 0.0..=1.0f64,
     ) {
         let (from, to) = (place(&basis, t), place(&basis, u));
@@ -226,7 +226,7 @@ proptest! {
     }
 
     #[test]
-    fn values_sum_to_one_and_quotients_to_zero(
+    fn path_values_sum_to_one_and_quotients_to_zero(
         basis in bases(), t in 0.0..=1.0f64, u in -0.1..=1.1f64, nearness in 0..15i32,
     ) {
         let from = place(&basis, t);
@@ -244,7 +244,7 @@ proptest! {
     }
 
     #[test]
-    fn the_quotient_of_a_tiny_way_is_the_slope(basis in bases(), t in 0.0..1.0f64) {
+    fn quotient_over_a_tiny_path_equals_the_slope(basis in bases(), t in 0.0..1.0f64) {
         let (_, xi) = inside(&basis, t);
         let at = basis.evaluate(xi).unwrap();
         let size = largest(at.slopes()) + largest(at.derivatives(2));
@@ -259,7 +259,7 @@ proptest! {
     }
 
     #[test]
-    fn there_and_back_have_the_same_quotient(
+    fn quotient_is_symmetric_in_start_and_end(
         basis in bases(), t in 0.0..=1.0f64, u in 0.0..=1.0f64, nearness in 0..15i32,
     ) {
         let xi = place(&basis, t);
@@ -279,7 +279,7 @@ proptest! {
     }
 
     #[test]
-    fn the_change_is_that_of_the_quotient(basis in bases(), t in 0.0..=1.0f64, u in 0.0..1.0f64) {
+    fn change_is_the_derivative_of_the_quotient(basis in bases(), t in 0.0..=1.0f64, u in 0.0..1.0f64) {
         let from = place(&basis, t);
         let (span, to) = inside(&basis, u);
         let size = span.end - span.start;

@@ -9,7 +9,7 @@ fn refusal(degree: usize, knots: &[f64]) -> String {
 }
 
 #[test]
-fn uniform_knots_are_quotients_with_the_multiplicity_of_the_continuity() {
+fn uniform_knots_have_the_multiplicity_for_their_continuity() {
     let knots = KnotVector::uniform(3, 3, 1).unwrap();
     let (third, two_thirds) = (1.0 / 3.0, 2.0 / 3.0);
     assert_eq!(
@@ -35,7 +35,7 @@ fn spans_are_found_at_ends_and_at_repeated_knots() {
 }
 
 #[test]
-fn greville_abscissae_hit_the_ends_exactly() {
+fn first_and_last_greville_abscissae_are_exactly_the_ends() {
     let knots = KnotVector::new(3, vec![0.1, 0.1, 0.1, 0.1, 0.4, 0.7, 0.7, 0.7, 0.7]).unwrap();
     let abscissae = knots.greville();
     assert_eq!((abscissae[0], abscissae[4]), (0.1, 0.7));
@@ -60,7 +60,7 @@ fn insertion_repeats_a_knot_up_to_the_degree() {
 }
 
 #[test]
-fn bad_knots_are_refused_with_reasons() {
+fn invalid_knots_are_rejected_with_a_reason() {
     assert_eq!(refusal(0, &[0.0, 1.0]), "degree 0 is not available; allowed are 1 to 10");
     assert_eq!(refusal(11, &[0.0, 1.0]), "degree 11 is not available; allowed are 1 to 10");
     assert_eq!(
@@ -105,7 +105,7 @@ fn bad_knots_are_refused_with_reasons() {
 }
 
 #[test]
-fn impossible_uniform_knots_are_refused_before_anything_is_allocated() {
+fn invalid_uniform_knots_are_rejected_before_allocation() {
     let refusal = |spans, degree, continuity| {
         KnotVector::uniform(spans, degree, continuity).unwrap_err().to_string()
     };

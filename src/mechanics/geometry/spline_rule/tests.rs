@@ -49,7 +49,7 @@ fn least_share(basis: &Basis, run: &[Span], rule: &RunRule) -> f64 {
 }
 
 #[test]
-fn every_spline_has_a_rule_that_sees_all_its_derivatives() {
+fn every_spline_has_a_rule_that_detects_all_derivatives() {
     let mut least = f64::INFINITY;
     for degree in 1..=10 {
         for continuity in 1..degree.max(2) {
@@ -97,8 +97,7 @@ fn derivatives_of_all_functions_are_integrated_exactly() {
 }
 
 #[test]
-fn far_from_the_ends_of_equal_spans_points_are_in_the_middle_for_odd_degrees_and_at_knots_for_even_ones()
- {
+fn interior_points_are_midpoints_or_knots_by_degree_parity() {
     for degree in [2, 3, 4, 5] {
         let basis = basis(&[1.0; 60], degree, degree - 1);
         let rule = patch_rule(&basis, &basis.spans()).unwrap();
@@ -110,7 +109,7 @@ fn far_from_the_ends_of_equal_spans_points_are_in_the_middle_for_odd_degrees_and
 }
 
 #[test]
-fn a_single_span_has_gauss_s_points() {
+fn patch_rule_of_a_single_span_is_the_gauss_rule() {
     let basis = basis(&[2.0], 4, 3);
     let rule = patch_rule(&basis, &basis.spans()).unwrap();
     let gauss: Vec<(f64, f64)> = GaussRule::new(4).unwrap().iter_on(0.0, 2.0).collect();
@@ -118,7 +117,7 @@ fn a_single_span_has_gauss_s_points() {
 }
 
 #[test]
-fn long_and_uneven_meshes_have_rules_too() {
+fn long_and_nonuniform_meshes_have_patch_rules() {
     let ten_thousand = Basis::BSpline(KnotVector::uniform(10_000, 3, 2).unwrap());
     let rule = patch_rule(&ten_thousand, &ten_thousand.spans()).unwrap();
     assert!((rule[5000][0].1 * 1e4 - 1.0).abs() < 1e-8 && rule[5000].len() == 1);
@@ -133,7 +132,7 @@ fn long_and_uneven_meshes_have_rules_too() {
 }
 
 #[test]
-fn lengths_of_any_order_of_magnitude_have_rules() {
+fn spans_of_any_order_of_magnitude_have_patch_rules() {
     let mut random = 1_u64;
     let mut next = || {
         random =

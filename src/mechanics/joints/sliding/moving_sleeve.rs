@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_power_series_of_the_tangent_ratio_joins_the_tangent() {
+    fn tangent_ratio_is_continuous_where_its_power_series_ends() {
         let [before, after] = [SMALL * (1.0 - 1e-9), SMALL].map(tangent_ratio);
         assert!((before[0] - after[0]).abs() < 1e-10);
         assert!((before[1] / after[1] - 1.0).abs() < 1e-8);

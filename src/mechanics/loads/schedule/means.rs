@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn short_pulses_and_fast_sines_keep_their_impulse() {
+    fn short_pulses_and_fast_sines_have_exact_impulses() {
         for duration in [0.01, 0.05, 0.1] {
             let pulse = Schedule::smooth_pulse(duration).unwrap();
             assert!((pulse.mean(0.0, duration).unwrap().mean - 1.0).abs() < 1e-15);
@@ -411,7 +411,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_of_a_long_step_find_a_short_pulse() {
+    fn mean_of_parts_detects_a_short_pulse_in_a_long_step() {
         let pulse = |t: f64| (-((t - 3.3) / 0.02).powi(2)).exp();
         let schedule =
             Schedule::Function { function: Rc::new(move |t: f64| Ok(pulse(t))), breaks: vec![] };
@@ -426,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_of_a_function_tell_what_they_miss() {
+    fn sampling_error_of_a_function_is_estimated() {
         let missed = |function: fn(f64) -> f64| {
             let schedule = Schedule::Function {
                 function: Rc::new(move |t: f64| Ok(function(t))),

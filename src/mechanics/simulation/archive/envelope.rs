@@ -95,14 +95,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrapped_is_unwrapped() {
+    fn unwrapping_restores_the_wrapped_content() {
         for content in [&b""[..], b"a", &[7; 1000]] {
             assert_eq!(unwrap(&wrap(content)), Ok(content));
         }
     }
 
     #[test]
-    fn each_fault_has_its_reason() {
+    fn each_archive_fault_has_its_own_error() {
         let file = wrap(b"content");
         for length in 1..file.len() {
             let error = unwrap(&file[..length]);
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn every_flipped_bit_is_seen() {
+    fn every_flipped_bit_is_detected() {
         let file = wrap(b"content");
         for bit in 0..8 * file.len() {
             let mut flipped = file.clone();
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_length_beyond_all_memory_is_only_a_number() {
+    fn huge_stored_length_is_rejected_as_truncated() {
         let mut file = wrap(b"");
         let at = file.len() - CHECKSUM - 8;
         file[at..at + 8].fill(0xff);

@@ -369,7 +369,7 @@ mod tests {
     use crate::system::ParticleDefinition;
 
     #[test]
-    fn an_assembly_ends_between_its_beams() {
+    fn assembly_can_be_interrupted_between_beams() {
         let section = Section {
             axial_stiffness: 1.0,
             shear_stiffness: 1.0,
@@ -403,7 +403,7 @@ mod tests {
     }
 
     #[test]
-    fn a_load_without_a_value_refuses_the_step_with_its_own_error() {
+    fn nan_load_fails_the_step_with_the_load_error() {
         let mut scene = Scene::new("bead");
         let bead = ParticleDefinition { name: "bead".to_owned(), position: Vec2::zeros() };
         let station = scene.add_particle(bead, 1.0).unwrap();

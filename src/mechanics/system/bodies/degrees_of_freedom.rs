@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_gather_and_hand_on_what_the_numbers_say() {
+    fn gather_and_scatter_follow_the_unknown_numbers() {
         let numbers = vec![[9, 10, 0], [1, 2, 3], [7, 5, 6], [3, 4, 8]];
         let degrees = DegreesOfFreedom::from(numbers.clone());
         assert_eq!(degrees.runs.len(), 6);

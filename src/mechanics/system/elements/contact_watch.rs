@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bounce_of_rounding_is_none() {
+    fn bounce_with_a_force_of_rounding_is_ignored() {
         assert_eq!(
             bounced(3e-8).short_bounce(),
             Some(ShortBounce { steps: 2.0, force: 3e-8, duration: 0.4 })
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn substeps_that_run_back_make_no_negative_step() {
+    fn backward_substeps_give_a_positive_bounce_duration() {
         let mut watch = ContactWatch::new(1e4, 2.0);
         watch.add([true, false], [1.0, 1.0], (3.0, 0.1));
         watch.add([false, true], [1.0, -1.0], (3.0, -0.3));

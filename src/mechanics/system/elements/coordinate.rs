@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn many_small_changes_are_not_lost() {
+    fn coordinate_accumulates_changes_below_rounding() {
         let mut followed = Coordinate::from(1.0);
         for _ in 0..1000 {
             followed = followed.after(1e-17);

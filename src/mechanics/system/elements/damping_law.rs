@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_resists_at_every_rate_is_told_from_what_pushes() {
+    fn damping_laws_that_add_energy_are_detected() {
         let resisting = [
             table(&[(-1.0, -3.0), (1.0, 3.0)]),
             table(&[(-1.0, 0.0), (0.0, 0.0), (1.0, 2.0)]),
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_polygon_gets_a_corner_at_rest() {
+    fn table_law_gets_a_corner_at_zero_rate() {
         let law = table(&[(-0.3, -0.1), (0.7, 0.7 / 3.0)]).with_corner_at_rest();
         assert_eq!((law.force(0.0), law.corners().len()), (0.0, 3));
         assert!(law.force(1e-9) > 0.0 && law.force(-1e-9) < 0.0);
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_is_met_on_either_side_of_rest() {
+    fn sampled_damping_function_is_accurate_on_both_sides_of_rest() {
         let force = |rate: f64| if rate > 0.0 { 3.0 * rate * rate } else { 0.2 * rate };
         let law = DampingLaw::sampled((-1.0, 2.0), |rate| Ok::<f64, ()>(force(rate))).unwrap();
         assert_eq!(law.active_range(), None);

@@ -124,7 +124,7 @@ mod tests {
     use crate::geometry::unit;
 
     #[test]
-    fn derivatives_are_those_of_the_force_and_no_force_drives() {
+    fn drag_derivatives_are_exact_and_drag_dissipates() {
         let (normal, tangent) =
             (SpeedLaw { linear: 0.3, quadratic: 2.0 }, SpeedLaw { linear: 0.1, quadratic: 0.4 });
         for law in [DragLaw::Point(normal), DragLaw::Line { normal, tangent }] {
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_move_is_not_dragged() {
+    fn drag_is_zero_at_zero_velocity() {
         let law = DragLaw::Point(SpeedLaw { linear: 0.3, quadratic: 2.0 });
         let found = law.force(Vec2::zeros(), Vec2::x());
         assert_eq!((found.force, found.by_velocity[0].x), (Vec2::zeros(), 0.0));

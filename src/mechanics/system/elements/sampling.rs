@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_smooth_function_is_met_as_well_as_is_told() {
+    fn sampled_smooth_law_keeps_its_stated_error() {
         let (law, error, points) = sampled((-0.5, 0.8), |q| 100.0 * q + 50.0 * q * q * q);
         assert!(error < 1.1e-5 && points < 2000, "{error:e} {points}");
         for step in 0..1000 {
@@ -113,14 +113,14 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_function_takes_no_more_points_and_goes_on_straight() {
+    fn linear_function_needs_no_refinement_and_is_extrapolated() {
         let (law, error, points) = sampled((-1.0, 1.0), |q| 3.0 * q);
         assert!(points == SEGMENTS + 1 && error < 1e-15);
         assert!((law.force(4.0) - 12.0).abs() < 1e-12);
     }
 
     #[test]
-    fn a_corner_is_found_and_a_jump_ends_the_search() {
+    fn corners_are_refined_and_refinement_stops_at_jumps() {
         let (_, error, points) = sampled((-1.0, 1.0), |q| if q > 0.123 { q - 0.123 } else { 0.0 });
         assert!(error < 4e-7 && points < 100, "{error:e} {points}");
         let (law, error, points) = sampled((-1.0, 1.0), |q| if q > 0.1 { 1.0 } else { 0.0 });
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_function_that_swings_with_the_first_segments_is_seen_through() {
+    fn oscillation_aliased_with_the_first_segments_is_detected() {
         let swinging = |q: f64| crate::elementary::sin(32.0 * std::f64::consts::PI * q);
         let (law, error, points) = sampled((-1.0, 1.0), swinging);
         assert!(points > 10_000 && error > 1e-7, "{error:e} {points}");

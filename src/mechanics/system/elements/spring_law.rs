@@ -301,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_force_does_the_work_by_which_the_energy_changes() {
+    fn work_of_the_mean_spring_force_equals_the_energy_change() {
         for law in laws() {
             for (q, change) in [(-2.0, 5.0), (0.1, 0.2), (0.4, 0.3), (1.9, -2.5), (0.5, 1e-9)] {
                 let mean = law.mean(q, change);
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn forces_are_slopes_of_the_energy_and_slopes_those_of_the_mean_force() {
+    fn spring_forces_and_slopes_are_derivatives() {
         for law in laws() {
             for (q, change) in [(-1.7, 0.4), (0.2, 0.5), (1.0, -0.8), (0.1, 1e-3)] {
                 let h = 1e-6;
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_stored_at_ease_and_never_less() {
+    fn spring_energy_is_zero_at_its_minimum() {
         let push = vec![(0.0, -1e5), (1.0, 0.0), (2.0, 0.0)];
         let pull = vec![(0.0, 0.0), (1.0, 0.0), (2.0, 3.0)];
         let tensioned = vec![(1.0, 2.0), (2.0, 4.0)];
@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn a_law_is_at_ease_where_its_force_is_none_but_for_rounding() {
+    fn spring_is_unloaded_if_its_force_is_rounding() {
         let line = |q: f64| (q, 16.1 * q);
         let points = vec![line(-2.0), line(-0.7), line(1.9)];
         let error = 0.0;
@@ -355,7 +355,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_sharp_where_the_stiffness_jumps() {
+    fn sharp_corners_are_only_at_stiffness_jumps() {
         let [line, table] = laws();
         assert!(line.sharp_corners().is_empty());
         assert_eq!(table.sharp_corners(), [0.0, 0.5]);
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_goes_on_beyond_its_ends() {
+    fn spring_table_is_extrapolated_linearly() {
         let [_, table] = laws();
         assert_eq!([table.force(-2.0), table.force(3.0), table.force(0.25)], [-6.0, 10.0, 0.0]);
         assert_eq!([table.slope(-2.0), table.slope(3.0), table.slope(0.25)], [3.0, 4.0, 0.0]);

@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_of_people_are_welcome() {
+    fn letters_of_all_languages_are_accepted_in_names() {
         for name in [
             "mast",
             "beam 1",
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn what_misleads_is_refused() {
+    fn misleading_names_are_rejected() {
         let long = "a".repeat(LONGEST + 1);
         for name in [
             "",

@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn very_small_and_large_numbers_are_powers_of_ten() {
+    fn extreme_numbers_are_written_as_powers_of_ten() {
         for (number, message) in [
             (0.0, "0"),
             (1.0 / 3.0, "0.333333"),
@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn places_have_at_most_six_digits() {
+    fn rounded_numbers_have_at_most_six_digits() {
         assert_eq!(rounded(std::f64::consts::FRAC_PI_2), "1.5708");
         assert_eq!(
             (rounded(2.800_000_000_000_000_3), rounded(-0.25)),

@@ -109,7 +109,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angles_follow_their_neighbour_through_whole_turns() {
+    fn angles_are_unwrapped_to_the_nearest_whole_turn() {
         for (angle, other, expected) in [(0.1, 0.0, 0.1), (-3.0, 3.2, 2.0 * PI - 3.0)] {
             assert!((unwrap_to_nearest(angle, other) - expected).abs() < 1e-15);
         }

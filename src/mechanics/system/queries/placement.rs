@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn angles_are_those_between_normals_the_shorter_way() {
+    fn placement_angle_is_the_smaller_angle_between_normals() {
         let turned = |angle: f64| Placement {
             points: vec![Vec2::zeros(), Vec2::new(3.0, angle)],
             normals: vec![Vec2::x(), Vec2::new(angle.cos(), angle.sin())],

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_units_do_not_decide_which_scenes_are_alike() {
+    fn similarity_of_scenes_does_not_depend_on_units() {
         let (place, rounded) = (Vec2::new(1.0, 0.0), Vec2::new(1.0 + 1e-12, 2e-16));
         for units in [(1.0, 1.0), (1e-9, 1e-15), (1e9, 1e15)] {
             let scene = pair(place, 2.0, units);

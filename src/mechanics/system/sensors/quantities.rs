@@ -275,7 +275,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_unique_in_each_list() {
+    fn quantity_names_are_unique_in_each_list() {
         let of_sliders = [&COLUMNS_OF_SLIDERS[..], &OF_SLIDERS].concat();
         for (object, list) in RECORDABLE.into_iter().chain([("sliders", &of_sliders[..])]) {
             let names: Vec<&str> = list.iter().map(|quantity| quantity.name).collect();

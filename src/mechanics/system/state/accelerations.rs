@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn where_nobody_asks_for_them_they_are_no_part_of_the_state() {
+    fn unallocated_accelerations_are_not_saved() {
         let mut accelerations = Accelerations::default();
         accelerations.set(&[1.0]);
         let mut state = Vec::new();
@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn they_are_known_from_when_they_are_set_to_when_they_are_forgotten() {
+    fn accelerations_are_known_after_set_or_restore() {
         let mut accelerations = Accelerations::default();
         accelerations.allocate(2);
         assert_eq!(accelerations.known(), None);

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rates_that_alternate_are_averaged_and_rates_that_grow_are_not() {
+    fn alternating_rates_are_averaged_and_growing_rates_are_not() {
         let mut forecast = IncrementPrediction::new(&[0.0], vec![1.0]);
         for step in 0..5 {
             let (start, end) = (f64::from(step), f64::from(step + 1));

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_vibration_shows_its_frequency_and_its_share_at_any_step() {
+    fn frequency_and_unresolved_share_are_exact_for_a_single_vibration() {
         for turn in [0.3, 1.0, 2.0, 7.0, 300.0] {
             let resolution = vibrating(&[(2.0, 3.0, turn)], 100_000);
             let frequency = resolution.angular_frequency();
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn a_few_periods_in_fine_steps_suffice() {
+    fn few_periods_in_fine_steps_give_the_frequency() {
         for (turn, steps) in [(0.05, 130), (0.05, 300), (0.3, 30), (0.3, 45)] {
             let resolution = vibrating(&[(1.0, 2.0, turn)], steps);
             let frequency = resolution.angular_frequency() * 0.5;
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn vibration_that_steps_do_not_follow_is_seen_under_motion_that_they_do() {
+    fn unresolved_vibration_is_detected_under_resolved_motion() {
         let hidden = vibrating(&[(1.0, 10.0, 0.05), (1.0, 2.0, 40.0)], 100_000);
         assert!((hidden.unresolved_share() - 4.0 / 104.0).abs() < 1e-3, "{hidden:?}");
         assert!(hidden.angular_frequency() * 0.5 > 10.0, "{hidden:?}");
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fall_from_rest_is_resolved_from_its_first_step_on() {
+    fn fall_from_rest_has_no_unresolved_share() {
         let mut resolution = Resolution::above(0.0);
         for step in 0..3 {
             let (now, before) = (f64::from(step) + 0.5, f64::from(step) - 0.5);

@@ -18,7 +18,7 @@ fn viewer_data() -> ViewerData {
 }
 
 #[test]
-fn texts_cannot_leave_their_place() {
+fn texts_are_escaped_in_the_page() {
     let title = "</script><script>alert('{{data}}')</script> & \"so on\"";
     let viewer_data = ViewerData { label: title.into(), ..viewer_data() };
     let page = Viewer { title: title.into(), motions: vec![viewer_data] }.to_html().unwrap();
@@ -29,7 +29,7 @@ fn texts_cannot_leave_their_place() {
 }
 
 #[test]
-fn a_page_is_whole_and_asks_for_nothing() {
+fn page_is_complete_and_loads_no_external_resources() {
     let page = Viewer { title: "t".into(), motions: vec![viewer_data()] }.to_html().unwrap();
     for mark in ["{{", "http:", "https:", " src=", "fetch(", "import(", "@import", "url("] {
         assert!(!page.contains(mark), "{mark}");
@@ -40,7 +40,7 @@ fn a_page_is_whole_and_asks_for_nothing() {
 }
 
 #[test]
-fn beams_of_the_same_mesh_share_their_shape() {
+fn beams_with_equal_meshes_share_one_shape() {
     let mut two = viewer_data();
     two.points.iter_mut().for_each(|points| points.extend([(5.0, 5.0), (6.0, 6.0)]));
     let mut other = two.beams[0].clone();
@@ -52,7 +52,7 @@ fn beams_of_the_same_mesh_share_their_shape() {
 }
 
 #[test]
-fn obstacles_are_in_the_data_with_the_points_that_are_shown() {
+fn packed_data_contains_obstacles_with_their_visible_points() {
     let place = |symbol, at, direction| PlacedSymbol { symbol, at, direction };
     let floor = place(Symbol::Wall, (5.0, -0.25), (0.0, 1.0));
     let peg = place(Symbol::Disc, (3.0, 1.0), (0.5, 0.0));
@@ -66,7 +66,7 @@ fn obstacles_are_in_the_data_with_the_points_that_are_shown() {
 }
 
 #[test]
-fn a_film_of_nothing_is_a_page_too() {
+fn viewer_without_bodies_gives_a_page() {
     let nothing = ViewerData { times: vec![0.0], points: vec![vec![]], ..ViewerData::default() };
     assert!(Viewer { title: String::new(), motions: vec![nothing] }.to_html().is_ok());
 }

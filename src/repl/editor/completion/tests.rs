@@ -39,7 +39,7 @@ fn names_of_the_session_and_the_language_are_offered() {
 }
 
 #[test]
-fn members_follow_from_the_type_of_the_receiver() {
+fn offered_members_match_the_receiver_type() {
     assert_eq!(offered("rod.e"), ["rod.end"]);
     assert_eq!(offered("sim.history.dr"), ["sim.history.drift("]);
     assert_eq!(offered("scene.slider(rod.sta"), ["scene.slider(rod.start"]);
@@ -55,7 +55,7 @@ fn members_follow_from_the_type_of_the_receiver() {
 }
 
 #[test]
-fn keys_of_options_are_offered_once() {
+fn option_keys_are_offered_only_if_unused() {
     assert_eq!(offered("scene.beam(#{ ax"), ["scene.beam(#{ axis: "]);
     assert_eq!(offered("scene.start(#{ dt: 0.1, ¦ })").len(), 5);
     assert_eq!(
@@ -78,7 +78,7 @@ fn keys_of_options_are_offered_once() {
 }
 
 #[test]
-fn texts_are_completed_where_the_call_says_what_they_are() {
+fn strings_are_completed_by_the_expected_parameter() {
     assert_eq!(offered("section(#{ shape: \"rec"), ["section(#{ shape: \"rectangle\""]);
     assert_eq!(offered("section(#{ shape: \"rec¦\" })"), ["section(#{ shape: \"rectangle\" })"]);
     assert_eq!(offered("sim.history.drift(\"g"), ["sim.history.drift(\"gap\""]);
@@ -125,7 +125,7 @@ fn commands_and_their_operands_are_completed() {
 }
 
 #[test]
-fn nothing_is_offered_where_nothing_can_be_known() {
+fn nothing_is_offered_in_comments_strings_and_new_names() {
     for line in
         ["// ro", "/* ro", "`ro", "`${x} ro", "let ro", "fn ro", "12", "'r", "1.5e", "\"a\""]
     {
@@ -135,13 +135,13 @@ fn nothing_is_offered_where_nothing_can_be_known() {
 }
 
 #[test]
-fn at_the_beginning_of_a_further_line_there_is_room_to_indent() {
+fn completion_at_the_start_of_a_line_indents() {
     assert_eq!(offered("fn f() {\n"), ["fn f() {\n    "]);
 }
 
 proptest! {
     #[test]
-    fn completion_never_fails_and_replaces_what_stands_before_the_cursor(
+    fn completion_of_any_input_replaces_text_before_the_cursor(
         line in "([ -~ä\n]|rod|sim|\\.|\\(|#\\{|\"|::|history|:plot |`|\\$\\{){0,20}", place in 0.0..1.0
     ) {
         let surroundings = surroundings();

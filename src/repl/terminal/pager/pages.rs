@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_go_on_and_back_and_end_with_the_text() {
+    fn pager_moves_forward_and_back_within_the_text() {
         assert_eq!(walked("q"), ("012".into(), PagerOutcome::Shown));
         assert_eq!(walked("   q"), ("0123456789".into(), PagerOutcome::Shown));
         assert_eq!(walked(" \rbq"), ("0123456123".into(), PagerOutcome::Shown));
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_is_found_in_what_can_be_read() {
+    fn pager_search_ignores_case_and_colour_codes() {
         assert_eq!(walked("/LINE 4\rq"), ("012456".into(), PagerOutcome::Shown));
         assert_eq!(walked("/line\rnnq"), ("012123234345".into(), PagerOutcome::Shown));
         assert_eq!(walked("/1m\rq"), ("012".into(), PagerOutcome::Shown), "colours are no letters");
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn an_interrupt_leaves_at_once() {
+    fn interrupt_quits_the_pager() {
         assert_eq!(walked(" ^  "), ("012345".into(), PagerOutcome::Interrupted));
         assert_eq!(walked("/a^"), ("012".into(), PagerOutcome::Interrupted));
     }

@@ -125,7 +125,7 @@ fn every_documented_form_exists() {
 }
 
 #[test]
-fn every_number_of_arguments_that_help_allows_exists() {
+fn every_documented_number_of_arguments_is_callable() {
     let known = known();
     for built_in in built_ins() {
         for form in built_in.written().filter(|form| form.ending == NameSuffix::Arguments) {
@@ -165,7 +165,7 @@ fn related_names_have_help() {
 }
 
 #[test]
-fn every_example_runs_and_shows_something() {
+fn every_built_in_example_runs_and_has_output_or_a_check() {
     let built_ins = built_ins().map(|known| (known.name(), known.example));
     for (name, example) in built_ins.chain(TOPICS.iter().map(|topic| (topic.name, topic.example))) {
         let program = Program::named(name, example);
@@ -177,7 +177,7 @@ fn every_example_runs_and_shows_something() {
 }
 
 #[test]
-fn what_is_refused_says_what_to_write() {
+fn rejected_functions_state_their_replacement() {
     for refused in REFUSED {
         for count in refused.counts {
             for value in ["0.5", "1", "\"a\""] {
@@ -198,14 +198,14 @@ fn what_is_refused_says_what_to_write() {
 }
 
 #[test]
-fn what_nobody_needs_is_not_there() {
+fn unneeded_engine_functions_are_removed() {
     for name in ["blob", "get_bit", "set_bits", "get_fn_metadata_list", "take", "parse_json"] {
         assert!(known().iter().all(|function| function.name != name), "{name}");
     }
 }
 
 #[test]
-fn reserved_words_are_those_of_the_engine() {
+fn documented_reserved_words_are_reserved_by_the_engine() {
     let topic = TOPICS.iter().find(|topic| topic.name == "reserved words").unwrap();
     let (used, rest) = topic.doc.split_once(". Kept for later: ").unwrap();
     let kept = rest.split(". ").next().unwrap();

@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_lie_where_a_sign_changes() {
+    fn discontinuities_are_detected_at_sign_changes() {
         assert_eq!(about(at_zero, &[0.0], 1e-5), Some(NoDerivative::Discontinuous));
         assert_eq!(about(at_zero, &[2e-5], 1e-5), None);
         assert_eq!(about(at_equality, &[2.0, 2.0], 0.1), Some(NoDerivative::Discontinuous));
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_too_steep_near_where_they_are_infinite() {
+    fn infinite_slopes_are_detected_near_singular_points() {
         for (corner, at) in [
             (near_zero as NonsmoothCheck, vec![0.0]),
             (near_one, vec![-1.0]),
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_of_an_array_changes_where_another_overtakes() {
+    fn change_of_the_largest_element_is_discontinuous() {
         let sides = |one: &[f64], other: &[f64]| [array(one), array(one), array(other)];
         let overtaken = sides(&[1.0, 2.1, 2.0], &[1.0, 1.9, 2.0]);
         assert_eq!(asked(at_largest_change, overtaken), Some(NoDerivative::Discontinuous));

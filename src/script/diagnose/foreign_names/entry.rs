@@ -67,7 +67,7 @@ mod tests {
     use crate::script::packages::language;
 
     #[test]
-    fn what_is_pointed_at_has_help() {
+    fn names_referenced_by_foreign_name_entries_have_help() {
         let catalog = language();
         for entry in all() {
             for name in entry.see {
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_told_about_once() {
+    fn foreign_names_are_unique() {
         let mut seen = BTreeSet::new();
         for word in all().flat_map(|entry| entry.words) {
             assert!(seen.insert(word), "{word}");

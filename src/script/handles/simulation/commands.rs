@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_told_before_a_time_is_recalled_after_going_back_and_in_copies() {
+    fn commands_before_a_time_are_known_after_rewinds_and_in_copies() {
         let commands = Commands::new(2);
         assert_eq!(commands.before(0, 1.0), 0.0);
         for (time, command) in [(0.0, 1.0), (0.1, 1.0), (0.2, 3.0), (0.3, 4.0)] {

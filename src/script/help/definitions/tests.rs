@@ -12,7 +12,7 @@ fn file(name: &str) -> DefinitionFile {
 }
 
 #[test]
-fn every_table_has_a_file_with_all_its_rows() {
+fn every_table_has_a_definition_file_with_all_rows() {
     let catalog = language();
     for table in catalog.tables() {
         let text = file(&format!("{}.d.rhai", identifier(table.name))).text;
@@ -37,7 +37,7 @@ fn is_declaration(line: &str) -> bool {
 }
 
 #[test]
-fn every_line_is_a_comment_or_a_whole_declaration() {
+fn every_definition_line_is_a_comment_or_complete_declaration() {
     for DefinitionFile { name, text } in definitions(&language()) {
         let mut lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with("///"));
         assert_eq!(lines.next(), Some("module static;"), "{name}");
@@ -54,7 +54,7 @@ fn every_line_is_a_comment_or_a_whole_declaration() {
 }
 
 #[test]
-fn every_type_that_is_used_is_declared() {
+fn every_used_type_is_declared() {
     let files = definitions(&language());
     let declared: Vec<&str> = files[0]
         .text
@@ -76,7 +76,7 @@ fn every_type_that_is_used_is_declared() {
 }
 
 #[test]
-fn optional_arguments_are_declared_in_turn() {
+fn each_number_of_optional_arguments_is_declared() {
     let text = file("simulations.d.rhai").text;
     assert!(text.contains("\nfn step(simulation: simulation) -> ();\n"), "{text}");
     assert!(text.contains("\nfn step(simulation: simulation, count: whole_number) -> ();\n"));
@@ -87,7 +87,7 @@ fn optional_arguments_are_declared_in_turn() {
 }
 
 #[test]
-fn what_is_given_back_has_a_type() {
+fn return_kinds_have_declared_types() {
     for (kind, of) in [
         (ValueKind::Integer, "whole_number"),
         (ValueKind::Array(&ValueKind::Number), "array"),

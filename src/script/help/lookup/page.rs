@@ -198,7 +198,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_wrapped_and_styles_take_no_room() {
+    fn help_text_is_wrapped_without_counting_style_codes() {
         let mut page = HelpPage::default();
         page.words(
             2,
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn scripts_are_broken_where_it_means_nothing() {
+    fn code_is_wrapped_only_between_tokens() {
         let line = "let s = section(#{ EA: 1, GA: 2, name: \"a, b, c, d\" });";
         assert_eq!(wrapped_code(line, 80), [line]);
         let pieces = wrapped_code(line, 35);

@@ -29,7 +29,7 @@ See also round, fixed.
 }
 
 #[test]
-fn a_function_of_rhai_has_all_its_forms() {
+fn help_on_a_rhai_function_shows_all_forms() {
     assert_eq!(
         shown("sub_string"),
         "\
@@ -58,7 +58,7 @@ fn constants_and_options_have_pages() {
 }
 
 #[test]
-fn methods_are_found_by_type_by_variable_and_alone() {
+fn help_finds_methods_by_type_variable_or_name() {
     let page = shown("simulation.run_to");
     assert!(page.starts_with("simulation.run_to(t)\n"), "{page}");
     assert_eq!(shown("run_to"), page);
@@ -76,12 +76,12 @@ fn methods_are_found_by_type_by_variable_and_alone() {
 }
 
 #[test]
-fn a_property_says_what_may_be_assigned() {
+fn help_on_a_property_states_assignable_values() {
     assert!(shown("vector.x").contains("It can be assigned: a number"), "{}", shown("vector.x"));
 }
 
 #[test]
-fn domains_and_words_of_the_language_have_pages() {
+fn domains_and_keywords_have_help_pages() {
     assert!(shown("loads").contains("\n  scene.force("), "{}", shown("loads"));
     assert!(shown("arrays").contains("array.push(value): Appends"), "{}", shown("arrays"));
     assert!(shown("while").starts_with("The language: loops\n"), "{}", shown("while"));
@@ -101,7 +101,7 @@ fn unknown_names_get_suggestions() {
 }
 
 #[test]
-fn terms_of_engineers_have_a_page() {
+fn engineering_terms_have_help_pages() {
     let words = "friction pulley rope cable buckling actuator cylinder winch wheel gif video fft optimise random imperfection collision";
     let phrases = [
         "boundary condition",
@@ -117,7 +117,7 @@ fn terms_of_engineers_have_a_page() {
 }
 
 #[test]
-fn every_name_has_a_page_that_fits() {
+fn every_name_has_a_help_page_within_the_width() {
     let catalog = language();
     let names = names(&catalog);
     assert!(names.len() > 300, "{}", names.len());
@@ -133,7 +133,7 @@ fn every_name_has_a_page_that_fits() {
 }
 
 #[test]
-fn broken_examples_are_the_same_scripts() {
+fn wrapped_examples_have_the_same_tokens() {
     let catalog = language();
     let rows = catalog.tables().flat_map(|table| {
         table.rows.iter().map(|row| row.example).chain(std::iter::once(table.setup))
@@ -149,7 +149,7 @@ fn broken_examples_are_the_same_scripts() {
 }
 
 #[test]
-fn colours_change_nothing_but_the_look() {
+fn coloured_help_has_the_text_of_plain_help() {
     let page = page(&language(), "section").unwrap();
     let ansi = page.ansi(WIDTH);
     assert!(ansi.contains("\u{1b}[2m[mass/length]\u{1b}[0m"), "{ansi}");

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_and_kinds_agree_and_states_have_their_quantities() {
+    fn field_names_agree_with_their_kinds_and_quantities() {
         assert_eq!(KINDS.each_ref().map(|kind| kind.name), FIELDS);
         let of_states = KINDS.iter().filter(|kind| matches!(kind.source, FieldSource::State));
         assert!(of_states.into_iter().all(|kind| BeamQuantity::named(kind.name).is_some()));

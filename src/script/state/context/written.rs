@@ -120,7 +120,7 @@ mod tests {
     use crate::script::state::settings::RunSettings;
 
     #[test]
-    fn an_interrupt_ends_the_writing_of_a_long_file() {
+    fn interrupt_stops_writing_a_file() {
         let out = tempfile::tempdir().expect("a temporary folder");
         let settings =
             RunSettings { out: out.path().to_owned(), ..RunSettings::silent(RunMode::Run) };

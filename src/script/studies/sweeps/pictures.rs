@@ -302,7 +302,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_are_thinned_by_lot_and_not_in_step_with_a_pattern() {
+    fn points_are_thinned_randomly_without_aliasing() {
         let all: Vec<usize> = (0..4000).collect();
         let shown = thinned(&all, 2000);
         assert_eq!(shown, thinned(&all, 2000));
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn few_values_have_classes_of_their_own() {
+    fn few_distinct_values_have_separate_classes() {
         let numbers: Vec<f64> = (0..32 * 10).map(|at| f64::from(at % 32)).collect();
         let found = classes(numbers);
         assert!(found.len() == 32 && found.iter().all(|of| of.count == 10), "{found:?}");
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_middle_is_found_among_ascending_ones() {
+    fn nearest_of_ascending_middles_is_found() {
         let middles = [1.0, 2.0, 4.0];
         let found = [-9.0, 1.4, 1.6, 2.0, 3.5, 9.0].map(|x| nearest(&middles, x));
         assert_eq!(found, [0, 0, 1, 1, 2, 2].map(Some));

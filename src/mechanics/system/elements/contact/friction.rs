@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_force_does_the_work_of_the_exact_path() {
+    fn mean_friction_force_does_the_work_of_the_exact_path() {
         for law in laws().map(|law| FrictionLaw { damping: 0.0, ..law }) {
             for slip in SLIPS {
                 let pieces = 200_000;
@@ -351,7 +351,7 @@ mod tests {
     }
 
     #[test]
-    fn the_force_stays_below_its_limit_and_dissipates() {
+    fn friction_force_stays_within_its_limit_and_dissipates() {
         for law in laws() {
             for slip in SLIPS {
                 let force = law.mean_force(slip).by_slip.force;
@@ -364,7 +364,7 @@ mod tests {
     }
 
     #[test]
-    fn stiffness_and_dependence_on_the_limit_are_derivatives() {
+    fn friction_derivatives_agree_with_finite_differences() {
         let step = 1e-7;
         for law in laws() {
             for slip in SLIPS.map(|slip| slip + 1e-4) {

@@ -124,7 +124,7 @@ mod tests {
         [(-0.1, -0.2), (-0.2, 0.15), (0.1, -0.3), (-0.05, 0.4), (0.0, -0.1), (0.2, 0.3)];
 
     #[test]
-    fn the_mean_tension_does_the_work_by_which_the_potential_changes() {
+    fn work_of_the_mean_contact_force_equals_the_energy_change() {
         for law in LAWS {
             for (gap, change) in PATHS {
                 let (work, end) = (law.mean(gap, change).force * change, gap + change);
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn tension_and_stiffness_are_derivatives() {
+    fn contact_force_and_stiffness_are_derivatives() {
         let h = 1e-6;
         for law in LAWS {
             for (gap, change) in PATHS {

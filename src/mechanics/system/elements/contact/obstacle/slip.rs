@@ -31,7 +31,7 @@ mod tests {
     use crate::beams::RotationIncrement;
 
     #[test]
-    fn slopes_of_the_slip_are_derivatives_and_do_its_work() {
+    fn slip_direction_and_slopes_agree_with_finite_differences() {
         let (centre, radius, step) = (Vec2::zeros(), 0.3, 1e-6);
         let shape = ObstacleShape::Disc { centre, radius };
         let start = Vec2::new(0.5, -0.2);

@@ -4,10 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::layering::{Walls, sources, without_tests};
+use crate::layering::{DependencyRules, sources, without_tests};
 
 /// Submodules in order. A submodule may use those before it.
-const WINGS: &[&str] = &[
+const SUBMODULES: &[&str] = &[
     "messages",
     "source",
     "state",
@@ -28,23 +28,23 @@ fn script() -> PathBuf {
 }
 
 /// Submodule of a file of the script.
-fn wing(path: &Path) -> Option<String> {
+fn submodule(path: &Path) -> Option<String> {
     let first = path.strip_prefix(script()).ok()?.components().next()?;
     first.as_os_str().to_str().filter(|name| *name != "mod.rs").map(str::to_owned)
 }
 
 /// Uses of a submodule by an earlier one.
-fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
-    let place = |name: &str| WINGS.iter().position(|wing| *wing == name);
+fn violations_in(files: &[(PathBuf, String)]) -> Vec<String> {
+    let place = |name: &str| SUBMODULES.iter().position(|submodule| *submodule == name);
     // Unit tests may use everything.
     let code: Vec<_> = files
         .iter()
         .map(|(path, text)| (path.clone(), without_tests(path, text).to_owned()))
         .collect();
-    let walls = Walls {
-        part: "wing",
+    let rules = DependencyRules {
+        part: "submodule",
         root: "script",
-        of_file: &wing,
+        of_file: &submodule,
         paths: &["crate::script::"],
         of_name: &str::to_owned,
         may_use: &|own, other| {
@@ -52,24 +52,24 @@ fn trespasses(files: &[(PathBuf, String)]) -> Vec<String> {
             Some(place(other).is_some_and(|other| other < own))
         },
     };
-    walls.breaches(&code)
+    rules.violations(&code)
 }
 
 #[test]
 fn script_submodules_use_only_submodules_to_their_left() {
     let files = sources();
-    assert!(files.iter().filter(|(path, _)| wing(path).is_some()).count() > 100);
-    let found = trespasses(&files);
+    assert!(files.iter().filter(|(path, _)| submodule(path).is_some()).count() > 100);
+    let found = violations_in(&files);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let text =
         "use crate::script::bindings::table::Row;\nuse crate::script::messages::stop::Stop;\n";
-    let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
+    let found = violations_in(&[(script().join("source/program.rs"), text.to_owned())]);
     assert!(
         found.len() == 1 && found[0].ends_with("program.rs:1: source uses bindings"),
         "{found:?}"
     );
     let text = "use super::lexing::Lexed;\nuse super::super::bindings::table::Row;\n";
-    let found = trespasses(&[(script().join("source/program.rs"), text.to_owned())]);
+    let found = violations_in(&[(script().join("source/program.rs"), text.to_owned())]);
     assert!(
         found.len() == 1 && found[0].ends_with("program.rs:2: source uses bindings"),
         "{found:?}"
