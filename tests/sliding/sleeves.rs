@@ -141,7 +141,7 @@ fn the_holder_turns_with_the_section_that_it_passes() {
             if after.0 < 0.0 {
                 let share = before.0 / (before.0 - after.0);
                 let turned = before.1 + share * (after.1 - before.1) - start.1;
-                return [turned.abs(), flight.model().sleeve_turn_gap(0).abs()];
+                return [turned.abs(), flight.model().sleeve_rotation_gap(0).abs()];
             }
             before = after;
         }

@@ -14,8 +14,8 @@ pub use sliding::{
     AtStop, CONTACT_UNKNOWNS, Conserving, Contact, ContactUnknowns, Equation, Exact, Friction,
     FrictionForces, FrictionMode, Frozen, HeldSlider, Kink, KinkMotion, KinkState, Kinked,
     MasterAtSleeve, MovingSleeve, PathVector, Relaxed, Released, Resting, RestingSleeve,
-    RotationSlopes, RuleClaims, RuleEntry, SLIDING_RULES, SleeveOffset, SleeveTurn, SlidingLaw,
-    SlidingRule, Unit,
+    RotationSlopes, RuleClaims, RuleEntry, SLIDING_RULES, SleeveOffset, SleeveRotations,
+    SlidingLaw, SlidingRule, Unit,
 };
 pub use track::{Track, TrackBeam, TrackDirection, TrackEnd};
 pub use wrench::Wrench;

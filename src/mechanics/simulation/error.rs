@@ -38,7 +38,7 @@ pub enum SimulationError {
     )]
     StartMismatch { drive: String, rest_position: f64, function_value: f64, time: f64 },
     #[error(
-        "the sleeves of scene '{scene}' are on the axis of the mesh in motion, and no equilibrium of this kind was found near the given one: {source}"
+        "scene '{scene}' has no equilibrium near the given one without the compliance at its sleeves that its mesh does not represent, from which a motion starts: {source}"
     )]
     SleevesAtRest { scene: String, source: Box<StaticsError> },
     #[error("the simulation is already at t = {now} and cannot run to t = {end}")]

@@ -497,13 +497,13 @@ impl fmt::Display for Warning {
                 short(*depth),
                 short(*energy)
             ),
-            Self::Bounce { slider, dt, impacts_per_step: blows } => write!(
+            Self::Bounce { slider, dt, impacts_per_step } => write!(
                 f,
                 "slider '{slider}' bounced off an elastic beam with dt = {}, which is {} times the longest duration of such an impact ({}): the beam was treated as rigid. Use dt below {} to resolve the waves, or give the slider a restitution",
                 short(*dt),
-                short(*blows),
-                short(dt / blows),
-                short(RESOLVED_IMPACT * dt / blows)
+                short(*impacts_per_step),
+                short(dt / impacts_per_step),
+                short(RESOLVED_IMPACT * dt / impacts_per_step)
             ),
         }
     }

@@ -320,7 +320,7 @@ impl<'s> Continuation<'s> {
     }
 
     /// Solves for a load factor from the present configuration, and returns the state of the model in the solution.
-    pub(super) fn settle(mut self, factor: f64) -> Result<SystemState, StaticsError> {
+    pub(super) fn solve_at(mut self, factor: f64) -> Result<SystemState, StaticsError> {
         match self.balance_from(factor, 0.0) {
             Ok(_) => {
                 self.model.move_by(&self.unknowns, factor);

@@ -125,7 +125,7 @@ impl Equilibrium {
             .map_err(|(load, source)| StaticsError::Load { load, source })?;
         model.neglect_sleeve_compliance();
         let factor = self.path.load_factor();
-        Continuation::new(&self.scene, model, self.loading, goes_on).settle(factor)
+        Continuation::new(&self.scene, model, self.loading, goes_on).solve_at(factor)
     }
 
     /// Reaction of the supports at a point: force [force] and moment [force·length]; `None` without a support at the point.

@@ -26,12 +26,12 @@ pub fn functions_of_time(scene: &Scene) -> Vec<&StoredFunction> {
 /// Fails with the error of the computation, if a function reads a simulation of the script through a captured variable,
 /// or if a function has changed a captured variable, whose value is then restored.
 /// A repetition would start from the changed value and not be the same computation.
-pub fn repeat_unchanged<T>(
+pub fn expect_no_side_effects<T>(
     functions: &[&StoredFunction],
-    repeat: impl FnOnce() -> Result<T, ScriptError>,
+    compute: impl FnOnce() -> Result<T, ScriptError>,
 ) -> Result<T, ScriptError> {
     let captured = CapturedVariables::of(functions)?;
-    let result = repeat();
+    let result = compute();
     captured.expect_unchanged()?;
     result
 }
@@ -78,7 +78,7 @@ impl CapturedVariables {
         }
         changed.map_or(Ok(()), |role| {
             let message = format!(
-                "{role} changes a variable of the script, so a companion run cannot repeat it from the start"
+                "{role} changes a variable of the script, so that a repetition has other results"
             );
             let hint = "compute the value from the time and the simulation alone, or estimate the error by a study";
             Err(ScriptError::new(message).hint(hint))

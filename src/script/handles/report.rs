@@ -36,7 +36,7 @@ impl Reporter for SimulationHandle {
                 "force": [force.x, force.y],
                 "state": model.slider_state(index).name(),
                 "most_spans_in_a_step": model.most_spans(index),
-                "blows_in_a_step": model.impacts_per_step(index),
+                "impacts_per_step": model.impacts_per_step(index),
             })
         };
         let notes: Vec<String> = simulation.warnings().iter().map(ToString::to_string).collect();

@@ -22,7 +22,7 @@ use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{
     BindingTable, FunctionBinding, NativeFunction, function, method, property,
 };
-use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
+use crate::script::handles::captured_variables::{expect_no_side_effects, functions_of_time};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::scene::SceneHandle;
 use crate::script::handles::simulation::RunStart;
@@ -351,6 +351,10 @@ fn find(call: &mut Call) -> Result<Dynamic, ScriptError> {
     Ok(Dynamic::from(EquilibriumHandle::new(scene, rest)))
 }
 
+/// Largest difference of positions on the meshes of an error estimate [size of the scene].
+/// Larger differences indicate different equilibria.
+const LARGEST_DIFFERENCE: f64 = 0.1;
+
 fn estimated_error(rest: &Equilibrium, context: &Context) -> Result<ErrorEstimate, ScriptError> {
     let moment = format!(" at load factor {}", significant(rest.path().load_factor(), 6));
     let stations = stations_and_middles(rest.scene());
@@ -367,25 +371,20 @@ fn estimated_error(rest: &Equilibrium, context: &Context) -> Result<ErrorEstimat
     };
     let positions = Together { name: POSITIONS, count: stations.len() };
     let (own, size) = (results(rest)?, rest.scene().size().unwrap_or(1.0));
-    let is_near = |found: &MeshResult, own: &MeshResult| {
-        own.dimension != "length" || (found.value - own.value).norm() <= LARGEST_DIFFERENCE * size
-    };
+    let distance = |(found, own): &(&MeshResult, &MeshResult)| (found.value - own.value).norm();
     ErrorEstimate::on_meshes(rest.scene(), moment, positions, own.clone(), |scene| {
         let found = results(&repeated(rest, scene, context)?)?;
-        match found.iter().zip(&own).find(|(found, own)| !is_near(found, own)) {
+        let mut positions = found.iter().zip(&own).take(stations.len());
+        match positions.find(|pair| distance(pair) > LARGEST_DIFFERENCE * size) {
             None => Ok(found),
-            Some((found, own)) => Err(ScriptError::new(format!(
+            Some(pair) => Err(ScriptError::new(format!(
                 "{} is at a distance of {} from its position on the mesh of the scene: a mesh is too coarse, or this is another equilibrium",
-                own.name,
-                significant((found.value - own.value).norm(), 3)
+                pair.1.name,
+                significant(distance(&pair), 3)
             ))),
         }
     })
 }
-
-/// Largest difference of positions on the meshes of an error estimate [size of the scene].
-/// Larger differences indicate different equilibria.
-const LARGEST_DIFFERENCE: f64 = 0.1;
 
 /// Finds an equilibrium again for its scene with another mesh.
 pub(super) fn repeated(
@@ -395,7 +394,7 @@ pub(super) fn repeated(
 ) -> Result<Equilibrium, ScriptError> {
     let found = match context.mode() {
         RunMode::DryRun => Equilibrium::dry_run(scene, *rest.loading()),
-        RunMode::Run => repeat_unchanged(&functions_of_time(rest.scene()), || {
+        RunMode::Run => expect_no_side_effects(&functions_of_time(rest.scene()), || {
             let found = Equilibrium::find(scene, *rest.loading(), &mut |_| !context.is_stopped());
             context.proceed()?;
             Ok(found)

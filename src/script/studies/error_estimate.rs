@@ -13,7 +13,7 @@ use crate::output::{
     Cell, DataColumn, DataTable, DataValues, NpzArchive, NpzArray, TextTable, scientific,
     significant,
 };
-use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
+use crate::script::handles::captured_variables::{expect_no_side_effects, functions_of_time};
 use crate::script::handles::simulation::{Companion, RunStart, SimulationHandle};
 use crate::script::messages::error::ScriptError;
 use crate::script::state::context::Context;
@@ -454,7 +454,7 @@ fn run_companions(
         }
     };
     let scene = handle.simulation().scene().clone();
-    let found = repeat_unchanged(&functions_of_time(&scene), || {
+    let found = expect_no_side_effects(&functions_of_time(&scene), || {
         Ok(on_all_cores(&cases, &stop, work, |_| match context.is_stopped() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),

@@ -1,6 +1,6 @@
 //! Contact of a slider in a step: path along the master, and forces on slave and master.
 
-use super::{Equation, Friction, SleeveTurn, Unit};
+use super::{Equation, Friction, SleeveRotations, Unit};
 use crate::geometry::{ContactPath, FunctionOnPath, Vec2};
 
 /// Number of unknowns of a contact: two components of the force, two components of the couple, and the sliding increment.
@@ -108,7 +108,7 @@ pub struct Contact<'a> {
     /// Friction of the slider along the master; `None` without friction.
     pub friction: Option<Friction<'a>>,
     /// Rotations of a sleeve and its master in the step; `None` for other sliders.
-    pub sleeve: Option<SleeveTurn>,
+    pub sleeve: Option<SleeveRotations>,
     /// Mean length of the master per unit of its parameter [length]. The contact equations are divided by this length.
     pub length: f64,
 }
@@ -152,7 +152,9 @@ impl Contact<'_> {
     pub fn outward_push(&self, outward: f64) -> f64 {
         let push = self.unknowns.force.dot(&self.end_point().by_end) * outward;
         match &self.sleeve {
-            Some(turn) => push + self.unknowns.couple.x * self.length * turn.end_slope() * outward,
+            Some(rotations) => {
+                push + self.unknowns.couple.x * self.length * rotations.end_slope() * outward
+            }
             None => push,
         }
     }
@@ -186,8 +188,9 @@ impl Contact<'_> {
         self.path.first()
     }
 
-    /// Couple that forces on the master represent, and the factor of the divided differences in these forces.
-    fn spread_couple(&self) -> (Vec2, f64) {
+    /// Factor of the additional forces on the master, and the factor of the divided differences in these forces.
+    /// A sleeve has no additional forces, because its moments act on rotations.
+    fn additional_forces(&self) -> (Vec2, f64) {
         let couple = self.unknowns.couple;
         match (&self.sleeve, &self.kink) {
             (Some(_), _) => (Vec2::zeros(), 0.0),
@@ -199,7 +202,7 @@ impl Contact<'_> {
     /// Contact forces on the control points of the master whose basis functions are nonzero on the path [force].
     pub fn master_forces(&self) -> impl Iterator<Item = Vec2> + '_ {
         let force = self.unknowns.force;
-        let (couple, share) = self.spread_couple();
+        let (couple, share) = self.additional_forces();
         let weights = self.path.mean().iter().zip(self.path.difference());
         weights.map(move |(mean, difference)| force * *mean - couple * (share * difference))
     }
@@ -209,7 +212,7 @@ impl Contact<'_> {
     /// The vector is the derivative with respect to the sliding increment.
     pub fn master_force_slopes(&self) -> impl Iterator<Item = (f64, f64, Vec2)> + '_ {
         let force = self.unknowns.force;
-        let (couple, share) = self.spread_couple();
+        let (couple, share) = self.additional_forces();
         let weights = self.path.mean().iter().zip(self.path.difference());
         let slopes = self.path.slope().iter().zip(self.path.change());
         weights.zip(slopes).map(move |((mean, difference), (slope, change))| {

@@ -32,7 +32,7 @@ pub use frozen::Frozen;
 pub use held::HeldSlider;
 pub use kinked::Kinked;
 pub use law::SlidingLaw;
-pub use moving_sleeve::{MovingSleeve, RotationSlopes, SleeveTurn};
+pub use moving_sleeve::{MovingSleeve, RotationSlopes, SleeveRotations};
 pub use relaxed::Relaxed;
 pub use released::Released;
 pub use resting::{AtStop, Resting};

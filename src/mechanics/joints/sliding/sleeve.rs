@@ -48,7 +48,7 @@ pub struct SleeveOffset {
     /// Rotation [rad].
     pub rotation: f64,
     /// Derivatives of displacement and rotation with respect to the angle of the sleeve, for a constant force.
-    pub turned: (Vec2, f64),
+    pub by_angle: (Vec2, f64),
 }
 
 impl MasterAtSleeve {
@@ -61,12 +61,12 @@ impl MasterAtSleeve {
         let coupling = self.coupling[order];
         let raised = transverse * across + coupling * moment;
         let stretched = axial * tension;
-        let turned =
+        let displaced =
             normal * (stretched - transverse * tension) + along * (axial * across - raised);
         SleeveOffset {
             displacement: normal * raised + along * stretched,
             rotation: coupling * across + self.rotation[order] * moment,
-            turned: (turned, -coupling * tension),
+            by_angle: (displaced, -coupling * tension),
         }
     }
 }
@@ -106,7 +106,7 @@ impl RestingSleeve {
     fn balanced(&self, contact: &Contact<'_>) -> Equation {
         let (force, scale) = (contact.unknowns.force, 1.0 / contact.length);
         let [offset, change] = [0, 1].map(|order| self.offset(contact, order));
-        let (by_sleeve, change) = (offset.turned.1, change.displacement);
+        let (by_sleeve, change) = (offset.by_angle.1, change.displacement);
         let offset = offset.displacement;
         let moment = contact.unknowns.couple.y + cross(offset, force) * scale;
         let mut equation = Equation::new(moment, Unit::Force);
@@ -145,18 +145,18 @@ impl RestingSleeve {
     pub fn rotation_slopes(&self, contact: &Contact<'_>) -> RotationSlopes {
         let (force, length) = (contact.unknowns.force, contact.length);
         let [offset, change] = [0, 1].map(|order| self.offset(contact, order));
-        let (turned, rotated) = offset.turned;
+        let (displaced, rotated) = offset.by_angle;
         let along = if self.stop.is_some() { 0.0 } else { 1.0 };
         RotationSlopes {
             by_slave: [
-                -turned.x,
-                -turned.y,
+                -displaced.x,
+                -displaced.y,
                 length * (1.0 - rotated),
-                cross(turned, force) / length,
+                cross(displaced, force) / length,
                 along * cross(change.displacement, force) / length,
             ],
             by_end: [0.0, 0.0, -length, 0.0, 0.0],
-            by_twist: [0.0, 0.0, 0.0, 0.0, along * contact.unknowns.couple.x],
+            by_increment_slope: [0.0, 0.0, 0.0, 0.0, along * contact.unknowns.couple.x],
         }
     }
 }

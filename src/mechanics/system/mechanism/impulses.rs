@@ -107,8 +107,7 @@ impl System {
         }
         for at in 0..self.sliders.len() {
             let along = self.sliders[at].along(&self.bodies);
-            let wrench = Wrench { force: now.contact(at), couple: now.couple(at) };
-            self.sliders[at].start_mean_force(wrench);
+            self.sliders[at].start_mean_force(now.wrench(at));
             self.sliders[at].start_friction_force(now.contact(at).dot(&along));
         }
         self.supports.prescribed_mut().start_reactions(now.reactions().residual());

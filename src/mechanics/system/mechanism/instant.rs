@@ -40,9 +40,9 @@ impl Instant {
         self.contacts[slider].force
     }
 
-    /// Couple of a sleeve on its master [force·length]; zero for other sliders.
-    pub fn couple(&self, slider: usize) -> f64 {
-        self.contacts[slider].couple
+    /// Force of a slider on its master, with the couple of a sleeve [force, force·length]. The couple of other sliders is zero.
+    pub fn wrench(&self, slider: usize) -> Wrench {
+        self.contacts[slider]
     }
 }
 

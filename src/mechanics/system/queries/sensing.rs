@@ -3,6 +3,7 @@
 use super::{CrossSection, Transmission};
 use crate::beams::{BodyIndex, BodyPoint};
 use crate::integrators::Mechanism;
+use crate::joints::Wrench;
 use crate::system::sensors::quantities::QuantityReader;
 use crate::system::{
     Instant, Quantity, Reactions, Scene, Sensor, SensorSource, System, SystemError, ValueTime,
@@ -103,7 +104,8 @@ impl Located {
                 read(force, moment)
             }
             (Self::Source(Slider(at)), QuantityReader::Force(read)) => {
-                read(now?.contact(*at), now?.couple(*at))
+                let Wrench { force, couple } = now?.wrench(*at);
+                read(force, couple)
             }
             (
                 Self::Source(Slider(at) | Drive(at) | Load(at) | InternalForce(at)),

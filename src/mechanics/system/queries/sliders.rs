@@ -65,8 +65,8 @@ impl System {
     ///
     /// The angle of the master is interpolated from the rotations of its control points. It differs from the angle of the section
     /// by an error of second order in the step size and in the span length.
-    pub fn sleeve_turn_gap(&self, slider: usize) -> f64 {
-        self.slider(slider).turn_gap()
+    pub fn sleeve_rotation_gap(&self, slider: usize) -> f64 {
+        self.slider(slider).rotation_gap()
     }
 
     /// Present contact force of a slider [force], determined from the kink of its master, if the kink varies with the contact force.

@@ -100,7 +100,7 @@ impl Scene {
     pub fn joint_names(&self) -> Vec<String> {
         let mut counts = [0; 4];
         let name = |joint: &Joint| {
-            if let Some(holder) = self.held_holder(joint) {
+            if let Some(holder) = self.sleeve_holder(joint) {
                 return holder;
             }
             let (kind, at) = match (joint.kind, &joint.partner) {
@@ -121,7 +121,7 @@ impl Scene {
     }
 
     /// Name of the holder of a sleeve that a joint fixes to the ground; `None` for other joints.
-    fn held_holder(&self, joint: &Joint) -> Option<String> {
+    fn sleeve_holder(&self, joint: &Joint) -> Option<String> {
         let of_joint = |sleeve: &&Slider| sleeve.is_sleeve() && sleeve.slave == joint.station;
         let holder = format!("{}_holder", self.sliders.iter().find(of_joint)?.name);
         let is_holder = |body: &RigidBodyDefinition| body.name == holder;

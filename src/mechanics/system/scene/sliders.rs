@@ -35,12 +35,17 @@ fn at_seams(rule: SlidingRule) -> Option<&'static str> {
 type RefusedOption = (bool, &'static str, &'static str);
 
 /// Options that neither one-sided sliders nor sleeves allow.
-fn refused_options(slider: &Slider) -> [RefusedOption; 3] {
+fn refused_options(slider: &Slider) -> [RefusedOption; 4] {
     let is_other_rule = slider.rule != SlidingRule::Conserving;
     [
         (slider.track.is_some(), "on a track", "choose a single beam"),
         (slider.has_friction(), "with friction", "remove the friction"),
         (is_other_rule, "with a rule other than conserving", "use the conserving rule"),
+        (
+            slider.ends.has_stop(),
+            "with ends that hold or reflect it",
+            "choose ends that stop the run or release it",
+        ),
     ]
 }
 
@@ -55,11 +60,6 @@ fn check_sleeve(slider: &Slider, master: &BeamDefinition) -> Result<(), SystemEr
             "use a uniform beam, or mechanisms::sleeve",
         ),
         (!slider.slave.turns(), "on a particle, which has no rotation", "use a rigid body"),
-        (
-            slider.ends.has_stop(),
-            "with ends that hold or reflect it",
-            "choose ends that stop the run or release it",
-        ),
     ];
     let mut refused = of_sleeves.into_iter().chain(refused_options(slider));
     match refused.find(|(is_given, ..)| *is_given) {
@@ -220,12 +220,7 @@ impl Scene {
         if slider.side().is_none() {
             return Ok(());
         }
-        let ends = (
-            slider.ends.has_stop(),
-            "with ends that hold or reflect it",
-            "choose ends that stop the run or release it",
-        );
-        let mut refused = refused_options(slider).into_iter().chain([ends]);
+        let mut refused = refused_options(slider).into_iter();
         let Some((_, what, remedy)) = refused.find(|(is_given, ..)| *is_given) else {
             return Ok(());
         };

@@ -152,7 +152,7 @@ impl Sliders {
         unknowns: &[f64],
     ) {
         for slider in self.iter_mut() {
-            slider.turn_sleeve(bodies, movements);
+            slider.rotate_sleeve(bodies, movements);
             slider.accept_static_position(unknowns);
         }
     }

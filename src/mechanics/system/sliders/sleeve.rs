@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::missed_compliance::MissedCompliance;
 use crate::beams::{BeamError, Mesh, RotationIncrement, Section, StraightBeam, unresolved_kink};
 use crate::geometry::{ContactPath, PiecewisePolynomial, Span, Vec2, cross, unit};
-use crate::joints::{MasterAtSleeve, SleeveTurn};
+use crate::joints::{MasterAtSleeve, SleeveRotations};
 
 /// Number of points per span, minus the degree of the mesh, at which the curvature of the undeformed axis is interpolated.
 const MORE_POINTS: usize = 4;
@@ -113,28 +113,28 @@ impl Sleeve {
         &self,
         path: &ContactPath,
         turned: impl Iterator<Item = f64>,
-        own: f64,
-    ) -> SleeveTurn {
+        slave: f64,
+    ) -> SleeveRotations {
         let drawn = path.along(&self.master.angle);
         let at_end = path.end().iter().zip(path.slope());
         let along = path.difference().iter().zip(path.change());
-        let (mut end, mut twist) = ([0.0; 2], [0.0; 2]);
-        let mut bend = [drawn.difference, drawn.change];
+        let (mut master, mut increment_slope) = ([0.0; 2], [0.0; 2]);
+        let mut angle_slope = [drawn.difference, drawn.change];
         let before = &self.turned[path.first()..];
         for (((at_end, along), turned), before) in at_end.zip(along).zip(turned).zip(before) {
             let add = |sum: &mut [f64; 2], (value, change): (&f64, &f64), by: f64| {
                 *sum = [sum[0] + value * by, sum[1] + change * by];
             };
-            add(&mut end, at_end, turned);
-            add(&mut twist, along, turned);
-            add(&mut bend, along, *before);
+            add(&mut master, at_end, turned);
+            add(&mut increment_slope, along, turned);
+            add(&mut angle_slope, along, *before);
         }
         let tangent_factor = self.rotations.tangent_factor();
-        SleeveTurn { tangent_factor, own, end, twist, bend }
+        SleeveRotations { tangent_factor, slave, master, increment_slope, angle_slope }
     }
 
     /// Adds rotation increments of all control points of the master, and of the sleeve [rad].
-    pub fn turn(&mut self, turned: impl Iterator<Item = f64>, own: f64) {
+    pub fn rotate(&mut self, turned: impl Iterator<Item = f64>, own: f64) {
         let rotations = self.rotations;
         let sums = self.turned.iter_mut().zip(turned);
         sums.for_each(|(sum, more)| *sum += rotations.angle(more));

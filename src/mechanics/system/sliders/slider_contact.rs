@@ -310,7 +310,7 @@ impl SliderContact {
     fn evaluate(&mut self, bodies: &[Body], increments: &[f64], unknowns: &[f64]) -> Contact<'_> {
         let unknowns = self.read(unknowns);
         self.path.set_interval(self.parameter, self.parameter + unknowns.increment);
-        let sleeve = self.sleeve_in_step(bodies, increments);
+        let sleeve = self.sleeve_rotations(bodies, increments);
         Contact { sleeve, ..self.contact(bodies, increments, unknowns) }
     }
 
@@ -434,7 +434,7 @@ impl SliderContact {
             self.dissipate(increment);
         }
         self.follow_master(bodies, increments);
-        self.turn_sleeve(bodies, increments);
+        self.rotate_sleeve(bodies, increments);
         if self.kinked_axis.is_none() {
             return;
         }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::SimulationHandle;
 use crate::script::bindings::stored::StoredFunction;
-use crate::script::handles::captured_variables::{functions_of_time, repeat_unchanged};
+use crate::script::handles::captured_variables::{expect_no_side_effects, functions_of_time};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::notes::{Notes, Printing};
 use crate::script::handles::scene::SceneHandle;
@@ -122,7 +122,7 @@ impl SimulationHandle {
             self.0.events.borrow().all().iter().map(|(_, function)| function.clone()).collect();
         let mut functions = functions_of_time(&description);
         functions.extend(self.callbacks().chain(events.iter().map(|function| &**function)));
-        let ran = repeat_unchanged(&functions, || {
+        let ran = expect_no_side_effects(&functions, || {
             handle.evaluate_columns()?;
             handle.run_silently(self.time(), context)
         });

@@ -145,7 +145,7 @@ impl SliderContact {
         let turning: Vec2 = turning.map(|(by, at)| master.vector_at(at, rates) * *by).sum();
         Wrench {
             force: turning * (2.0 * rate) + values.combine(2, points) * (rate * rate),
-            couple: self.carried_turn(bodies, rates, rate),
+            couple: self.carried_angular_acceleration(bodies, rates, rate),
         }
     }
 

@@ -5,12 +5,17 @@ use crate::beams::SpanStiffness;
 use crate::elementary::square;
 use crate::geometry::{ContactPath, Vec2, cross, perpendicular};
 use crate::joints::{
-    CONTACT_UNKNOWNS, MasterAtSleeve, RestingSleeve, RotationSlopes, SleeveOffset, SleeveTurn,
+    CONTACT_UNKNOWNS, MasterAtSleeve, RestingSleeve, RotationSlopes, SleeveOffset, SleeveRotations,
     Wrench,
 };
 use crate::linalg::Border;
 use crate::system::bodies::Body;
-use crate::system::sliders::{Connection, Sleeve};
+use crate::system::sliders::Sleeve;
+
+/// Entry of an array of increments or rates; zero for a fixed degree of freedom, which has no entry.
+fn value(values: &[f64], at: usize) -> f64 {
+    values.get(at).copied().unwrap_or(0.0)
+}
 
 impl SliderContact {
     pub fn set_sleeve(&mut self, sleeve: Sleeve) {
@@ -44,24 +49,30 @@ impl SliderContact {
         increments: &[f64],
     ) -> Option<RestingSleeve> {
         let sleeve = self.sleeve.as_ref().filter(|_| self.state.has_contact())?;
-        let value = |at: usize| increments.get(at).copied().unwrap_or(0.0);
-        let turned = self.master_rotations(bodies).map(value);
-        let own = value(self.rotation(bodies));
+        let turned = self.master_rotations(bodies, &self.path).map(|at| value(increments, at));
+        let own = value(increments, self.rotation(bodies));
         let master = sleeve.master_at_sleeve(&self.path, turned, own);
         Some(RestingSleeve { master, stop: self.distance_to_stop() })
     }
 
     /// Rotations of a sleeve and its master for trial values, on the present path; `None` for sliders that are not sleeves.
-    pub(super) fn sleeve_in_step(&self, bodies: &[Body], increments: &[f64]) -> Option<SleeveTurn> {
+    pub(super) fn sleeve_rotations(
+        &self,
+        bodies: &[Body],
+        increments: &[f64],
+    ) -> Option<SleeveRotations> {
         let sleeve = self.sleeve.as_ref()?;
-        let value = |at: usize| increments.get(at).copied().unwrap_or(0.0);
-        let turned = self.master_rotations(bodies).map(value);
-        Some(sleeve.in_step(&self.path, turned, value(self.rotation(bodies))))
+        let turned = self.master_rotations(bodies, &self.path).map(|at| value(increments, at));
+        Some(sleeve.in_step(&self.path, turned, value(increments, self.rotation(bodies))))
     }
 
-    /// Index of the rotation of each control point of the master on the path, and of the control points behind it.
-    fn master_rotations<'a>(&self, bodies: &'a [Body]) -> impl Iterator<Item = usize> + 'a {
-        let of_master = &bodies[self.connection.master].degrees_of_freedom[self.path.first()..];
+    /// Index of the rotation of each control point of the master on a path, and of the control points behind it.
+    fn master_rotations<'a>(
+        &self,
+        bodies: &'a [Body],
+        path: &ContactPath,
+    ) -> impl Iterator<Item = usize> + use<'a> {
+        let of_master = &bodies[self.connection.master].degrees_of_freedom[path.first()..];
         of_master.iter().map(|[.., at]| *at)
     }
 
@@ -72,7 +83,7 @@ impl SliderContact {
         }
         let couple = couple * self.length;
         out[self.rotation(bodies)] += couple.x + couple.y;
-        for (at, weight) in self.master_rotations(bodies).zip(self.path.mean()) {
+        for (at, weight) in self.master_rotations(bodies, &self.path).zip(self.path.mean()) {
             out[at] -= couple.x * weight;
         }
     }
@@ -86,7 +97,7 @@ impl SliderContact {
         (by_slope, movements): (f64, usize),
         border: &mut Border,
     ) {
-        let Some(RotationSlopes { by_slave, by_end, by_twist }) = slopes else { return };
+        let Some(RotationSlopes { by_slave, by_end, by_increment_slope }) = slopes else { return };
         let (first, length) = (CONTACT_UNKNOWNS * self.connection.index, self.length);
         let mut add = |at: usize, forces: [f64; CONTACT_UNKNOWNS], by: [f64; CONTACT_UNKNOWNS]| {
             if at < movements {
@@ -96,24 +107,25 @@ impl SliderContact {
         add(self.rotation(bodies), [0.0, 0.0, length, length, 0.0], by_slave);
         let weights = self.path.mean().iter().zip(self.path.slope());
         let weights = weights.zip(self.path.end().iter().zip(self.path.difference()));
-        for (at, ((mean, slope), (end, difference))) in self.master_rotations(bodies).zip(weights) {
+        let of_master = self.master_rotations(bodies, &self.path);
+        for (at, ((mean, slope), (end, difference))) in of_master.zip(weights) {
             let forces = [0.0, 0.0, -length * mean, 0.0, -length * by_slope * slope];
-            let by = std::array::from_fn(|row| by_end[row] * end + by_twist[row] * difference);
+            let by =
+                std::array::from_fn(|row| by_end[row] * end + by_increment_slope[row] * difference);
             add(at, forces, by);
         }
     }
 
     /// Adds the rotations of a step or a static solution to the rotations of the sleeve and of its master since the start.
     /// `movements` are the increments of the unknown and prescribed degrees of freedom [length, rad].
-    pub fn turn_sleeve(&mut self, bodies: &[Body], movements: &[f64]) {
+    pub fn rotate_sleeve(&mut self, bodies: &[Body], movements: &[f64]) {
         if self.sleeve.is_none() {
             return;
         }
-        let value = |at: usize| movements.get(at).copied().unwrap_or(0.0);
-        let Connection { master, .. } = self.connection;
-        let own = value(self.rotation(bodies));
-        let turned = bodies[master].degrees_of_freedom.iter().map(|[.., at]| value(*at));
-        self.sleeve.iter_mut().for_each(|sleeve| sleeve.turn(turned.clone(), own));
+        let own = value(movements, self.rotation(bodies));
+        let of_master = bodies[self.connection.master].degrees_of_freedom.iter();
+        let turned = of_master.map(|[.., at]| value(movements, *at));
+        self.sleeve.iter_mut().for_each(|sleeve| sleeve.rotate(turned.clone(), own));
     }
 
     /// Couple and force of a unit impulse of a sleeve against a difference of rotations; `None` for other sliders and released sleeves.
@@ -124,25 +136,28 @@ impl SliderContact {
         if !self.is_sliding() {
             return Some(Wrench { force: Vec2::zeros(), couple: arm });
         }
-        let (tangent, [bend, _]) = (self.tangent(bodies), sleeve.slopes(&self.start_path));
-        let force = tangent * (-arm * bend / tangent.norm_squared());
+        let (tangent, [slope, _]) = (self.tangent(bodies), sleeve.slopes(&self.start_path));
+        let force = tangent * (-arm * slope / tangent.norm_squared());
         Some(Wrench { force, couple: arm })
     }
 
     /// Angular acceleration of the section of the master at the sleeve due to sliding at a rate of the parameter [1/time].
-    pub(super) fn carried_turn(&self, bodies: &[Body], rates: &[f64], rate: f64) -> f64 {
+    pub(super) fn carried_angular_acceleration(
+        &self,
+        bodies: &[Body],
+        rates: &[f64],
+        rate: f64,
+    ) -> f64 {
         let Some(sleeve) = &self.sleeve else { return 0.0 };
-        let value = |at: usize| rates.get(at).copied().unwrap_or(0.0);
-        let of_master =
-            &bodies[self.connection.master].degrees_of_freedom[self.start_path.first()..];
+        let of_master = self.master_rotations(bodies, &self.start_path);
         let slopes = self.start_path.slope().iter().zip(of_master);
-        let turning: f64 = slopes.map(|(slope, [.., at])| slope * value(*at)).sum();
+        let turning: f64 = slopes.map(|(slope, at)| slope * value(rates, at)).sum();
         let [_, change] = sleeve.slopes(&self.start_path);
         2.0 * rate * turning + square(rate) * change
     }
 
     /// Angle of a sleeve minus that of its master, relative to the initial difference [rad]; zero for other sliders.
-    pub fn turn_gap(&self) -> f64 {
+    pub fn rotation_gap(&self) -> f64 {
         let sleeve = self.sleeve.as_ref().filter(|_| self.state.has_contact());
         sleeve.map_or(0.0, |sleeve| sleeve.gap(&self.start_path))
     }
@@ -152,13 +167,12 @@ impl SliderContact {
         self.sleeve.iter_mut().for_each(|sleeve| sleeve.neglect_compliance());
     }
 
-    /// Adds the couple of a wrench to the rotations of slave and master; `wrench` acts on the slave.
+    /// Adds a couple on the slave, and the opposite couple on the master.
     pub(super) fn transmit_couple(&self, bodies: &[Body], couple: f64, out: &mut [f64]) {
         out[self.rotation(bodies)] += couple;
-        let of_master =
-            &bodies[self.connection.master].degrees_of_freedom[self.start_path.first()..];
-        for ([.., at], weight) in of_master.iter().zip(self.start_path.end()) {
-            out[*at] -= couple * weight;
+        let of_master = self.master_rotations(bodies, &self.start_path);
+        for (at, weight) in of_master.zip(self.start_path.end()) {
+            out[at] -= couple * weight;
         }
     }
 
@@ -202,7 +216,7 @@ impl StiffnessRows<'_> {
         let slides = if self.slider.is_sliding() { 1.0 } else { 0.0 };
         let [offset, change] = [0, 1].map(|order| self.offset(order));
         let by_way = (self.slider.tangent(self.bodies) + change.displacement) * slides;
-        let (by_sleeve, rotated) = offset.turned;
+        let (by_sleeve, rotated) = offset.by_angle;
         let of_axis = |axis: Vec2| self.row(axis, 0.0, [by_sleeve.dot(&axis), by_way.dot(&axis)]);
         let [of_normal, of_along] = [perpendicular(along), along].map(of_axis);
         let soft = |compliance: f64, rigid: f64| 1.0 / (compliance.max(0.0) + 1.0 / rigid);
@@ -245,7 +259,7 @@ impl StiffnessRows<'_> {
         by_way[2] = -cross(change.displacement, force);
         by_way[width - 1] = -0.5 * (bent + energy);
         by_way[2 * width - 1] = slides;
-        by_sleeve[2] = -0.5 * cross(offset.turned.0, force);
+        by_sleeve[2] = -0.5 * cross(offset.by_angle.0, force);
         by_sleeve[width + 2] = 1.0;
         twists
     }
