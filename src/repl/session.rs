@@ -9,7 +9,8 @@ use std::sync::atomic::Ordering;
 use rhai::{AST, Caches, Dynamic, Engine, GlobalRuntimeState, ImmutableString, Scope, Stmt};
 
 use super::record::{SessionRecord, SimulationPositions, functions_of, simulation_positions};
-use super::transcript::{PROMPT, Transcript};
+pub use super::transcript::PROMPT;
+use super::transcript::Transcript;
 use super::{scope, statements};
 use crate::script::bindings::catalog::Catalog;
 use crate::script::diagnose::Diagnostic;
@@ -283,6 +284,11 @@ impl Session {
 }
 
 impl Session {
+    /// Sets a variable.
+    pub fn define(&mut self, name: &str, value: Dynamic) {
+        self.scope.set_or_push(name, value);
+    }
+
     /// Catalog of the language.
     pub fn catalog(&self) -> &Catalog {
         self.engine.catalog()

@@ -6,6 +6,7 @@ use crate::script::diagnose::{Diagnostic, Location};
 use crate::script::source::outline::ScriptOutline;
 use crate::script::source::program::Program;
 
+/// Name of typed inputs in messages.
 pub const PROMPT: &str = "prompt";
 
 /// Largest number of lines in a session, limited by the engine, after which lines are counted from 1 again.

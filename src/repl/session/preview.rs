@@ -1,6 +1,8 @@
 //! Evaluation of an expression, once or repeatedly. Its changes of variables are undone afterwards.
 
-use rhai::{AST, Dynamic};
+use std::mem;
+
+use rhai::{AST, Dynamic, Scope};
 
 use super::{Reply, Session};
 use crate::script::state::watchdog::Watchdog;
@@ -38,6 +40,14 @@ impl Session {
             Ok(()) => Reply::Value(once.value),
             Err(failed) => failed,
         }
+    }
+
+    /// Evaluates an expression in which only `values` are variables. Changes of scenes and simulations are not undone.
+    pub fn evaluate_with(&mut self, values: Scope<'static>, text: &str) -> Reply {
+        let variables = mem::replace(&mut self.scope, values);
+        let reply = self.evaluate_preview(text);
+        self.scope = variables;
+        reply
     }
 
     /// Evaluates an expression repeatedly. It is parsed once, and variables are restored before each evaluation.

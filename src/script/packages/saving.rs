@@ -3,6 +3,7 @@
 use rhai::{Array, Dynamic};
 
 use super::bodies::BODY;
+use super::equilibria::EQUILIBRIUM;
 use super::scenes::BEAM;
 use super::scenes::SCENE;
 use super::scenes::STATION;
@@ -16,6 +17,7 @@ use crate::script::bindings::parameter::{Parameter, array, text};
 use crate::script::bindings::returns::{Returns, ValueKind};
 use crate::script::bindings::table::{BindingTable, function, method, property};
 use crate::script::handles::beam::BeamHandle;
+use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::notes::Notes;
 use crate::script::handles::rigid_body::RigidBodyHandle;
 use crate::script::handles::scene::SceneHandle;
@@ -75,6 +77,11 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Scene of the simulation; for a loaded simulation, the scene saved with it.")
             .example("check(sim.scene.name == \"example\");")
             .with_related(&["beam_named", "particle_named", "body_named", "slider_named"]),
+        property(EQUILIBRIUM, "scene", |call| Ok(Dynamic::from(call.receiver::<EquilibriumHandle>()?.scene().clone())))
+            .returns(Returns::object(SCENE))
+            .summary("Scene of the equilibrium.")
+            .example("scene.clamp(rod.start);\nscene.force(rod.end, [0, -1]);\ncheck(scene.equilibrium().scene.name == \"example\");")
+            .with_related(&["station_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "beam", |held| held.beams.iter().map(|beam| &beam.name).collect())?;
@@ -93,6 +100,20 @@ pub const TABLE: BindingTable = BindingTable {
         .summary("Returns the particle with a name.")
         .example("scene.particle([0, 3], 0.5, #{ name: \"stone\" });\nprint(scene.particle_named(\"stone\"));")
         .with_related(&["particle", "scene"]),
+        method(SCENE, "station_named", &[NAME], |call| {
+            let scene = call.receiver::<SceneHandle>()?;
+            let name = call.text("name")?;
+            let station = scene.scene().borrow().station_named(&name);
+            let station = station.ok_or_else(|| {
+                nothing_named(call, "station", &scene.scene().borrow().station_names())
+            })?;
+            Ok(Dynamic::from(StationHandle { scene, station }))
+        })
+        .returns(Returns::object(STATION))
+        .summary("Returns the station with a name as in sensors: a place on a beam, such as \
+            \"rod.end\" or \"rod[0.5]\", a particle, a rigid body, or a point of it.")
+        .example("check(sim.position(scene.station_named(\"rod.end\")) == sim.position(rod.end));")
+        .with_related(&["record", "beam_named", "scene"]),
         method(SCENE, "body_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
             let index = find(call, "body", |held| held.rigid_bodies.iter().map(|body| &body.name).collect())?;
@@ -194,16 +215,23 @@ fn find(
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.scene().borrow();
     let names = names(&scene);
-    names.iter().position(|other| **other == name.as_str()).ok_or_else(|| {
-        let meant = nearest(&name, names.iter().map(|name| name.as_str()));
-        let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
-        let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-        let known = match quoted.as_slice() {
-            [] => format!("the scene has no {kind}s"),
-            quoted => format!("its {kind}s: {}", quoted.join(", ")),
-        };
-        call.error(format!("the scene '{}' has no {kind} \"{name}\"", scene.name))
-            .hint(format!("{suggestion}{known}"))
-            .at(CallPart::Argument(0))
-    })
+    let found = names.iter().position(|other| **other == name.as_str());
+    found.ok_or_else(|| nothing_named(call, kind, &names))
+}
+
+fn nothing_named(call: &Call, kind: &str, names: &[impl AsRef<str>]) -> ScriptError {
+    let (name, scene) = match (call.text("name"), call.receiver::<SceneHandle>()) {
+        (Ok(name), Ok(scene)) => (name, scene.scene().borrow().name.clone()),
+        (Err(error), _) | (_, Err(error)) => return error,
+    };
+    let meant = nearest(&name, names.iter().map(AsRef::as_ref));
+    let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
+    let quoted: Vec<String> = names.iter().map(|name| format!("\"{}\"", name.as_ref())).collect();
+    let known = match quoted.as_slice() {
+        [] => format!("the scene has no {kind}s"),
+        quoted => format!("its {kind}s: {}", quoted.join(", ")),
+    };
+    call.error(format!("the scene '{scene}' has no {kind} \"{name}\""))
+        .hint(format!("{suggestion}{known}"))
+        .at(CallPart::Argument(0))
 }

@@ -13,6 +13,7 @@ use crate::script::bindings::options::Options;
 use crate::script::bindings::parameter::{
     Parameter, Presence, array, integer, number, options, text,
 };
+use crate::script::bindings::returns::Returns;
 use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::simulation::{SimulationHandle, Visited};
 use crate::script::handles::station::StationHandle;
@@ -51,7 +52,13 @@ pub const TABLE: BindingTable = BindingTable {
                  let fine = scene.start(#{ dt: 0.05, name: \"half the step\" });\nfine.run_to(2);\n\
                  write_viewer([sim, fine], \"steps.html\", #{ labels: [\"dt = 0.1\", \"dt = 0.05\"] });",
             )
-            .with_related(&["write_animation", "plot_motion", "plot_history"]),
+            .with_related(&["write_animation", "plot_motion", "plot_history", "viewer_page"]),
+        function("viewer_page", &[MOVING, options("options", VIEWER).optional()], |call| Ok(page(call)?.into()))
+            .returns(Returns::TEXT)
+            .summary("Returns the page that write_viewer writes, as a text.")
+            .doc("The Python module shows it in notebooks.")
+            .example("sim.run_to(1);\ncheck(viewer_page(sim, #{ frames: 5 }).contains(\"<canvas\"));")
+            .with_related(&["write_viewer"]),
     ],
 };
 
@@ -95,6 +102,12 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
             .hint("a viewer is a page: \"run.html\"")
             .at(CallPart::Argument(1)));
     }
+    let page = page(call)?;
+    call.context().write_file(&file, page.as_bytes())?;
+    Ok(Dynamic::UNIT)
+}
+
+fn page(call: &Call) -> Result<String, ScriptError> {
     let simulations = simulations(call)?;
     let options = call.options_or_defaults("options")?;
     let labels = labels(call, &simulations, &options)?;
@@ -124,9 +137,7 @@ fn write_viewer(call: &mut Call) -> Result<Dynamic, ScriptError> {
     }
     let title = options.text("title").map(|title| title.to_string());
     let title = title.unwrap_or_else(|_| simulations[0].name().to_owned());
-    let page = Viewer { title, motions }.to_html()?;
-    call.context().write_file(&file, page.as_bytes())?;
-    Ok(Dynamic::UNIT)
+    Ok(Viewer { title, motions }.to_html()?)
 }
 
 /// Fields for colouring beams, computed from states of a simulation that are restored from snapshots or computed again.

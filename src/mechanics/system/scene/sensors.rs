@@ -15,6 +15,9 @@ use crate::system::{Quantity, RigidBodyDefinition, Sensor, SensorSource, SystemE
 /// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
 
+/// End of the name of a sensor that only stations have.
+const ABSCISSA: &str = ".x";
+
 struct Place<'s> {
     object: Cow<'s, str>,
     suffix: Cow<'s, str>,
@@ -93,6 +96,20 @@ impl Scene {
             quantities.iter().map(move |quantity| format!("{object}{suffix}.{}", quantity.name))
         });
         names.collect()
+    }
+
+    /// Station with a name as in the names of sensors, such as `rod.end`, `rod[0.5]`, `bead` or `hub.pin`; `None` if there is none.
+    pub fn station_named(&self, name: &str) -> Option<Station> {
+        match self.find_sensor(&format!("{name}{ABSCISSA}")) {
+            Ok((SensorSource::Station(station), _)) => Some(station),
+            _ => None,
+        }
+    }
+
+    /// Names of all stations. Of each beam, only the start, middle and end are listed.
+    pub fn station_names(&self) -> Vec<String> {
+        let names = self.sensor_names().into_iter();
+        names.filter_map(|name| Some(name.strip_suffix(ABSCISSA)?.to_owned())).collect()
     }
 
     /// Names of the joints for sensors, in the order of the joints: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.

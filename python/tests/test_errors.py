@@ -1,0 +1,57 @@
+"""Errors of scripts and of functions in Python that scripts call."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import withy
+
+
+def test_error_has_its_place_in_the_script(tmp_path: Path) -> None:
+    path = tmp_path / "beam.rhai"
+    path.write_text("let a = 1;\nlet s = section(#{ EAA: 1, GA: 1 });\n")
+    with pytest.raises(withy.ScriptError) as failed:
+        withy.run(path, echo=None)
+    error = failed.value
+    assert error.message == "section: unknown option 'EAA'"
+    assert error.hint is not None and error.hint.startswith("did you mean 'EA'?")
+    assert (error.file, error.line, error.column) == (str(path), 2, 20)
+    assert "2 │ let s = section(#{ EAA: 1, GA: 1 });" in str(error)
+
+
+def test_syntax_error_of_a_text_has_its_place() -> None:
+    with pytest.raises(withy.ScriptError) as failed:
+        withy.Session(echo=None).eval("let a = 1;\nlet b = a +* 2;", name="cell 3")
+    assert (failed.value.file, failed.value.line, failed.value.column) == ("cell 3", 2, 12)
+
+
+def test_missing_script_is_an_error() -> None:
+    with pytest.raises(withy.ScriptError, match="there is no such file"):
+        withy.run("none.rhai")
+
+
+def test_variables_before_an_error_are_kept() -> None:
+    session = withy.Session(echo=None)
+    with pytest.raises(withy.ScriptError):
+        session.eval("let a = 1; let b = a + unknown; let c = 3;")
+    assert list(session) == ["a"]
+
+
+def test_exceptions_of_called_functions_are_raised(session: withy.Session) -> None:
+    def fails(sim: withy.objects.Simulation) -> None:
+        raise LookupError(f"at {sim.t}")
+
+    session["sim"].at(0.6, fails)
+    with pytest.raises(LookupError, match=r"at 0\.6"):
+        session["sim"].run_to(1)
+    assert session["sim"].t == 0.6
+
+
+def test_scripts_can_catch_exceptions_of_called_functions(session: withy.Session) -> None:
+    def fails() -> None:
+        raise LookupError("no value")
+
+    session["fails"] = fails
+    session.eval("let caught = (); try { fails.call(); } catch (error) { caught = `${error}`; }")
+    assert session["caught"] == "LookupError: no value"
