@@ -1,6 +1,6 @@
 """Writes the type stubs of the language, withy/objects.pyi and withy/_functions.pyi, from its catalog.
 
-python stubs.py writes the files of the installed module's version; tests/test_stubs.py compares them.
+tests/test_stubs.py compares them, and writes them with WITHY_UPDATE=1.
 """
 
 from __future__ import annotations
@@ -144,8 +144,3 @@ def stubs() -> dict[Path, str]:
     """Files and their texts."""
     folder = Path(__file__).parent / "withy"
     return {folder / "objects.pyi": objects(), folder / "_functions.pyi": functions()}
-
-
-if __name__ == "__main__":
-    for path, text in stubs().items():
-        path.write_text(text, encoding="utf-8")

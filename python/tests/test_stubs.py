@@ -15,4 +15,4 @@ def test_stubs_are_up_to_date() -> None:
     for path, text in stubs.stubs().items():
         if os.environ.get("WITHY_UPDATE"):
             path.write_text(text, encoding="utf-8")
-        assert path.read_text(encoding="utf-8") == text, f"{path.name}: WITHY_UPDATE=1 pytest writes it"
+        assert path.read_text(encoding="utf-8") == text, f"{path.name}: run WITHY_UPDATE=1 pytest python/tests/test_stubs.py"

@@ -325,7 +325,8 @@ class Scene(Object):
         /,
         *,
         stiffness: float = ...,
-        length: float = ...,
+        length: Schedule | float | Callable[..., Any] = ...,
+        length_rate: Schedule | float | Callable[..., Any] = ...,
         acts: str = ...,
         table: ArrayLike = ...,
         law: Callable[..., Any] = ...,
@@ -333,6 +334,8 @@ class Scene(Object):
         damping: float | Callable[..., Any] | ArrayLike = ...,
         rates: ArrayLike = ...,
         name: str = ...,
+        sample: float = ...,
+        delay: float = ...,
     ) -> Spring:
         """Adds a spring, optionally with a parallel damper, between two stations or between a station
         and a point of the ground. The tension is stiffness · (distance - length), plus damping ·
@@ -342,7 +345,10 @@ class Scene(Object):
         spring is created, so that the polygon through the samples is exact to 1e-7 of the largest
         force. The stored energy is the exact integral of this polygon, which files contain. print
         shows the remaining error. A law that needs more than 20 000 samples, such as one with a
-        jump, is refused with an error."""
+        jump, is refused with an error. With a length that depends on time, damping acts on the rate
+        of distance - length, and the work of the actuator is exactly the force times the decrease
+        of the length. The length must not jump; length_rate acts in motion only, and an equilibrium
+        uses the length at its option `time`."""
     def damper(
         self,
         from_: Station | ArrayLike | str,
@@ -366,7 +372,8 @@ class Scene(Object):
         /,
         *,
         stiffness: float = ...,
-        length: float = ...,
+        length: Schedule | float | Callable[..., Any] = ...,
+        length_rate: Schedule | float | Callable[..., Any] = ...,
         acts: str = ...,
         table: ArrayLike = ...,
         law: Callable[..., Any] = ...,
@@ -374,10 +381,13 @@ class Scene(Object):
         damping: float | Callable[..., Any] | ArrayLike = ...,
         rates: ArrayLike = ...,
         name: str = ...,
+        sample: float = ...,
+        delay: float = ...,
     ) -> Spring:
         """Adds a rope over three or more places with uniform tension; it slides over the inner places
         without friction. The tension depends on the total length. With acts: "pull" the rope is
-        slack where it is shorter than `length`."""
+        slack where it is shorter than `length`. With length: |t| … or length_rate it is wound up or
+        paid out, as by a winch."""
     def torsion_spring(
         self,
         from_: Station | str,
@@ -385,18 +395,22 @@ class Scene(Object):
         /,
         *,
         stiffness: float = ...,
-        angle: float = ...,
+        angle: Schedule | float | Callable[..., Any] = ...,
+        angle_rate: Schedule | float | Callable[..., Any] = ...,
         table: ArrayLike = ...,
         law: Callable[..., Any] = ...,
         range: ArrayLike = ...,
         damping: float | Callable[..., Any] | ArrayLike = ...,
         rates: ArrayLike = ...,
         name: str = ...,
+        sample: float = ...,
+        delay: float = ...,
     ) -> Spring:
         """Adds a torsion spring, optionally with a parallel damper, between two sections or between a
         section and the ground. The moment is stiffness · (angle of the second section - angle of
         the first section - angle), plus damping · the rate of that difference. Angles are counted
-        over any number of turns."""
+        over any number of turns. An angle |t| … that depends on time, or its angle_rate, makes it a
+        servo with a compliance."""
     def brake(
         self,
         from_: Station | str,

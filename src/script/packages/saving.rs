@@ -80,7 +80,7 @@ pub const TABLE: BindingTable = BindingTable {
         property(EQUILIBRIUM, "scene", |call| Ok(Dynamic::from(call.receiver::<EquilibriumHandle>()?.scene().clone())))
             .returns(Returns::object(SCENE))
             .summary("Scene of the equilibrium.")
-            .example("scene.clamp(rod.start);\nscene.force(rod.end, [0, -1]);\ncheck(scene.equilibrium().scene.name == \"example\");")
+            .example("let still = new_scene(\"still\");\nlet bar = still.beam(#{ axis: line([0, 0], [1, 0]), basis: bspline(4), section: s });\nstill.clamp(bar.start);\nstill.force(bar.end, [0, -1]);\ncheck(still.equilibrium().scene.name == \"still\");")
             .with_related(&["station_named"]),
         method(SCENE, "beam_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
@@ -112,7 +112,7 @@ pub const TABLE: BindingTable = BindingTable {
         .returns(Returns::object(STATION))
         .summary("Returns the station with a name as in sensors: a place on a beam, such as \
             \"rod.end\" or \"rod[0.5]\", a particle, a rigid body, or a point of it.")
-        .example("check(sim.position(scene.station_named(\"rod.end\")) == sim.position(rod.end));")
+        .example("let tip = scene.station_named(\"rod.end\");\ncheck(sim.position(tip) == sim.position(rod.end));")
         .with_related(&["record", "beam_named", "scene"]),
         method(SCENE, "body_named", &[NAME], |call| {
             let scene = call.receiver::<SceneHandle>()?;
