@@ -7,6 +7,14 @@ fn range(available: usize) -> String {
     }
 }
 
+fn available_loads(available: usize) -> String {
+    match available {
+        0 => "the loads reduce the stiffness of no shape: nothing is compressed".to_owned(),
+        1 => "there is 1 on this mesh".to_owned(),
+        _ => format!("there are {available} on this mesh"),
+    }
+}
+
 /// Error of a failed computation of modes.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -45,6 +53,10 @@ pub enum VibrationError {
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Uncounted,
+    #[error(
+        "{requested} critical loads requested, but {}", available_loads(*available)
+    )]
+    FewCriticalLoads { requested: usize, available: usize },
     #[error("{0}")]
     NoForces(String),
     #[error("interrupted during the search for modes")]

@@ -159,8 +159,8 @@ pub const TABLE: BindingTable = BindingTable {
                 return Err(call.error(mode_map).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
             }
             let station = call.get::<StationHandle>("station")?;
-            let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
-            Ok(Dynamic::from(handle.0.modes.displacement(mode, &place)))
+            let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.shapes().meshes())?;
+            Ok(Dynamic::from(handle.0.modes.shapes().displacement(mode, &place)))
         })
         .returns(Returns::object(VECTOR).unit("-"))
         .summary("Returns the displacement of a station in a mode (the first is mode 0), relative to \

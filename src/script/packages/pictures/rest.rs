@@ -151,13 +151,13 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<ModesHandle>("modes")?;
     let options = call.options_or_defaults("options")?;
     let (scene, modes) = handle.held();
-    let outlines = Outline::of_scene(scene, modes.meshes())?;
+    let outlines = Outline::of_scene(scene, modes.shapes().meshes())?;
     let draw = |points: &[Vec<Vec2>]| {
         let points: Vec<&[Vec2]> = points.iter().map(Vec::as_slice).collect();
         Outline::draw(&outlines, 0.0, &points)
     };
-    let at_rest = draw(modes.points());
-    let size = modes.size() * options.number("amplitude")?;
+    let at_rest = draw(modes.shapes().points());
+    let size = modes.shapes().size() * options.number("amplitude")?;
     // All beams and bodies form one polyline, with gaps between them.
     let gap = (f64::NAN, f64::NAN);
     let lines = at_rest.lines.iter().chain(&at_rest.bodies);
@@ -166,7 +166,7 @@ fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
         let omega = significant(mode.angular_frequency(), 5);
         MotionPicture::new(format!("mode {number}: ω = {omega}"))
-            .snapshot(snapshot(&draw(&modes.displaced(number, size))))
+            .snapshot(snapshot(&draw(&modes.shapes().displaced(number, size))))
             .trace("at rest", at_rest.clone())
             .symbols(of_obstacles(scene).map(|(_, placed)| placed))
     });
