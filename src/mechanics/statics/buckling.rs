@@ -4,12 +4,13 @@ use std::fmt;
 
 use super::equilibrium::{at_rest, prepare};
 use super::{Control, Loading, StaticsError};
-use crate::beams::Mesh;
 use crate::integrators::Mechanism;
 use crate::joints::Slider;
 use crate::statics::continuation::Continuation;
 use crate::system::{Scene, System};
-use crate::vibration::{CriticalLoad, ModeShapes, Modes, VibrationError, critical_loads};
+use crate::vibration::{
+    CriticalLoad, CriticalLoads, ModeShapes, Modes, VibrationError, critical_loads,
+};
 
 /// Critical load factors of a scene, with its buckling shapes.
 ///
@@ -21,6 +22,7 @@ pub struct Buckling {
     loading: Loading,
     critical: Vec<CriticalLoad>,
     shapes: ModeShapes,
+    displacement_before: f64,
 }
 
 /// Error of a buckling analysis.
@@ -90,9 +92,13 @@ impl Buckling {
         let loads = loads(&mut model, &loading)?;
         check_is_stable(&scene, &model, goes_on)?;
         let unstable = || BucklingError::Unstable { scene: scene.name.clone() };
-        let critical = critical_loads(&model, &loads, count, goes_on)?.ok_or_else(unstable)?;
+        let found = critical_loads(&model, &loads, count, goes_on)?.ok_or_else(unstable)?;
+        let CriticalLoads { critical, displacement } = found;
         let shapes = ModeShapes::of(&model, critical.iter().map(|load| &*load.shape));
-        Ok(Self { scene, loading, critical, shapes })
+        let before = ModeShapes::of(&model, std::iter::once(&*displacement));
+        let lowest = critical.first().map_or(0.0, |load| load.factor);
+        let displacement_before = lowest * before.largest(0) / scene.size().unwrap_or(1.0);
+        Ok(Self { scene, loading, critical, shapes, displacement_before })
     }
 
     /// Scene whose buckling was analysed.
@@ -115,9 +121,15 @@ impl Buckling {
         &self.shapes
     }
 
-    /// Meshes of the beams.
-    pub fn meshes(&self) -> &[Mesh] {
-        self.shapes.meshes()
+    /// Type and name of the body with the largest displacement in a shape.
+    pub fn most_displaced_body(&self, shape: usize) -> String {
+        let body = self.shapes.most_displaced_body(shape);
+        body.map(|body| self.scene.name_of_body_at(body)).unwrap_or_default()
+    }
+
+    /// Largest displacement before buckling at the lowest critical factor, linear in the loads, as a fraction of the size of the scene [-].
+    pub fn displacement_before(&self) -> f64 {
+        self.displacement_before
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::VibrationError;
-use super::elastic::FourVectors;
+use super::elastic::{FourVectors, Shapes};
 use super::lanczos::{Pairs, SymmetricOperator};
 use super::pencil::Pencil;
 use super::refinement::refine;
@@ -33,6 +33,12 @@ pub struct CriticalLoad {
     pub shape: Vec<f64>,
 }
 
+pub(crate) struct CriticalLoads {
+    pub(crate) critical: Vec<CriticalLoad>,
+    /// Displacement under the loads to first order [length, rad].
+    pub(crate) displacement: Vec<f64>,
+}
+
 /// Smallest positive critical loads of a model at rest without loads, in increasing order.
 /// The argument `loads` contains the forces on the unknowns at load factor 1.
 /// The result is `None` if the stiffness without loads is not positive definite.
@@ -41,11 +47,13 @@ pub(crate) fn critical_loads(
     loads: &[f64],
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
-) -> Result<Option<Vec<CriticalLoad>>, VibrationError> {
+) -> Result<Option<CriticalLoads>, VibrationError> {
     let pencil = Pencil::of_stiffness(model)?;
     let Some(factors) = pencil.factors(0.0) else { return Ok(None) };
-    let forces = linear_forces(&pencil, &factors, loads);
-    let decrease = stiffness_decrease(model, &pencil, &forces);
+    let linear = linear_displacement(&pencil, &factors, loads);
+    let displacement = linear.movements[..pencil.size()].iter().map(|row| row[0]).collect();
+    let displacement = pencil.order.to_step_order(displacement, model.unknowns());
+    let decrease = stiffness_decrease(model, &pencil, &linear.first_forces());
     let pencil = pencil.with_decrease(decrease);
     let operator = Compression { pencil: &pencil, factors: &factors };
     let pairs = match ModeSearch::of(pencil.size(), count) {
@@ -63,12 +71,12 @@ pub(crate) fn critical_loads(
         found.push(CriticalLoad { factor: pair.square, residual, shape });
     }
     found.sort_by(|a, b| a.factor.total_cmp(&b.factor));
-    Ok(Some(found))
+    Ok(Some(CriticalLoads { critical: found, displacement }))
 }
 
-/// Section forces and constraint forces of the linear displacement under the loads, times their integration lengths.
+/// Displacement under the loads to first order, with its section forces and constraint forces.
 /// Section forces are unknowns in addition to the displacements, so that their rounding errors do not depend on the stiffnesses.
-fn linear_forces(pencil: &Pencil, factors: &SymmetricFactors, loads: &[f64]) -> Vec<f64> {
+fn linear_displacement(pencil: &Pencil, factors: &SymmetricFactors, loads: &[f64]) -> Shapes {
     let mut external = pencil.zeros();
     for (unknown, load) in loads.iter().enumerate() {
         external[pencil.order.place(unknown)][0] = *load;
@@ -86,7 +94,7 @@ fn linear_forces(pencil: &Pencil, factors: &SymmetricFactors, loads: &[f64]) -> 
             break;
         }
     }
-    shapes.first_forces()
+    shapes
 }
 
 /// Decrease of the stiffness per load factor: minus the second derivatives of all strains, times the given forces.

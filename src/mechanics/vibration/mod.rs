@@ -15,7 +15,7 @@ mod search;
 mod shapes;
 
 pub use buckling::CriticalLoad;
-pub(crate) use buckling::critical_loads;
+pub(crate) use buckling::{CriticalLoads, critical_loads};
 pub use damped::DampedMode;
 pub use error::VibrationError;
 pub(crate) use modes::loose_movements;

@@ -22,12 +22,17 @@ impl ModeShapes {
         }
     }
 
-    /// Body with the largest displacement in a shape; `None` if nothing is displaced.
+    /// First body with the largest displacement in a shape, to six digits; `None` if nothing is displaced.
     pub(crate) fn most_displaced_body(&self, shape: usize) -> Option<usize> {
-        let largest = |body: &Vec<Vec2>| body.iter().map(|by| by.norm()).fold(0.0, f64::max);
-        let sizes = self.displacements[shape].iter().map(largest).enumerate();
-        let (body, size) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (size > 0.0).then_some(body)
+        let largest = self.largest(shape);
+        let moves_most =
+            |body: &Vec<Vec2>| body.iter().any(|by| by.norm() >= (1.0 - 1e-6) * largest);
+        self.displacements[shape].iter().position(moves_most).filter(|_| largest > 0.0)
+    }
+
+    /// Number of shapes.
+    pub fn count(&self) -> usize {
+        self.displacements.len()
     }
 
     /// Meshes of the beams.
@@ -71,7 +76,8 @@ impl ModeShapes {
         }
     }
 
-    fn largest(&self, shape: usize) -> f64 {
+    /// Largest displacement of a control point in a shape, in the scale of the shape.
+    pub(crate) fn largest(&self, shape: usize) -> f64 {
         let points = self.displacements[shape].iter().flatten();
         points.map(|by| by.norm()).fold(0.0, f64::max)
     }
