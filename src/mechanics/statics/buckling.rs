@@ -84,7 +84,10 @@ impl Buckling {
     ) -> Result<Self, BucklingError> {
         let loading = Loading { control: Control::Load, ..loading };
         check_is_linear(&scene)?;
-        let model = prepare(&scene, &loading, &mut |_| goes_on())?;
+        let model = prepare(&scene, &loading, &mut |_| goes_on()).map_err(|error| match error {
+            StaticsError::NoLoad { time } => BucklingError::NoLoad { time },
+            error => error.into(),
+        })?;
         if let Some(load) = model.follower() {
             return Err(BucklingError::Follower { load: load.to_owned() });
         }

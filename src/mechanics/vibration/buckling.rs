@@ -8,13 +8,18 @@ use super::lanczos::{Pairs, SymmetricOperator};
 use super::pencil::Pencil;
 use super::refinement::refine;
 use super::search::{LARGEST_RESIDUAL, ModeSearch, counted_pairs};
-use crate::beams::SpanStiffness;
+use crate::beams::{SpanStiffness, StrainKind};
+use crate::elementary::hypot;
 use crate::integrators::Mechanism;
 use crate::linalg::{STRIP_WIDTH, SymmetricFactors, SymmetricSparse, VectorStrip};
 use crate::system::System;
 
 /// Smallest eigenvalue `1/λ` that is not attributed to rounding, as a fraction of the largest absolute eigenvalue.
 const SMALLEST: f64 = 1e-10;
+
+/// Largest strain at which a critical load is reported [-].
+/// Under a tension of the size of the shear stiffness, the equations of the beam have a critical load that no real beam has.
+const LARGEST_STRAIN: f64 = 0.5;
 
 /// Largest ratio of the energy of a correction to the energy of the linear displacement that ends the refinement of the section forces.
 const REFINED: f64 = 1e-30;
@@ -53,19 +58,24 @@ pub(crate) fn critical_loads(
     let linear = linear_displacement(&pencil, &factors, loads);
     let displacement = linear.movements[..pencil.size()].iter().map(|row| row[0]).collect();
     let displacement = pencil.order.to_step_order(displacement, model.unknowns());
-    let decrease = stiffness_decrease(model, &pencil, &linear.first_forces());
+    let LoadEffect { decrease, strain } = load_effect(model, &pencil, &linear.first_forces());
     let pencil = pencil.with_decrease(decrease);
-    let operator = Compression { pencil: &pencil, factors: &factors };
+    let operator = Compression { pencil: &pencil, factors: &factors, strain };
     let pairs = match ModeSearch::of(pencil.size(), count) {
-        ModeSearch::All => operator.all_pairs(count)?,
+        ModeSearch::All => operator.all_pairs(),
         ModeSearch::Lowest => counted_pairs(&pencil, 0.0, &operator, count, goes_on)?,
     };
+    let least = operator.negligible(0.0);
+    let available = pairs.values.iter().filter(|value| **value > least).count();
+    if available < count {
+        return Err(VibrationError::FewCriticalLoads { requested: count, available });
+    }
     let pairs = operator.to_shapes(pairs);
     let mut found = Vec::with_capacity(count);
     for pair in refine(&pencil, &factors, 0.0, &pairs, count, goes_on)? {
-        let (modes, residual) = (found.len(), pair.residual);
+        let (number, residual) = (found.len(), pair.residual);
         if !(residual <= LARGEST_RESIDUAL && pair.square.is_finite()) {
-            return Err(VibrationError::BelowRounding { modes, residual });
+            return Err(VibrationError::InaccurateLoad { number, residual });
         }
         let shape = pencil.order.to_step_order(pair.shape, model.unknowns());
         found.push(CriticalLoad { factor: pair.square, residual, shape });
@@ -97,14 +107,22 @@ fn linear_displacement(pencil: &Pencil, factors: &SymmetricFactors, loads: &[f64
     shapes
 }
 
-/// Decrease of the stiffness per load factor: minus the second derivatives of all strains, times the given forces.
-fn stiffness_decrease(model: &System, pencil: &Pencil, forces: &[f64]) -> SymmetricSparse {
+/// Effect of the loads on the stiffness, to first order.
+struct LoadEffect {
+    /// Decrease of the stiffness per load factor: minus the second derivatives of all strains, times their forces.
+    decrease: SymmetricSparse,
+    /// Largest section force per load factor, divided by the smaller of axial and shear stiffness [-].
+    strain: f64,
+}
+
+fn load_effect(model: &System, pencil: &Pencil, forces: &[f64]) -> LoadEffect {
     let (order, size) = (&pencil.order, pencil.size());
     let mut entries: Vec<(usize, usize, f64)> = Vec::new();
-    let mut first = 0;
+    let (mut first, mut strain) = (0, 0.0_f64);
     let mut add = |degrees: &[usize], span: &SpanStiffness| {
         let (own, width) = (&forces[first..][..span.stiffness.len()], degrees.len());
         first += own.len();
+        strain = strain.max(largest_strain(span, own));
         let mut sum = vec![0.0; width * width];
         let pairs = span.second_derivatives.chunks_exact(2 * width);
         for (pair, strain) in pairs.zip(&span.bent_strains) {
@@ -124,13 +142,26 @@ fn stiffness_decrease(model: &System, pencil: &Pencil, forces: &[f64]) -> Symmet
     model.for_each_static_span(order, &mut add);
     // Second derivatives do not depend on the penalty stiffness.
     model.for_each_static_constraint(order, |_| 1.0, &mut add);
-    SymmetricSparse::new(size, |give| entries.iter().for_each(|(i, j, value)| give(*i, *j, *value)))
+    let decrease = SymmetricSparse::new(size, |give| {
+        entries.iter().for_each(|(row, column, value)| give(*row, *column, *value));
+    });
+    LoadEffect { decrease, strain }
+}
+
+fn largest_strain(span: &SpanStiffness, forces: &[f64]) -> f64 {
+    let of_point = |at: usize| {
+        let [axial, shear] = [at, at + 1].map(|at| (forces[at], span.stiffness[at]));
+        hypot(axial.0, shear.0) / axial.1.min(shear.1)
+    };
+    let axial = span.kinds.iter().enumerate().filter(|(_, kind)| **kind == StrainKind::Axial);
+    axial.map(|(at, _)| of_point(at)).fold(0.0, f64::max)
 }
 
 /// Operator `R⁻ᵀ G R⁻¹` with the stiffness `K = Rᵀ R` and its decrease `G` per load factor. The eigenvalues are `1/λ`, of both signs.
 struct Compression<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
+    strain: f64,
 }
 
 impl SymmetricOperator for Compression<'_> {
@@ -146,8 +177,8 @@ impl SymmetricOperator for Compression<'_> {
         product.copy_from_slice(x);
     }
 
-    fn negligible(&self) -> f64 {
-        SMALLEST
+    fn negligible(&self, largest: f64) -> f64 {
+        (SMALLEST * largest).max(self.strain / LARGEST_STRAIN)
     }
 
     fn images(&self, momenta: &mut VectorStrip) {
@@ -159,8 +190,8 @@ impl SymmetricOperator for Compression<'_> {
 }
 
 impl Compression<'_> {
-    /// All pairs with positive eigenvalues, in decreasing order.
-    fn all_pairs(&self, count: usize) -> Result<Pairs, VibrationError> {
+    /// All pairs with positive eigenvalues that are not negligible, in decreasing order.
+    fn all_pairs(&self) -> Pairs {
         let size = self.size();
         let mut matrix = DMatrix::zeros(size, size);
         for first in (0..size).step_by(STRIP_WIDTH) {
@@ -176,13 +207,9 @@ impl Compression<'_> {
         }
         let SymmetricEigen { eigenvalues, eigenvectors } =
             ((&matrix + matrix.transpose()) * 0.5).symmetric_eigen();
-        let least = SMALLEST * eigenvalues.amax();
+        let least = self.negligible(eigenvalues.amax());
         let mut order: Vec<usize> = (0..size).filter(|at| eigenvalues[*at] > least).collect();
         order.sort_by(|a, b| eigenvalues[*b].total_cmp(&eigenvalues[*a]));
-        if order.len() < count {
-            let available = order.len();
-            return Err(VibrationError::FewCriticalLoads { requested: count, available });
-        }
         let strip = |columns: &[usize]| {
             let mut strip = self.zeros();
             for (lane, column) in columns.iter().enumerate() {
@@ -193,7 +220,7 @@ impl Compression<'_> {
             strip
         };
         let strips = order.chunks(STRIP_WIDTH).map(strip).collect();
-        Ok(Pairs { values: order.iter().map(|at| eigenvalues[*at]).collect(), strips })
+        Pairs { values: order.iter().map(|at| eigenvalues[*at]).collect(), strips }
     }
 
     /// Transforms eigenvectors to shapes that are normalised with respect to the decrease of the stiffness.

@@ -38,8 +38,8 @@ pub(super) trait SymmetricOperator {
     /// Multiplies four vectors by the metric `M`.
     fn metric_times(&self, x: &VectorStrip, product: &mut VectorStrip);
 
-    /// Largest eigenvalue that is attributed to rounding, as a fraction of the largest absolute eigenvalue.
-    fn negligible(&self) -> f64 {
+    /// Largest eigenvalue without meaning, for the largest absolute eigenvalue.
+    fn negligible(&self, _largest: f64) -> f64 {
         0.0
     }
 
@@ -124,7 +124,7 @@ impl<'a> Lanczos<'a> {
 
     fn expect_positive(&self, values: &[f64], count: usize) -> Result<(), VibrationError> {
         let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let least = self.operator.negligible() * largest;
+        let least = self.operator.negligible(largest);
         match values.iter().filter(|value| **value > least).count() {
             available if available < count => {
                 Err(VibrationError::FewCriticalLoads { requested: count, available })
