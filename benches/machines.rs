@@ -34,7 +34,9 @@ fn springs(count: usize) -> Scene {
             let kind = SpringKind::Length([before, bead].map(Anchor::Station).to_vec());
             let law = Some(SpringLaw::Linear { stiffness: 100.0, natural: 1.0 });
             let (name, damping) = (scene.free_name("spring"), 0.0.into());
-            scene.add_spring(Spring { name, kind, law, origin: Origin::Zero, damping }).unwrap();
+            scene
+                .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping, rest: None })
+                .unwrap();
         }
     }
     scene.gravity = Vec2::new(0.0, -1.0);

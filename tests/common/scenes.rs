@@ -228,7 +228,14 @@ pub fn towed(mesh: &Mesh) -> Scene {
 pub fn spring(scene: &mut Scene, kind: SpringKind, law: SpringLaw, damping: f64) {
     let (name, law) = (scene.free_name("spring"), Some(law));
     scene
-        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law,
+            origin: Origin::Zero,
+            damping: damping.into(),
+            rest: None,
+        })
         .unwrap();
 }
 
@@ -279,7 +286,14 @@ pub fn mounted(mesh: &Mesh) -> Scene {
     let name = scene.free_name("damper");
     let kind = SpringKind::Length(vec![bead, Anchor::Station(start)]);
     scene
-        .add_spring(Spring { name, kind, law: None, origin: Origin::Zero, damping: 1.5.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law: None,
+            origin: Origin::Zero,
+            damping: 1.5.into(),
+            rest: None,
+        })
         .unwrap();
     force(&mut scene, end, at(1.0, 2.0), LoadFrame::Dead, hold(1.1));
     scene.gravity = at(0.0, -2.0);
@@ -418,7 +432,7 @@ pub fn absorbed(mesh: &Mesh) -> Scene {
     scene.beams[other].motion = motion;
     let mut add = |kind, law, damping| {
         let (name, origin) = (scene.free_name("absorber"), Origin::AsBuilt);
-        scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
+        scene.add_spring(Spring { name, kind, law, origin, damping, rest: None }).unwrap();
     };
     let to_ground =
         SpringKind::Length(vec![Anchor::Ground(at(-1.0, -1.0)), Anchor::Station(start)]);
@@ -505,6 +519,7 @@ pub fn all(mesh: &Mesh) -> Vec<Scene> {
         tapered(mesh),
         super::release_scenes::chain(mesh),
         super::machine_scenes::bushed(mesh),
+        super::machine_scenes::actuated(mesh),
         super::steered_scenes::arm(mesh),
     ]
 }

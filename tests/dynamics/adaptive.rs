@@ -378,7 +378,7 @@ fn oscillator() -> Scene {
     let kind = SpringKind::Length(vec![Anchor::Ground(Vec2::zeros()), Anchor::Station(mass)]);
     let law = Some(SpringLaw::Linear { stiffness: 1.0, natural: 0.0 });
     let (name, origin) = ("spring".to_owned(), Origin::Zero);
-    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into(), rest: None }).unwrap();
     scene
 }
 

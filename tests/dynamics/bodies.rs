@@ -152,7 +152,8 @@ fn body_on_an_eccentric_torsion_spring_oscillates_as_a_cosine() {
             let ends = [Anchor::Station(point(body, 1)), Anchor::Ground(at(0.0, 0.0))];
             let law = Some(SpringLaw::Linear { stiffness, natural: 0.3 });
             let (name, kind) = ("hairspring".to_owned(), SpringKind::Torsion(ends));
-            let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
+            let spring =
+                Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into(), rest: None };
             scene.add_spring(spring).unwrap();
             let simulation = simulate(scene, entry.method, dt, 2.5);
             // The spring is unstrained if the angle of the ground minus that of the body is 0.3.
@@ -250,7 +251,7 @@ fn driven_wheel() -> Scene {
     let ends = [point(wheel, 1), point(hung, 1)].map(Anchor::Station);
     let law = Some(SpringLaw::Linear { stiffness: 2.0, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
-    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into(), rest: None };
     scene.add_spring(spring).unwrap();
     scene
 }

@@ -34,7 +34,7 @@ fn wheel(scene: &mut Scene, name: &str, inertia: f64, spin: f64) -> Station {
 fn add_brake(scene: &mut Scene, sections: [Anchor; 2], limit: Schedule, deflection: f64) {
     let kind = SpringKind::Brake { sections, law: BrakeLaw { limit, deflection } };
     let (law, origin, damping) = (None, Origin::Zero, DampingLaw::default());
-    let brake = Spring { name: "brake".into(), kind, law, origin, damping };
+    let brake = Spring { name: "brake".into(), kind, law, origin, damping, rest: None };
     scene.add_spring(brake).unwrap();
 }
 

@@ -203,7 +203,7 @@ fn strain_error_of_corrected_section_forces_is_quadratic_in_the_correction() {
                 let mut out = vec![0.0; model.degrees_of_freedom()];
                 model.add_forces(stage, &u, 1.0, &mut out)
             };
-            let order = (missed(1e-3) / missed(1e-4)).log10();
+            let order = (missed(1e-4) / missed(1e-5)).log10();
             assert!(order > 1.9, "{name}, {stage:?}: order {order}");
         }
     });

@@ -22,7 +22,7 @@ fn damped(law: DampingLaw, speed: f64) -> Scene {
     scene.velocities.push(StationVelocity { station, velocity: at(speed, 0.0), spin: None });
     let kind = SpringKind::Length(vec![Anchor::Ground(at(1.0, 1.0)), Anchor::Station(station)]);
     let (name, origin) = ("oil".to_owned(), Origin::Zero);
-    scene.add_spring(Spring { name, kind, law: None, origin, damping: law }).unwrap();
+    scene.add_spring(Spring { name, kind, law: None, origin, damping: law, rest: None }).unwrap();
     scene
 }
 

@@ -263,7 +263,9 @@ fn motor_torque_is_exact_for_any_rotation_per_step() {
         let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(rotor)]);
         let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
         let (name, origin, damping_law) = ("brake".to_owned(), Origin::Zero, damping.into());
-        scene.add_spring(Spring { name, kind, law, origin, damping: damping_law }).unwrap();
+        scene
+            .add_spring(Spring { name, kind, law, origin, damping: damping_law, rest: None })
+            .unwrap();
         let simulation = simulate(scene, Method::EnergyMomentum, dt, 1.0);
         let history = simulation.history();
         let (times, message) =

@@ -15,7 +15,7 @@ const OF_BEAM: f64 = 1e4;
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: SpringLaw) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors));
     let (law, origin) = (Some(law), Origin::Zero);
-    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into(), rest: None }).unwrap();
 }
 
 /// A rope resists elongation beyond its length only, a buffer resists compression below its length only.

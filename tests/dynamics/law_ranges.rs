@@ -17,7 +17,7 @@ fn held(law: Option<SpringLaw>, damping: DampingLaw, speed: f64) -> Scene {
     scene.velocities.push(StationVelocity { station, velocity: at(speed, 0.0), spin: None });
     let kind = SpringKind::Length(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(station)]);
     let (name, origin) = ("link".to_owned(), Origin::AsBuilt);
-    scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin, damping, rest: None }).unwrap();
     scene
 }
 

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod actuators;
 mod adaptive;
 mod archive;
 mod bodies;

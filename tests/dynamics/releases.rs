@@ -176,6 +176,7 @@ fn energy_of_a_released_spring_enters_the_energy_balance() {
                 law: Some(SpringLaw::Linear { stiffness: 8.0, natural: 1.0 }),
                 origin: Origin::Zero,
                 damping: 0.0.into(),
+                rest: None,
             })
             .unwrap();
         release(&mut scene, Releasable::Spring(0), 0.3);

@@ -240,6 +240,7 @@ fn inverted_pendulum_diverges_and_reading_it_changes_nothing() {
         law: Some(SpringLaw::Linear { stiffness, natural: 0.0 }),
         origin: Origin::AsBuilt,
         damping: 0.0.into(),
+        rest: None,
     };
     scene.add_spring(spring).unwrap();
     scene.rigid_bodies[0].motion.spin = 1e-3;

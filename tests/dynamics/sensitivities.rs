@@ -33,7 +33,7 @@ fn oscillator(stiffness: f64, mass: f64, stretch: f64) -> Scene {
     let law = Some(SpringLaw::Linear { stiffness, natural: 2.0 });
     let kind = SpringKind::Length(vec![Anchor::Ground(at(0.0, 0.0)), Anchor::Station(bead)]);
     let name = "spring".to_owned();
-    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() };
+    let spring = Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into(), rest: None };
     scene.add_spring(spring).unwrap();
     scene
 }

@@ -1,6 +1,7 @@
 //! Sensors, compared with balances, differences and closed forms. Sensors do not change the motion.
 #![allow(clippy::unwrap_used)]
 
+use crate::common::machine_scenes::actuated;
 use crate::common::steered_scenes::is_steered;
 use crate::common::{
     at, body_scenes, is_damped, orders, run, scenes, sci, settings, simulate, sleeve_scenes,
@@ -11,7 +12,7 @@ use withy::geometry::Vec2;
 use withy::integrators::{INTEGRATORS, Method};
 use withy::joints::{JointKind, Partner, SlidingRule};
 use withy::simulation::{NoMonitor, Simulation};
-use withy::system::{Scene, SystemError, ValueTime};
+use withy::system::{Anchor, Scene, Spring, SystemError, ValueTime};
 
 fn smooth(spans: usize) -> Mesh {
     Mesh::bspline(spans, 3, 2).unwrap()
@@ -97,11 +98,13 @@ fn forces_and_accelerations_are_those_of_a_very_short_step() {
             .map(|joint| joint.station)
             .collect();
         let gravity = scene.gravity;
-        let has_loads = scene.loads().count()
-            + scene.drags().count()
-            + scene.obstacles().count()
-            + scene.drives.len()
-            > 0;
+        let is_ground = |anchor: &Anchor| matches!(anchor, Anchor::Ground(_));
+        let has_loads = scene.springs().flat_map(Spring::anchors).any(is_ground)
+            || scene.loads().count()
+                + scene.drags().count()
+                + scene.obstacles().count()
+                + scene.drives.len()
+                > 0;
         let mut simulation = simulate(scene, Method::default(), 0.02, 0.4);
         let read = |simulation: &mut Simulation| {
             let now = simulation.instant().unwrap();
@@ -264,14 +267,20 @@ fn recorded(scene: &mut Scene, quantity: &str) -> Vec<String> {
 }
 
 #[test]
-fn powers_integrate_to_the_works_of_drives_and_loads() {
-    for entry in INTEGRATORS {
-        let mut scene = scenes::driven(&smooth(5));
+fn powers_integrate_to_the_works_of_drives_loads_and_actuators() {
+    let all = INTEGRATORS.iter().flat_map(|entry| {
+        [scenes::driven(&smooth(5)), actuated(&smooth(5))].map(|scene| (entry, scene))
+    });
+    for (entry, mut scene) in all {
         let names = recorded(&mut scene, ".power");
-        assert_eq!(names, ["move1.power", "push.power"]);
+        let expected: &[&str] = match scene.name.as_str() {
+            "actuated" => &["actuator1.power", "actuator2.power", "actuator3.power"],
+            _ => &["move1.power", "push.power"],
+        };
+        assert_eq!(names, expected);
         let simulation = simulate(scene, entry.method, 0.02, 0.6);
         let history = simulation.history();
-        assert_eq!(history.dimension("move1.power"), Some("energy/time"));
+        assert_eq!(history.dimension(&names[0]), Some("energy/time"));
         let dt = history.column("dt").unwrap();
         for name in names {
             let power = history.column(&name).unwrap();

@@ -23,7 +23,7 @@ const DIRECTION: Vec2 = Vec2::new(0.6, 0.8);
 
 fn spring(kind: SpringKind, law: Option<SpringLaw>, damping: f64) -> Spring {
     let damping = DampingLaw::Linear(damping);
-    Spring { name: "spring".to_owned(), kind, law, origin: Origin::Zero, damping }
+    Spring { name: "spring".to_owned(), kind, law, origin: Origin::Zero, damping, rest: None }
 }
 
 /// Particle of mass 1 at a distance of 1 from the anchor of a damper, which moves through the anchor.

@@ -22,7 +22,14 @@ fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<SpringLaw>, damping: f64) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors));
     scene
-        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law,
+            origin: Origin::Zero,
+            damping: damping.into(),
+            rest: None,
+        })
         .unwrap();
 }
 
@@ -134,7 +141,7 @@ fn springs_without_effect_are_rejected() {
     let ground = |x: f64| Anchor::Ground(at(x, 0.0));
     let spring = |kind: SpringKind| {
         let (name, law) = ("idle".to_owned(), linear(1.0, 1.0));
-        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() }
+        Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into(), rest: None }
     };
     for (kind, why) in [
         (SpringKind::Length(vec![end, end]), "which is the same place"),
@@ -282,6 +289,7 @@ fn door(stiffness: f64, damping: f64, angle: f64) -> Scene {
         law: linear(stiffness, angle),
         origin: Origin::Zero,
         damping: damping.into(),
+        rest: None,
     };
     scene.add_spring(spring).unwrap();
     scene

@@ -25,7 +25,7 @@ fn particle(scene: &mut Scene, position: Vec2, mass: f64) -> Station {
 fn spring(scene: &mut Scene, [from, to]: [Anchor; 2], law: SpringLaw) {
     let (name, kind) = (scene.free_name("spring"), SpringKind::Length(vec![from, to]));
     let (law, origin) = (Some(law), Origin::Zero);
-    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into() }).unwrap();
+    scene.add_spring(Spring { name, kind, law, origin, damping: 0.0.into(), rest: None }).unwrap();
 }
 
 /// Mass that falls from a height onto a linear bumper with its face at y = 1.
@@ -208,7 +208,7 @@ fn energy_returned_by_dampers_is_reported_for_the_time_reversing_method() {
         });
         let kind = SpringKind::Length(vec![Anchor::Ground(at(-5.0, 0.0)), Anchor::Station(mass)]);
         let (name, origin) = (scene.free_name("damper"), Origin::Zero);
-        let damper = Spring { name, kind, law: None, origin, damping: 10.0.into() };
+        let damper = Spring { name, kind, law: None, origin, damping: 10.0.into(), rest: None };
         scene.add_spring(damper).unwrap();
         let run = simulate(scene, method, dt, 20.0 * dt);
         run.warnings().iter().any(|note| matches!(note, Warning::EnergyGain { .. }))

@@ -104,7 +104,7 @@ impl Units {
         });
         let DampingLaw::Linear(damping) = spring.damping else { panic!("{:?}", spring.damping) };
         let damping = DampingLaw::Linear(load * self.time / unit * damping);
-        Spring { name: spring.name.clone(), kind, law, origin: spring.origin, damping }
+        Spring { name: spring.name.clone(), kind, law, origin: spring.origin, damping, rest: None }
     }
 
     /// The same scene in other units.
@@ -314,6 +314,7 @@ fn random(seed: u64) -> (Scene, Method) {
                 law: Some(law),
                 origin: Origin::AsBuilt,
                 damping: 0.3.into(),
+                rest: None,
             })
             .unwrap();
         if random.next() < 0.0 {
@@ -355,6 +356,7 @@ fn random(seed: u64) -> (Scene, Method) {
                         law: Some(law),
                         origin: Origin::Zero,
                         damping,
+                        rest: None,
                     })
                     .unwrap();
             }

@@ -73,6 +73,7 @@ fn shaken_beam(frame: Frame) -> Scene {
             law: Some(law),
             origin: Origin::Zero,
             damping: 0.0.into(),
+            rest: None,
         })
         .unwrap();
     scene

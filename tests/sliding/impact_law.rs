@@ -13,8 +13,14 @@ use withy::system::{Anchor, Origin, Scene, Spring, SpringKind, SpringLaw};
 
 fn spring(scene: &mut Scene, kind: SpringKind, stiffness: f64, natural: f64, damping: f64) {
     let (name, law) = (scene.free_name("spring"), SpringLaw::Linear { stiffness, natural });
-    let spring =
-        Spring { name, kind, law: Some(law), origin: Origin::Zero, damping: damping.into() };
+    let spring = Spring {
+        name,
+        kind,
+        law: Some(law),
+        origin: Origin::Zero,
+        damping: damping.into(),
+        rest: None,
+    };
     scene.add_spring(spring).unwrap();
 }
 

@@ -44,7 +44,14 @@ fn belt(friction: f64, static_friction: f64) -> Scene {
     let law = Some(SpringLaw::Linear { stiffness: STIFFNESS, natural: 10.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Length(anchors));
     scene
-        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law,
+            origin: Origin::Zero,
+            damping: 0.0.into(),
+            rest: None,
+        })
         .unwrap();
     let slider = Slider::new("slider1", block, rod, 6.0);
     let static_friction = Some(static_friction);

@@ -257,7 +257,7 @@ fn resting_beads(angle: f64) -> Scene {
         let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
         let name = scene.free_name("spring");
         let (origin, damping) = (Origin::AsBuilt, damping.into());
-        scene.add_spring(Spring { name, kind, law, origin, damping }).unwrap();
+        scene.add_spring(Spring { name, kind, law, origin, damping, rest: None }).unwrap();
     };
     let [begin, end] = [start_of(&mut scene, beam), end_of(&mut scene, beam)].map(Anchor::Station);
     let ground = |point: Vec2| Anchor::Ground(turned(point));

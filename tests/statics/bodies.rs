@@ -31,7 +31,14 @@ fn lamp(stiffness: f64) -> Scene {
     let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
     let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
     scene
-        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: 0.0.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law,
+            origin: Origin::Zero,
+            damping: 0.0.into(),
+            rest: None,
+        })
         .unwrap();
     scene.gravity = at(0.0, -GRAVITY);
     scene

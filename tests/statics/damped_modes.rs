@@ -18,7 +18,8 @@ fn damped(scene: &Scene, count: usize) -> Result<Vec<DampedMode>, VibrationError
 fn connect(scene: &mut Scene, anchors: [Anchor; 2], stiffness: f64, damping: f64) {
     let law = (stiffness > 0.0).then_some(SpringLaw::Linear { stiffness, natural: 0.0 });
     let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors.to_vec()));
-    let spring = Spring { name, kind, law, origin: Origin::AsBuilt, damping: damping.into() };
+    let spring =
+        Spring { name, kind, law, origin: Origin::AsBuilt, damping: damping.into(), rest: None };
     scene.add_spring(spring).unwrap();
 }
 

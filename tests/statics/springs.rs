@@ -19,7 +19,14 @@ fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
 fn add(scene: &mut Scene, kind: SpringKind, law: Option<SpringLaw>, damping: f64) {
     let name = scene.free_name("spring");
     scene
-        .add_spring(Spring { name, kind, law, origin: Origin::Zero, damping: damping.into() })
+        .add_spring(Spring {
+            name,
+            kind,
+            law,
+            origin: Origin::Zero,
+            damping: damping.into(),
+            rest: None,
+        })
         .unwrap();
 }
 

@@ -41,6 +41,8 @@ impl Error for FunctionError {
 pub enum LoadError {
     #[error("{schedule}: {name} is {value}, but must be {allowed}")]
     Value { schedule: &'static str, name: &'static str, value: f64, allowed: &'static str },
+    #[error("the length without force becomes {}, but must not be negative", rounded_to(6, *length))]
+    NegativeLength { length: f64 },
     #[error("a schedule has {parts} parts, but at most {most} can be combined")]
     TooManyParts { parts: usize, most: usize },
     #[error("table: {rows} rows given, but at least 2 are needed, each with a time and a factor")]

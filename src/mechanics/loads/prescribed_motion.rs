@@ -7,7 +7,7 @@ use super::{LimitSide, LoadError, Schedule, StepMean, VALUES_OF_A_MEAN};
 use crate::geometry::larger;
 
 /// Prescribed motion. Either the displacement or the rate is given as a function of time.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum PrescribedMotion {
     /// Displacement from the initial position as a function of time [length, rad].
     Position(Schedule),
@@ -41,6 +41,17 @@ pub struct MotionAtStart {
     pub acceleration: f64,
 }
 
+/// Jump of a prescribed position at a break of its schedule.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DeclaredJump {
+    /// Time of the jump [time].
+    pub time: f64,
+    /// Position before the jump [length, rad].
+    pub before: f64,
+    /// Position after the jump [length, rad].
+    pub after: f64,
+}
+
 /// The number `cos(π/4)`. The ends of a step, its middle and `±INNER` are the extrema of the Chebyshev polynomial of degree four.
 const INNER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -56,6 +67,9 @@ const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 2
 
 /// Largest jump of the rate at a declared break for which the rate counts as continuous, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
+
+/// Largest jump of a prescribed position at a declared break that counts as zero, as a fraction of the position plus the size of the body.
+const LARGEST_JUMP: f64 = 1e-9;
 
 /// Bound of the rounding error of a rate, as a multiple of the rounding error of the values from which the rate is computed.
 const ROUNDINGS: f64 = 1e3;
@@ -172,6 +186,23 @@ impl PrescribedMotion {
             Some(jump) if matches!(self, Self::Position(_)) || jump.is_jump => Err(jump.refused()),
             _ => Ok(()),
         }
+    }
+
+    /// First jump of a prescribed position at the breaks that its schedule declares; `None` without a jump and for a prescribed rate.
+    /// Jumps of at most 1e-9 of the position plus `size` count as zero [length, rad].
+    ///
+    /// # Errors
+    /// Fails if the schedule has no finite value at a break.
+    pub(crate) fn declared_jump(&self, size: f64) -> Result<Option<DeclaredJump>, LoadError> {
+        let Self::Position(schedule) = self else { return Ok(None) };
+        for time in schedule.breaks().into_iter().filter(|time| *time >= 0.0) {
+            let before = schedule.value(time, LimitSide::Before)?;
+            let after = schedule.value(time, LimitSide::After)?;
+            if (after - before).abs() > LARGEST_JUMP * (size + before.abs()) {
+                return Ok(Some(DeclaredJump { time, before, after }));
+            }
+        }
+        Ok(None)
     }
 
     /// Initial rate and acceleration of a motion that starts at a time.

@@ -128,6 +128,7 @@ mod tests {
             law: Some(SpringLaw::Linear { stiffness: 1e3 / (time * time), natural: length }),
             origin: Origin::Zero,
             damping: 0.0.into(),
+            rest: None,
         }
     }
 

@@ -106,6 +106,10 @@ impl System {
         Ok(())
     }
 
+    pub(super) fn set_rest_lengths(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.elements.set_rests_at(time)
+    }
+
     pub(super) fn bodies(&self) -> &Bodies {
         &self.bodies
     }
@@ -182,6 +186,7 @@ impl System {
     /// Returns the name of the load or drive without a finite value, and the error of its schedule.
     pub(crate) fn evaluate_loads_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.supports.prescribed_mut().evaluate_after(time)?;
+        self.set_rest_lengths(time)?;
         self.elements.evaluate_after(time)
     }
 

@@ -17,7 +17,8 @@ pub use elements::{
     Along, Anchor, BrakeLaw, Branch, ContactMember, ContactState, ContactTarget, DampingLaw, Drag,
     Dragged, Drive, DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping,
     MotionCurvature, Obstacle, ObstacleShape, Origin, OutsideLaw, PairContact, Penetration,
-    PointMass, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, UnsampledChange,
+    PointMass, PrescribedRest, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw,
+    UnsampledChange,
 };
 pub(crate) use errors::rounded;
 pub use errors::{

@@ -303,6 +303,9 @@ fn load_hint(error: &LoadError) -> Option<String> {
     let advice = match error {
         LoadError::TooManyParts { .. } => "write it as schedule(|t| …)",
         LoadError::ShortTable { .. } => "write [[t, factor], …]",
+        LoadError::NegativeLength { .. } => {
+            "let the function, or the controller of the rate, end at a length of 0 or more"
+        }
         LoadError::Jump { .. } => SMOOTH,
         LoadError::InfiniteRate { .. } => SMOOTH,
         _ => return None,

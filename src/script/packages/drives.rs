@@ -186,7 +186,7 @@ fn drive(call: &mut Call) -> Result<Dynamic, ScriptError> {
     add(call, DriveKind::Move, motions, &options)
 }
 
-fn place_of(
+pub(super) fn place_of(
     call: &Call,
     options: &Options,
     key: &str,

@@ -2,14 +2,18 @@
 
 use rhai::{Dynamic, FnPtr};
 
+use super::drives::place_of;
+use super::schedules::{controlled_schedule_of, expect_controller, sample_clock_of};
 use super::sliding::meant;
 use crate::geometry::Vec2;
+use crate::loads::{LimitSide, PrescribedMotion};
 use crate::output::significant;
 use crate::script::bindings::call::Call;
 use crate::script::bindings::options::Options;
+use crate::script::handles::scene::SceneHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::numbers::as_number;
-use crate::system::{DampingLaw, Origin, SpringKind, SpringLaw};
+use crate::system::{DampingLaw, Origin, PrescribedRest, SpringKind, SpringLaw};
 
 pub(super) const ACTS: [(&str, Acts); 3] =
     [("both", Acts::Both), ("pull", Acts::Pull), ("push", Acts::Push)];
@@ -22,8 +26,28 @@ pub(super) enum Acts {
     Push,
 }
 
-/// Spring law, and configuration in which the elongation is zero.
-pub(super) type ParsedLaw = (Option<SpringLaw>, Origin);
+/// Spring law with the configuration in which its argument is zero.
+pub(super) struct ParsedLaw {
+    /// Force as a function of the elongation; `None` for a pure damper.
+    pub(super) law: Option<SpringLaw>,
+    pub(super) origin: Origin,
+    /// Rest length or rest angle as a function of time.
+    pub(super) rest: Option<PrescribedRest>,
+}
+
+impl From<Option<(SpringLaw, Origin)>> for ParsedLaw {
+    fn from(law: Option<(SpringLaw, Origin)>) -> Self {
+        let (law, origin) = law.map_or((None, Origin::Zero), |(law, at)| (Some(law), at));
+        Self { law, origin, rest: None }
+    }
+}
+
+/// Option keys for the rest length or rest angle of a spring, and for its rate.
+#[derive(Clone, Copy)]
+struct RestKeys {
+    value: &'static str,
+    rate: &'static str,
+}
 
 /// Reads a spring law from the options; `None` for a pure damper.
 pub(super) fn law(
@@ -31,16 +55,48 @@ pub(super) fn law(
     options: &Options,
     kind: &SpringKind,
 ) -> Result<ParsedLaw, ScriptError> {
-    let (ease, acts) = match kind {
-        SpringKind::Torsion(_) | SpringKind::Brake { .. } => ("angle", Acts::Both),
-        SpringKind::Length(_) => ("length", meant(&ACTS, &options.text("acts")?)),
+    let (keys, acts) = match kind {
+        SpringKind::Torsion(_) | SpringKind::Brake { .. } => {
+            (RestKeys { value: "angle", rate: "angle_rate" }, Acts::Both)
+        }
+        SpringKind::Length(_) => {
+            let keys = RestKeys { value: "length", rate: "length_rate" };
+            (keys, meant(&ACTS, &options.text("acts")?))
+        }
     };
+    match prescribed_rest(call, options, keys)? {
+        Some(rest) => {
+            let law = unshifted_law(call, options, keys, acts)?.map(|(law, _)| (law, Origin::Zero));
+            Ok(ParsedLaw { rest: Some(rest), ..law.into() })
+        }
+        None => {
+            let natural = options.optional_number(keys.value);
+            let law = unshifted_law(call, options, keys, acts)?;
+            Ok(law
+                .map(|(law, origin)| match (natural, origin) {
+                    (Some(natural), Origin::AsBuilt) => (law.shifted(natural), Origin::Zero),
+                    _ => (law, origin),
+                })
+                .into())
+        }
+    }
+}
+
+/// Reads a spring law whose argument is the elongation from the rest length; `None` for a pure damper.
+/// The argument of a table is the length itself.
+fn unshifted_law(
+    call: &Call,
+    options: &Options,
+    keys: RestKeys,
+    acts: Acts,
+) -> Result<Option<(SpringLaw, Origin)>, ScriptError> {
+    let ease = keys.value;
     if options.has("law") {
-        return sampled(call, options, ease);
+        return Ok(Some((sampled(call, options)?, Origin::AsBuilt)));
     }
     if options.has("table") {
         let odd = match acts {
-            Acts::Both => ["stiffness", ease].into_iter().find(|key| options.has(key)),
+            Acts::Both => ["stiffness", ease, keys.rate].into_iter().find(|key| options.has(key)),
             Acts::Pull | Acts::Push => Some("acts"),
         };
         if let Some(odd) = odd {
@@ -50,28 +106,58 @@ pub(super) fn law(
             return Err(call.error(message).hint(hint).at(CallPart::Key(odd.into())));
         }
         let points = options.points("table")?.iter().map(|at: &Vec2| (at.x, at.y)).collect();
-        return Ok((Some(SpringLaw::Table { points }), Origin::Zero));
+        return Ok(Some((SpringLaw::Table { points }, Origin::Zero)));
     }
     let Some(stiffness) = options.optional_number("stiffness") else {
-        if damping(call, options)?.is_active() && !options.has(ease) {
-            return Ok((None, Origin::Zero));
+        let has_rest = options.has(ease) || options.has(keys.rate);
+        if damping(call, options)?.is_active() && !has_rest {
+            return Ok(None);
         }
         let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
         return Err(call.error("the stiffness, law or table is missing").hint(hint));
     };
-    let (natural, origin) = match options.optional_number(ease) {
-        Some(natural) => (natural, Origin::Zero),
-        None => (0.0, Origin::AsBuilt),
-    };
     let side = |before: f64, after: f64| SpringLaw::Table {
-        points: vec![(natural - 1.0, before), (natural, 0.0), (natural + 1.0, after)],
+        points: vec![(-1.0, before), (0.0, 0.0), (1.0, after)],
     };
     let law = match acts {
-        Acts::Both => SpringLaw::Linear { stiffness, natural },
+        Acts::Both => SpringLaw::Linear { stiffness, natural: 0.0 },
         Acts::Pull => side(0.0, stiffness),
         Acts::Push => side(-stiffness, 0.0),
     };
-    Ok((Some(law), origin))
+    Ok(Some((law, Origin::AsBuilt)))
+}
+
+/// Reads the rest length or rest angle of a spring as a function of time; `None` if it is constant.
+fn prescribed_rest(
+    call: &Call,
+    options: &Options,
+    keys: RestKeys,
+) -> Result<Option<PrescribedRest>, ScriptError> {
+    let clock = sample_clock_of(options)?;
+    let constant = options.optional_number(keys.value);
+    let is_function = options.has(keys.value) && constant.is_none();
+    let rest = match (is_function, options.has(keys.rate)) {
+        (true, true) => {
+            let message =
+                format!("{} is a function of time, but {} is also given", keys.value, keys.rate);
+            let hint = format!("give a number for {}, or leave out {}", keys.value, keys.rate);
+            return Err(call.error(message).hint(hint).at(CallPart::Key(keys.rate.into())));
+        }
+        (true, false) => {
+            let rate = format!("{}: |t, q| …", keys.rate);
+            let schedule = place_of(call, options, keys.value, &rate)?;
+            let start = Some(schedule.value(0.0, LimitSide::After)?);
+            Some(PrescribedRest { start, motion: PrescribedMotion::Position(schedule) })
+        }
+        (false, true) => {
+            let scene = call.receiver::<SceneHandle>()?;
+            let rate = controlled_schedule_of(call, options, keys.rate, &scene, clock)?;
+            Some(PrescribedRest { start: constant, motion: PrescribedMotion::Rate(rate) })
+        }
+        (false, false) => None,
+    };
+    expect_controller(call, clock, rest.iter().map(|rest| rest.motion.schedule()))?;
+    Ok(rest)
 }
 
 pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, ScriptError> {
@@ -113,7 +199,7 @@ pub(super) fn damping(call: &Call, options: &Options) -> Result<DampingLaw, Scri
 }
 
 /// Law from a function, which is sampled over a range of elongations now and not called later.
-fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, ScriptError> {
+fn sampled(call: &Call, options: &Options) -> Result<SpringLaw, ScriptError> {
     let function = options.callback("law")?;
     call.expect_arguments(&function, 1, "law: |e| 100 * e, where e is the elongation")?;
     let odd = options.present_names().find(|key| ["stiffness", "table"].contains(key));
@@ -136,10 +222,7 @@ fn sampled(call: &Call, options: &Options, ease: &str) -> Result<ParsedLaw, Scri
     let force = force_of(call, &function, ("law", "elongation"));
     let law = SpringLaw::sampled((range.x, range.y), force)?;
     expect_smooth(call, &law, ("law", "replace a jump by a short ramp"))?;
-    Ok(match options.optional_number(ease) {
-        Some(natural) => (Some(law.shifted(natural)), Origin::Zero),
-        None => (Some(law), Origin::AsBuilt),
-    })
+    Ok(law)
 }
 
 fn force_of<'a>(

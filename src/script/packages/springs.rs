@@ -34,7 +34,10 @@ pub const TABLE: BindingTable = BindingTable {
         energy of the scene; the dissipated energy is D in the balance E - W + D, which is \
         constant to rounding with energy_momentum() and fourth_order() for any step size and \
         stiffness. The history has the columns stored and dissipated, and for each spring or \
-        damper NAME.length or NAME.angle, NAME.force, stored.NAME and dissipated.NAME.",
+        damper NAME.length or NAME.angle, NAME.force, stored.NAME and dissipated.NAME. A \
+        length or angle without force that depends on time makes a spring an actuator: a \
+        winch, a cylinder, a muscle or a servo. It has the columns NAME.rest_length or \
+        NAME.rest_angle and work.NAME, the work of the actuator, and scene.record(\"NAME.power\").",
     types: &[SPRING],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -58,18 +61,25 @@ pub const TABLE: BindingTable = BindingTable {
             when the spring is created, so that the polygon through the samples is exact to \
             1e-7 of the largest force. The stored energy is the exact integral of this \
             polygon, which files contain. print shows the remaining error. A law that needs \
-            more than 20 000 samples, such as one with a jump, is refused with an error.")
+            more than 20 000 samples, such as one with a jump, is refused with an error. \
+            With a length that depends on time, damping acts on the rate of distance - length, \
+            and the work of the actuator is exactly the force times the decrease of the \
+            length. The length must not jump; length_rate acts in motion only, and an \
+            equilibrium uses the length at its option `time`.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
                   scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
+                  // A winch that lifts the bead, and a cylinder that a controller extends.\n\
+                  let winch = scene.spring([2, 3], bead, #{ stiffness: 1e3, length: |t| 4 - 0.5 * t, acts: \"pull\" });\n\
+                  scene.spring([0, 2], rod.end, #{ stiffness: 1e3, length_rate: |t, q| 0.3 - q.position(rod.end).y });\n\
                   let sim = scene.start(#{ dt: 0.01 });\nsim.run_to(1);\n\
-                  check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);")
-        .with_related(&["damper", "tendon", "torsion_spring", "spring_force"]),
+                  check(sim.history.drift(\"energy\") < 1e-12);\ncheck(sim.history.last(\"dissipated\") > 0);\n\
+                  print(sim.history.last(\"work.\" + winch.name));")
+        .with_related(&["damper", "tendon", "torsion_spring", "spring_force", "motor"]),
         method(SCENE, "damper", &[FROM, TO, options("options", DAMPER_KEYS)], |call| {
             let anchors = vec![anchor(call, "from")?, anchor(call, "to")?];
             let options = call.options("options")?;
-            let law = (None, Origin::Zero);
-            add(call, SpringKind::Length(anchors), law, &options)
+            add(call, SpringKind::Length(anchors), ParsedLaw::from(None), &options)
         })
         .returns(Returns::object(SPRING))
         .summary("Adds a damper between two stations, or between a station and a point of the \
@@ -92,7 +102,8 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Adds a rope over three or more places with uniform tension; it slides over the \
                 inner places without friction.")
             .doc("The tension depends on the total length. With acts: \"pull\" the rope is slack \
-                where it is shorter than `length`.")
+                where it is shorter than `length`. With length: |t| … or length_rate it is \
+                wound up or paid out, as by a winch.")
             .example("let rope = scene.tendon([[0, 1], rod.end, bead], #{ stiffness: 1e4, acts: \"pull\" });\nprint(rope);")
             .with_related(&["spring"]),
         method(SCENE, "torsion_spring", &[object("from", STATION), either("to", TURNED), options("options", TORSION_KEYS).optional()], torsion)
@@ -101,11 +112,12 @@ pub const TABLE: BindingTable = BindingTable {
                 or between a section and the ground.")
             .doc("The moment is stiffness · (angle of the second section - angle of the first \
                 section - angle), plus damping · the rate of that difference. Angles are \
-                counted over any number of turns.")
+                counted over any number of turns. An angle |t| … that depends on time, or its \
+                angle_rate, makes it a servo with a compliance.")
             .example("let arm = scene.beam(#{ axis: line([2, 0], [3, 0]), basis: bspline(4), section: s });\n\
                       scene.hinge(rod.end, arm.start);\n\
                       scene.torsion_spring(rod.end, arm.start, #{ stiffness: 3, damping: 0.1 });\n\
-                      scene.torsion_spring(arm.end, #{ stiffness: 0.1 });")
+                      scene.torsion_spring(arm.end, #{ stiffness: 0.1, angle: |t| 0.2 * t });")
             .with_related(&["spring", "hinge", "brake"]),
         method(SCENE, "brake", &[object("from", STATION), either("to", BRAKED), options("options", BRAKE_KEYS).optional()], brake)
             .returns(Returns::object(SPRING))
@@ -190,9 +202,16 @@ const RATES: Parameter = point("rates")
     .optional();
 const SPRING_KEYS: &[Parameter] = &[
     STIFFNESS,
-    number("length")
+    either("length", SCHEDULE_KINDS)
         .unit("length")
-        .doc("length without force; default: the length in the undeformed scene")
+        .doc(
+            "length without force, a number or a function of time |t| …; default: the length in \
+            the undeformed scene",
+        )
+        .optional(),
+    either("length_rate", SCHEDULE_KINDS)
+        .unit("length/time")
+        .doc("rate of the length without force, as of a winch: a number, a function of time |t| … or a controller |t, q| …")
         .optional(),
     choice("acts", &[ACTS[0].0, ACTS[1].0, ACTS[2].0])
         .doc("direction of the force: \"pull\" for a rope, \"push\" for a bumper")
@@ -214,6 +233,8 @@ const SPRING_KEYS: &[Parameter] = &[
     DAMPING,
     RATES,
     text("name").optional(),
+    SAMPLE,
+    DELAY,
 ];
 const DAMPER_KEYS: &[Parameter] = &[
     either("damping", DAMPER_KINDS).unit("force·time/length").doc(DAMPING_DOC),
@@ -222,12 +243,16 @@ const DAMPER_KEYS: &[Parameter] = &[
 ];
 const TORSION_KEYS: &[Parameter] = &[
     number("stiffness").positive().unit("force·length/rad").optional(),
-    number("angle")
+    either("angle", SCHEDULE_KINDS)
         .unit("rad")
         .doc(
-            "angle without moment; to the ground measured from the x axis like sim.angle; \
+            "angle without moment, a number or a function of time |t| …; to the ground measured from the x axis like sim.angle; \
             default: the angle in the undeformed scene",
         )
+        .optional(),
+    either("angle_rate", SCHEDULE_KINDS)
+        .unit("rad/time")
+        .doc("rate of the angle without moment: a number, a function of time |t| … or a controller |t, q| …")
         .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
     callback("law")
@@ -254,6 +279,8 @@ const TORSION_KEYS: &[Parameter] = &[
         .requires_key("damping")
         .optional(),
     text("name").optional(),
+    SAMPLE,
+    DELAY,
 ];
 
 #[derive(Clone)]
@@ -342,7 +369,7 @@ fn add_damper(call: &Call, kind: SpringKind, options: &Options) -> Result<Dynami
 fn add(
     call: &Call,
     kind: SpringKind,
-    (law, origin): ParsedLaw,
+    ParsedLaw { law, origin, rest }: ParsedLaw,
     options: &Options,
 ) -> Result<Dynamic, ScriptError> {
     let handle = call.receiver::<SceneHandle>()?;
@@ -350,7 +377,7 @@ fn add(
     let prefix = if law.is_none() { "damper" } else { "spring" };
     let name = name(options, &scene.borrow(), prefix);
     let damping = damping(call, options)?;
-    add_spring(handle, Spring { name, kind, law, origin, damping })
+    add_spring(handle, Spring { name, kind, law, origin, damping, rest })
 }
 
 fn tendon(call: &mut Call) -> Result<Dynamic, ScriptError> {
@@ -412,7 +439,7 @@ fn brake(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let name = name(&options, &scene.shared_for_change().borrow(), "brake");
     let kind = SpringKind::Brake { sections, law };
     let (origin, damping) = (Origin::Zero, DampingLaw::default());
-    let spring = Spring { name, kind, law: None, origin, damping };
+    let spring = Spring { name, kind, law: None, origin, damping, rest: None };
     add_spring(scene, spring)
 }
 
@@ -436,6 +463,7 @@ fn spring_error(error: SystemError) -> ScriptError {
         {
             CallPart::Key((*name).into())
         }
+        SystemError::RestValue { name, .. } => CallPart::Key((*name).into()),
         _ => CallPart::Argument(0),
     };
     ScriptError::from(error).at(place)

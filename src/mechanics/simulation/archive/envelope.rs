@@ -10,7 +10,7 @@ use super::ArchiveError;
 const MAGIC: [u8; 8] = *b"\x89withy\r\n";
 
 /// Version of the file format. It must be incremented with any change of the stored data.
-const FORMAT: u16 = 28;
+const FORMAT: u16 = 29;
 
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 

@@ -110,8 +110,19 @@ impl Elements {
         })
     }
 
+    /// Sets prescribed rest lengths and rest angles of springs to their values at a time.
+    ///
+    /// # Errors
+    /// Returns the name of the first spring whose function has no finite value, and the error of the function.
+    pub fn set_rests_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+        self.resistances.iter_mut().try_for_each(|spring| {
+            spring.set_rest_at(time).map_err(|error| (spring.name().to_owned(), error))
+        })
+    }
+
     pub fn may_jump_at(&self, time: f64) -> bool {
-        self.forces.iter().any(|force| force.may_jump_at(time))
+        let by_forces = self.forces.iter().any(|force| force.may_jump_at(time));
+        by_forces || self.resistances.iter().any(|resistance| resistance.may_jump_at(time))
     }
 
     pub fn tracked_sections(&self) -> usize {

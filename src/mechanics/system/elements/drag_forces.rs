@@ -158,7 +158,7 @@ impl InternalForce for DragForces {
         self.dissipated
     }
 
-    fn wind_work(&self) -> Option<f64> {
+    fn external_work(&self) -> Option<f64> {
         self.has_wind().then_some(self.wind_work)
     }
 
@@ -187,7 +187,7 @@ impl InternalForce for DragForces {
         self.rate_history.save(state);
         self.points.iter().for_each(|point| point.save(state));
         state.push(self.dissipated);
-        state.extend(self.wind_work());
+        state.extend(self.external_work());
     }
 
     fn restore(&mut self, next: &mut dyn FnMut() -> f64) {

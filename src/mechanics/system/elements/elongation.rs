@@ -14,9 +14,11 @@ use self::shares::CoordinateShare;
 pub(super) use self::term::ElongationTerm;
 use self::term::RelativeTurn;
 use super::coordinate::{Coordinate, rounding_error};
+use super::rest_motion::RestMotion;
 use super::{TrialState, collocation};
 use crate::beams::{BodyPoint, Movement, RotationIncrement};
 use crate::geometry::{Vec2, larger};
+use crate::loads::LoadError;
 use crate::system::bodies::Body;
 
 /// End of an elongation: a point of a body, or the ground.
@@ -63,7 +65,10 @@ pub struct Elongation {
     growth: Coordinate,
     movements: Vec<f64>,
     corrected: Vec<f64>,
+    /// Change of the elongation in the step, minus the change of a prescribed rest length [length, rad].
     pub change: f64,
+    /// Prescribed rest length or rest angle; `None` if it is constant.
+    pub rest: Option<Box<RestMotion>>,
     settled: (f64, f64),
     /// Secant [-]: vector whose scalar product with the increments of the ends in the step equals the elongation change.
     /// For methods with forces at the end of a step, `secant` is instead the derivative of the elongation at the end of the step.
@@ -113,6 +118,7 @@ impl Elongation {
             movements: vec![0.0; coordinates],
             corrected: vec![0.0; coordinates],
             change: 0.0,
+            rest: None,
             settled: (0.0, 0.0),
             secant: vec![0.0; coordinates],
             slope: vec![0.0; coordinates],
@@ -128,7 +134,8 @@ impl Elongation {
 
     /// Elongation at the start of the step [length, rad].
     pub fn value(&self) -> f64 {
-        self.initial + self.growth.value
+        let rest = self.rest.as_ref().map_or(0.0, |rest| rest.growth().value);
+        self.initial + self.growth.value + rest
     }
 
     /// Elongation in the initial configuration of the meshed bodies [length, rad].
@@ -136,6 +143,7 @@ impl Elongation {
         self.initial
     }
 
+    /// Change of the elongation since the start, minus the change of a prescribed rest length [length, rad].
     pub fn grown(&self) -> Coordinate {
         self.growth
     }
@@ -153,7 +161,8 @@ impl Elongation {
 
     /// Largest magnitude of the increments from which the elongation change is computed [length, rad].
     pub fn moved(&self) -> f64 {
-        self.movements.iter().fold(0.0, |most, by| larger(most, by.abs()))
+        let rest = self.rest.as_ref().map_or(0.0, |rest| rest.increment().abs());
+        self.movements.iter().fold(rest, |most, by| larger(most, by.abs()))
     }
 
     /// Largest rounding error of the elongation change [length, rad].
@@ -220,8 +229,25 @@ impl Elongation {
         }
     }
 
+    /// Rate of the prescribed rest length or rest angle at the start of the step; zero without one [length/time, rad/time].
+    fn rest_rate(&self) -> f64 {
+        self.rest.as_ref().map_or(0.0, |rest| rest.rate())
+    }
+
+    /// Sets a prescribed rest length or rest angle to its value at a time, without work.
+    ///
+    /// # Errors
+    /// Fails if the function of time has no finite value.
+    pub fn set_rest_at(&mut self, time: f64) -> Result<(), LoadError> {
+        let Some(rest) = &mut self.rest else { return Ok(()) };
+        let before = rest.growth().value;
+        rest.set_at(time)?;
+        self.growth = self.growth.after(before - rest.growth().value);
+        Ok(())
+    }
+
     pub fn rate(&self, rates: &[Vec<Movement>]) -> f64 {
-        let mut sum = 0.0;
+        let mut sum = -self.rest_rate();
         for (place, coordinates) in self.moving() {
             let rates = &rates[place.body];
             for (component, slope) in self.components().zip(&self.slope[coordinates]) {
@@ -233,7 +259,7 @@ impl Elongation {
     }
 
     pub fn rate_at_last_end(&self, bodies: &[Body], rates: &[f64]) -> f64 {
-        self.moving().fold(0.0, |sum, (place, coordinates)| {
+        self.moving().fold(-self.rest_rate(), |sum, (place, coordinates)| {
             let [x, y, spin] = bodies[place.body].at(place, rates);
             match (self.is_angle(), &self.slope[coordinates]) {
                 (true, slope) => sum + slope[0].signum() * spin,
@@ -280,6 +306,9 @@ impl Elongation {
                 let [by_a, by_b] = turn.derivatives;
                 bend.copy_from_slice(&[-by_a, -by_b, by_a, by_b]);
             }
+        }
+        if let Some(rest) = &self.rest {
+            self.change -= rest.increment();
         }
     }
 
@@ -362,6 +391,7 @@ impl Elongation {
 
     pub fn save(&self, state: &mut Vec<f64>) {
         state.extend([self.growth.value, self.growth.rest]);
+        self.rest.iter().for_each(|rest| rest.save(state));
         if let Measure::Length(parts) = &self.measure {
             state.extend(parts.iter().flat_map(|part| [part.x, part.y]));
         }
@@ -369,6 +399,7 @@ impl Elongation {
 
     pub fn restore(&mut self, next: &mut dyn FnMut() -> f64) {
         self.growth = Coordinate { value: next(), rest: next() };
+        self.rest.iter_mut().for_each(|rest| rest.restore(next));
         if let Measure::Length(parts) = &mut self.measure {
             parts.iter_mut().for_each(|part| *part = Vec2::new(next(), next()));
         }

@@ -1,7 +1,8 @@
 //! Interface of elements that resist motion: springs, dampers, brakes, material damping, drag, obstacles and contacts between bodies.
 
 use super::{
-    Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, WorkAndImpulse,
+    Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, UnsampledChange,
+    WorkAndImpulse,
 };
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
 use crate::geometry::Vec2;
@@ -32,6 +33,24 @@ pub trait InternalForce {
     /// Prepares the element for the start of a simulation.
     /// `inertia` is the diagonal of the inertia matrix, from which effective masses at points are computed.
     fn begin(&mut self, _bodies: &[Body], _inertia: &[f64]) {}
+
+    /// Sets a prescribed rest length or rest angle to its value at a time, without work. Static solutions use this value for all load factors.
+    ///
+    /// # Errors
+    /// Fails if the function of time has no finite value.
+    fn set_rest_at(&mut self, _time: f64) -> Result<(), LoadError> {
+        Ok(())
+    }
+
+    /// Returns true if the damping force may jump at a time.
+    fn may_jump_at(&self, _time: f64) -> bool {
+        false
+    }
+
+    /// Largest change of a schedule of the element between the samples of a step; `None` if the steps resolve the schedule.
+    fn missed_change(&self) -> Option<UnsampledChange> {
+        None
+    }
 
     /// Appends the data of the existing contacts of the element. The number of contacts changes during a simulation.
     fn save_contacts(&self, _contacts: &mut Vec<f64>) {}
@@ -97,13 +116,23 @@ pub trait InternalForce {
     /// Dissipated energy since the start of the simulation [energy].
     fn dissipated(&self) -> f64;
 
-    /// Work of the wind since the start [energy]; `None` for elements without a wind.
-    fn wind_work(&self) -> Option<f64> {
+    /// Work of the wind or of an actuator since the start [energy]; `None` for elements without external work.
+    fn external_work(&self) -> Option<f64> {
         None
     }
 
     /// Elongation and force of a spring, damper or brake; `None` for other elements.
     fn stretched(&self) -> Option<SpringTrialState> {
+        None
+    }
+
+    /// Prescribed rest length [length] or rest angle [rad] of a spring at present; `None` for other elements.
+    fn rest_value(&self) -> Option<f64> {
+        None
+    }
+
+    /// Present and prescribed rest length [length] or rest angle [rad] just after a time, if they differ; `None` for other elements.
+    fn rest_mismatch_at(&self, _time: f64) -> Option<[f64; 2]> {
         None
     }
 

@@ -7,12 +7,13 @@ use super::damping_law::DampingLaw;
 use super::element::{AssemblyContext, BuiltElement, ElementDef, SceneChecks};
 use super::elongation::{Elongation, ElongationEnd};
 use super::point_damper::PointDamper;
+use super::rest_motion::{PrescribedRest, RestMotion};
 use super::spring_damper::SpringDamper;
 use super::spring_law::SpringLaw;
 use super::zero_length_spring::ZeroLengthSpring;
 use crate::beams::{BodyIndex, Station};
 use crate::geometry::Vec2;
-use crate::loads::Schedule;
+use crate::loads::{DeclaredJump, LimitSide, LoadError, PrescribedMotion, Schedule};
 use crate::system::{SystemError, Turning};
 
 /// Attachment of a spring.
@@ -73,8 +74,10 @@ pub struct Spring {
     pub law: Option<SpringLaw>,
     /// Configuration of zero elongation in the law.
     pub origin: Origin,
-    /// Damping force as a function of the rate of the length or angle.
+    /// Damping force as a function of the rate of the length or angle, minus the rate of a prescribed rest length or angle.
     pub damping: DampingLaw,
+    /// Rest length or rest angle as a function of time, which is subtracted from the argument of the law; `None` if the law alone determines it.
+    pub rest: Option<PrescribedRest>,
 }
 
 impl Spring {
@@ -152,7 +155,7 @@ impl ElementDef for Spring {
             }
             None => (),
         }
-        Ok(())
+        self.check_rest()
     }
 
     fn coupled(&self, _scene: &dyn SceneChecks) -> Vec<Vec<Station>> {
@@ -160,8 +163,12 @@ impl ElementDef for Spring {
     }
 
     fn schedule(&self) -> Option<(&str, &Schedule)> {
-        let SpringKind::Brake { law, .. } = &self.kind else { return None };
-        Some((&self.name, &law.limit))
+        let of_brake = match &self.kind {
+            SpringKind::Brake { law, .. } => Some(&law.limit),
+            SpringKind::Length(_) | SpringKind::Torsion(_) => None,
+        };
+        let of_rest = self.rest.as_ref().map(|rest| rest.motion.schedule());
+        Some((&self.name, of_brake.or(of_rest)?))
     }
 
     fn build(&self, site: &dyn AssemblyContext) -> Result<BuiltElement, SystemError> {
@@ -187,6 +194,7 @@ impl ElementDef for Spring {
         if let (Some(SpringLaw::Linear { stiffness, natural: 0.0 }), Origin::Zero, [from, to]) =
             (&self.law, self.origin, terminals.as_slice())
             && matches!(self.kind, SpringKind::Length(_))
+            && self.rest.is_none()
         {
             return Ok(BuiltElement::Resistance(Box::new(ZeroLengthSpring::new(
                 &self.name,
@@ -209,6 +217,7 @@ impl ElementDef for Spring {
         if let (Some(law), SpringKind::Length(_), [from, to]) =
             (&self.law, &self.kind, &terminals[..])
             && self.damping.is_active()
+            && self.rest.is_none()
         {
             let (from_to, places) = ([from.clone(), to.clone()], [at[0], at[1]]);
             let origin = match self.origin {
@@ -226,7 +235,7 @@ impl ElementDef for Spring {
                 ))));
             }
         }
-        let elongation = match (&self.kind, terminals.as_slice()) {
+        let mut elongation = match (&self.kind, terminals.as_slice()) {
             (SpringKind::Torsion(_) | SpringKind::Brake { .. }, [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
             }
@@ -236,10 +245,15 @@ impl ElementDef for Spring {
             let brake = Brake::new(self.name.clone(), elongation, law.clone());
             return Ok(BuiltElement::Resistance(Box::new(brake)));
         }
-        let origin = match self.origin {
-            Origin::Zero => 0.0,
-            Origin::AsBuilt => elongation.drawn(),
+        let origin = match (&self.rest, self.origin) {
+            (Some(rest), _) => rest.start.unwrap_or(elongation.drawn()),
+            (None, Origin::Zero) => 0.0,
+            (None, Origin::AsBuilt) => elongation.drawn(),
         };
+        elongation.rest = self.rest.as_ref().map(|rest| {
+            let lowest = if self.kind.is_angle() { f64::NEG_INFINITY } else { 0.0 };
+            Box::new(RestMotion::new(rest.motion.clone(), origin, lowest))
+        });
         Ok(BuiltElement::Resistance(Box::new(SpringDamper::new(
             self.name.clone(),
             elongation,
@@ -278,6 +292,31 @@ impl Spring {
             let (object, allowed) = (self.object(), "finite numbers");
             Err(SystemError::Value { object, name, value: *wrong, allowed })
         })
+    }
+
+    fn check_rest(&self) -> Result<(), SystemError> {
+        let Some(PrescribedRest { start, motion }) = &self.rest else { return Ok(()) };
+        let name = match (self.kind.is_angle(), motion) {
+            (false, PrescribedMotion::Position(_)) => "length",
+            (false, PrescribedMotion::Rate(_)) => "length_rate",
+            (true, PrescribedMotion::Position(_)) => "angle",
+            (true, PrescribedMotion::Rate(_)) => "angle_rate",
+        };
+        let refused = |source| SystemError::RestValue { spring: self.object(), name, source };
+        let first = motion.schedule().value(0.0, LimitSide::After).map_err(refused)?;
+        motion.check_start().map_err(refused)?;
+        if let Some(start) = start
+            && *start < 0.0
+            && !self.kind.is_angle()
+        {
+            return Err(refused(LoadError::NegativeLength { length: *start }));
+        }
+        match motion.declared_jump(first.abs()).map_err(refused)? {
+            Some(DeclaredJump { time, before, after }) => {
+                Err(refused(LoadError::Jump { time, before, after }))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Rejects springs with two consecutive points at the same station, and springs with all points on the ground or on one rigid body.

@@ -10,7 +10,7 @@ use super::law_range::LawRange;
 use super::mixed_force::{CORNER_TOLERANCE, MixedForce};
 use super::spring_at_rest::static_law;
 use super::spring_law::SpringLaw;
-use super::{Along, Branch, OutsideLaw, TrialState, WorkAndImpulse, collocation};
+use super::{Along, Branch, OutsideLaw, TrialState, UnsampledChange, WorkAndImpulse, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
@@ -45,6 +45,8 @@ pub struct SpringDamper {
     rotations: RotationIncrement,
     force_coordinates: Vec<f64>,
     current: Vec<f64>,
+    /// Shares of the start and of the present iterate in the mean force of the step [force, force·length].
+    step_force: [f64; 2],
     dissipated: f64,
     contact: ContactWatch,
 }
@@ -89,6 +91,7 @@ impl SpringDamper {
             rotations: RotationIncrement::TangentScaled,
             force_coordinates: vec![0.0; coordinates],
             current: vec![0.0; coordinates],
+            step_force: [0.0; 2],
             dissipated: 0.0,
             contact: ContactWatch::new(stiffness, extent),
         };
@@ -118,12 +121,17 @@ impl SpringDamper {
             current,
             ..
         } = self;
-        let noted = if stage == Stage::Start { carried } else { current };
+        let (noted, share) = if stage == Stage::Start { (carried, 0) } else { (current, 1) };
+        self.step_force[share] = force;
         let directions = secant.iter().zip(lag);
         noted
             .iter_mut()
             .zip(directions)
             .for_each(|(noted, (g, l))| *noted = g * force + *l * damper);
+    }
+
+    fn mean_force(&self) -> f64 {
+        self.step_force[0] + self.step_force[1]
     }
 
     fn summary(&self, mismatch: f64) -> ForceSummary {
@@ -138,12 +146,22 @@ impl InternalForce for SpringDamper {
         &self.name
     }
 
+    fn set_rest_at(&mut self, time: f64) -> Result<(), LoadError> {
+        if self.elongation.rest.is_some() {
+            self.elongation.set_rest_at(time)?;
+            self.spring.last = self.restoring_at_start();
+        }
+        Ok(())
+    }
+
     fn begin_step(
         &mut self,
         interval: Interval,
         _bodies: &[Body],
         _rates: &[f64],
     ) -> Result<(), LoadError> {
+        self.elongation.rest.iter_mut().try_for_each(|rest| rest.begin_step(interval))?;
+        self.step_force = [0.0; 2];
         self.duration = interval.duration();
         self.spring.begin_step();
         self.damper.begin_step();
@@ -153,6 +171,7 @@ impl InternalForce for SpringDamper {
 
     fn begin_movement(&mut self, _bodies: &[Body]) {
         self.duration = f64::INFINITY;
+        self.elongation.rest.iter_mut().for_each(|rest| rest.begin_movement());
         self.spring.force = self.spring.last;
         self.damper.force = 0.0;
     }
@@ -240,6 +259,9 @@ impl InternalForce for SpringDamper {
     fn exchange(&self, _bodies: &[Body], duration: f64) -> WorkAndImpulse {
         let given = |at: usize| (self.force_coordinates[at] + self.current[at]) * duration;
         let mut sum = WorkAndImpulse::default();
+        if let Some(rest) = &self.elongation.rest {
+            sum += WorkAndImpulse::of(rest.work_in_step(self.mean_force()), Vec2::zeros(), 0.0);
+        }
         for (terminal, ground) in self.grounds.iter().enumerate() {
             let Some(ground) = ground else { continue };
             sum += match self.elongation.is_angle() {
@@ -261,6 +283,8 @@ impl InternalForce for SpringDamper {
             false => (0.0, 0.0),
         };
         self.elongation.advance(bodies, self.rotations);
+        let force = self.mean_force();
+        self.elongation.rest.iter_mut().for_each(|rest| rest.advance(force));
         if self.released.is_none() {
             let [of_law, of_damping] = &mut self.ranges;
             let elongation = self.offset + self.elongation.grown().value;
@@ -289,6 +313,27 @@ impl InternalForce for SpringDamper {
 
     fn dissipated(&self) -> f64 {
         self.dissipated
+    }
+
+    fn external_work(&self) -> Option<f64> {
+        Some(self.elongation.rest.as_ref()?.work())
+    }
+
+    fn rest_value(&self) -> Option<f64> {
+        Some(self.elongation.rest.as_ref()?.value())
+    }
+
+    fn rest_mismatch_at(&self, time: f64) -> Option<[f64; 2]> {
+        self.elongation.rest.as_ref()?.mismatch_at(time)
+    }
+
+    fn missed_change(&self) -> Option<UnsampledChange> {
+        self.elongation.rest.as_ref()?.missed_change()
+    }
+
+    fn may_jump_at(&self, time: f64) -> bool {
+        let rest = self.elongation.rest.as_ref().filter(|_| self.damping.is_active());
+        rest.is_some_and(|rest| rest.may_jump_at(time))
     }
 
     fn stretched(&self) -> Option<SpringTrialState> {
@@ -378,7 +423,11 @@ impl InternalForce for SpringDamper {
             return "released: no force".to_owned();
         }
         let law = self.law_text.clone();
-        let parts: Vec<String> = law.into_iter().chain(self.damping.describe()).collect();
+        let rest = self.elongation.rest.as_ref();
+        let name = if self.elongation.is_angle() { "rest angle" } else { "rest length" };
+        let rest = rest.map(|rest| format!("{name} {}", rest.describe()));
+        let parts: Vec<String> =
+            law.into_iter().chain(rest).chain(self.damping.describe()).collect();
         format!("{}; its force is eliminated from the matrix", parts.join(", "))
     }
 }

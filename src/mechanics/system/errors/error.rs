@@ -94,6 +94,8 @@ pub enum SystemError {
     DriveJump { drive: String, component: &'static str, time: f64, jump: f64 },
     #[error("{drive}: {source}")]
     DriveValue { drive: String, source: LoadError },
+    #[error("{spring}: {name}: {source}")]
+    RestValue { spring: String, name: &'static str, source: LoadError },
     #[error("'{name}' already has a release; remove one of the two releases")]
     ReleasedTwice { name: String },
     #[error(

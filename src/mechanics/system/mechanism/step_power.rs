@@ -1,11 +1,11 @@
-//! Powers of drives and loads over a step, computed if a sensor requests them.
+//! Powers of drives, loads and springs over a step, computed if a sensor requests them.
 
 use super::System;
-use crate::system::elements::ExternalForce;
+use crate::system::elements::{ExternalForce, InternalForce};
 
 pub struct StepPower {
     /// Work in the last step divided by its duration [energy/time].
-    /// Before the first step, the value is the instantaneous power for a drive, and zero for a load.
+    /// Before the first step, the value is the instantaneous power for a drive, and zero for a load or a spring.
     pub power: f64,
     /// Work since the start of the run, at the end of the step [energy].
     pub work: f64,
@@ -26,6 +26,10 @@ impl System {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
 
+    pub(in crate::system) fn power_of_spring(&self, spring: usize) -> Option<f64> {
+        self.power_of_load(self.elements.forces().count() + spring)
+    }
+
     pub(super) fn initialise_powers(&mut self) {
         let Some(powers) = &mut self.exchanged.powers else { return };
         for (drive, power) in self.supports.prescribed().powers(&self.motion.rates) {
@@ -43,6 +47,9 @@ impl System {
 
     fn works(&self) -> impl Iterator<Item = f64> {
         let of_load = |load: &dyn ExternalForce| load.account().map_or(0.0, |account| account.work);
-        self.supports.prescribed().works().chain(self.elements.forces().map(of_load))
+        let of_spring = |spring: &dyn InternalForce| spring.external_work().unwrap_or(0.0);
+        let of_elements = self.elements.forces().map(of_load);
+        let of_springs = self.elements.resistances().map(of_spring);
+        self.supports.prescribed().works().chain(of_elements).chain(of_springs)
     }
 }

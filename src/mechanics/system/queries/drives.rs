@@ -9,8 +9,12 @@ impl System {
         self.supports().prescribed().state(drive)
     }
 
+    /// First drive or spring whose position or rest length in a static solution differs from its function of time just after `time`:
+    /// its name, its value in the static solution, and the value of its function.
     pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
-        self.supports().prescribed().first_displaced_drive(load_factor, time)
+        let mut springs = self.elements().resistances();
+        let spring = || springs.find_map(|one| Some((one.name(), one.rest_mismatch_at(time)?)));
+        self.supports().prescribed().first_displaced_drive(load_factor, time).or_else(spring)
     }
 
     /// Names of the drives whose prescribed motion has a jump of its rate within a step, with the largest jump of each drive.
@@ -21,6 +25,8 @@ impl System {
     pub(crate) fn missed_changes(&self) -> impl Iterator<Item = (&str, UnsampledChange)> {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
-        loads.chain(self.supports().prescribed().missed_changes())
+        let springs = self.elements().resistances();
+        let springs = springs.filter_map(|spring| Some((spring.name(), spring.missed_change()?)));
+        loads.chain(springs).chain(self.supports().prescribed().missed_changes())
     }
 }

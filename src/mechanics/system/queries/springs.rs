@@ -67,7 +67,7 @@ impl System {
 
     pub(crate) fn most_damping(&self) -> Option<(&str, f64)> {
         let turned_over =
-            |one: &dyn InternalForce| one.dissipated() + one.wind_work().map_or(0.0, f64::abs);
+            |one: &dyn InternalForce| one.dissipated() + one.external_work().map_or(0.0, f64::abs);
         let all = self.elements().resistances().map(|one| (one.name(), turned_over(one)));
         all.filter(|(_, energy)| *energy > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }

@@ -7,7 +7,7 @@ use crate::system::elements::{DriveKind, Element, SpringKind};
 use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
     COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, OBSTACLE_FRICTION,
-    SLEEVE_COUPLE, SLIDER_FRICTION, STORED, TORQUE, WORK,
+    REST_ANGLE, REST_LENGTH, SLEEVE_COUPLE, SLIDER_FRICTION, STORED, TORQUE, WORK,
 };
 use crate::system::{Sensor, SensorSource};
 
@@ -30,9 +30,7 @@ impl Scene {
             let (name, source) = (quantity.name.to_owned(), SensorSource::Scene);
             Sensor { name, source, quantity }
         }));
-        let is_internal =
-            |element: &&Element| !matches!(element, Element::PointMass(_) | Element::Load(_));
-        for (at, element) in self.elements.iter().filter(is_internal).enumerate() {
+        for (at, element) in self.internal_forces().enumerate() {
             let source = SensorSource::InternalForce(at);
             match element {
                 Element::Spring(spring) => {
@@ -42,8 +40,12 @@ impl Scene {
                             &COLUMNS_OF_TORSION_SPRINGS
                         }
                     };
-                    all.extend(own.iter().map(|own| Sensor::of(&spring.name, own, source)));
-                    let sums = [&STORED, &DISSIPATED];
+                    let rest = if spring.kind.is_angle() { &REST_ANGLE } else { &REST_LENGTH };
+                    let rest = spring.rest.as_ref().map(|_| rest);
+                    let own = own.iter().chain(rest);
+                    all.extend(own.map(|own| Sensor::of(&spring.name, own, source)));
+                    let work = spring.rest.as_ref().map(|_| &WORK);
+                    let sums = [&STORED, &DISSIPATED].into_iter().chain(work);
                     all.extend(sums.map(|sum| Sensor::in_sum(sum, &spring.name, source)));
                 }
                 Element::Damping(damping) => {

@@ -118,6 +118,13 @@ impl Scene {
         })
     }
 
+    /// Elements that resist motion, in the order of addition.
+    pub(in crate::system) fn internal_forces(&self) -> impl Iterator<Item = &Element> {
+        let is_other =
+            |element: &&Element| matches!(element, Element::PointMass(_) | Element::Load(_));
+        self.elements.iter().filter(move |element| !is_other(element))
+    }
+
     /// Brakes and clutches, in the order of addition.
     pub fn brakes(&self) -> impl Iterator<Item = &Spring> {
         self.springs().filter(|spring| spring.kind.is_brake())

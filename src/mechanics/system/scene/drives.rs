@@ -3,16 +3,12 @@
 use super::Scene;
 use super::ties::check_ties;
 use crate::joints::Component;
-use crate::loads::{LimitSide, PrescribedMotion};
+use crate::loads::{DeclaredJump, LimitSide, PrescribedMotion};
 use crate::system::SystemError;
 use crate::system::elements::{Drive, SceneChecks};
 
 /// Largest initial value of a prescribed displacement that counts as zero [rad], or as a fraction of the length of the body.
 const CLOSED_AT_START: f64 = 1e-12;
-
-/// Largest jump of a prescribed displacement that counts as zero. Jumps are checked at the breaks that the schedule declares.
-/// The value is a fraction of the displacement plus the length of the body (plus 1 rad for rotations).
-const LARGEST_JUMP: f64 = 1e-9;
 
 impl Scene {
     /// Prescribes the motion of a station.
@@ -55,15 +51,12 @@ impl Scene {
         if value.abs() > CLOSED_AT_START * size {
             return Err(SystemError::DriveStart { drive: drive(), component, value });
         }
-        for time in schedule.breaks() {
-            let [before, after] =
-                [LimitSide::Before, LimitSide::After].map(|side| schedule.value(time, side));
-            let (before, after) = (before.map_err(refused)?, after.map_err(refused)?);
-            let jump = after - before;
-            if time >= 0.0 && jump.abs() > LARGEST_JUMP * (size + before.abs()) {
-                return Err(SystemError::DriveJump { drive: drive(), component, time, jump });
+        match motion.declared_jump(size).map_err(refused)? {
+            Some(DeclaredJump { time, before, after }) => {
+                let jump = after - before;
+                Err(SystemError::DriveJump { drive: drive(), component, time, jump })
             }
+            None => Ok(()),
         }
-        Ok(())
     }
 }

@@ -10,7 +10,7 @@ use crate::system::sensors::quantities::{
     OF_BODIES, OF_CALLER, OF_JOINTS, OF_PARTICLES, OF_POINTS, OF_SLIDERS, OF_STATIONS, POWER,
     QuantityReader,
 };
-use crate::system::{Quantity, RigidBodyDefinition, Sensor, SensorSource, SystemError};
+use crate::system::{Element, Quantity, RigidBodyDefinition, Sensor, SensorSource, SystemError};
 
 /// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
@@ -169,6 +169,14 @@ impl Scene {
         }
         for (at, drive) in self.drives.iter().enumerate() {
             add((&*drive.name).into(), "".into(), SensorSource::Drive(at), &POWER);
+        }
+        for (at, element) in self.internal_forces().enumerate() {
+            if let Element::Spring(spring) = element
+                && spring.rest.is_some()
+            {
+                let source = SensorSource::InternalForce(at);
+                add((&*spring.name).into(), "".into(), source, &POWER);
+            }
         }
         for (at, load) in self.loads().enumerate() {
             if let Some(name) = load.title.as_deref() {

@@ -149,6 +149,12 @@ pub(in crate::system) static COLUMNS_OF_TORSION_SPRINGS: [Quantity; 2] = [
     Quantity { dimension: "force·length", ..COLUMNS_OF_SPRINGS[1] },
 ];
 
+pub(in crate::system) static REST_LENGTH: Quantity =
+    quantity("rest_length", "length", Present, Index(rest_value));
+
+pub(in crate::system) static REST_ANGLE: Quantity =
+    Quantity { name: "rest_angle", dimension: "rad", ..REST_LENGTH };
+
 pub(in crate::system) static COLUMNS_OF_OBSTACLES: [Quantity; 4] = [
     quantity("force", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.norm())),
     quantity("force_x", "force", MeanOfMethod, Index(|model, at| contact(model, at).force.x)),
@@ -173,7 +179,7 @@ pub(in crate::system) static DISSIPATED: Quantity =
 
 pub(in crate::system) static WORK: Quantity = quantity("work", "energy", Present, Sum(work));
 
-/// Power of a drive or a named load: its work in the last step, divided by the duration of the step.
+/// Power of a drive, a named load or a spring with a prescribed rest length: its work in the last step, divided by the duration of the step.
 pub(in crate::system) static POWER: [Quantity; 1] =
     [quantity("power", "energy/time", SummedMean, Sum(power))];
 
@@ -183,7 +189,7 @@ pub static RECORDABLE: [(&str, &[Quantity]); 5] = [
     ("bodies", &OF_BODIES),
     ("joints", &OF_JOINTS),
     ("sliders", &OF_SLIDERS),
-    ("drives and named loads", &POWER),
+    ("drives, named loads and springs with a prescribed length", &POWER),
 ];
 
 pub(in crate::system) static OF_CALLER: Quantity = quantity("", "-", Present, External);
@@ -203,6 +209,10 @@ fn internal_force(model: &System, at: usize) -> &dyn InternalForce {
 fn spring(model: &System, at: usize) -> [f64; 2] {
     let state = internal_force(model, at).stretched();
     state.map_or([f64::NAN; 2], |state| [state.elongation, state.force])
+}
+
+fn rest_value(model: &System, at: usize) -> f64 {
+    internal_force(model, at).rest_value().unwrap_or(f64::NAN)
 }
 
 fn contact(model: &System, at: usize) -> ContactState {
@@ -241,7 +251,7 @@ fn work(model: &System, source: SensorSource) -> Option<f64> {
     match source {
         SensorSource::Drive(at) => Some(model.drive(at).work),
         SensorSource::Load(at) => Some(load(model, at).work),
-        SensorSource::InternalForce(at) => internal_force(model, at).wind_work(),
+        SensorSource::InternalForce(at) => internal_force(model, at).external_work(),
         _ => None,
     }
 }
@@ -250,6 +260,7 @@ fn power(model: &System, source: SensorSource) -> Option<f64> {
     match source {
         SensorSource::Drive(at) => model.power_of_drive(at),
         SensorSource::Load(at) => model.power_of_load(at),
+        SensorSource::InternalForce(at) => model.power_of_spring(at),
         _ => None,
     }
 }

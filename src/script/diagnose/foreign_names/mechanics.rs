@@ -260,10 +260,13 @@ pub const WORDS: &[ForeignName] = &[
             "piston",
             "muscle",
             "linear actuator",
+            "actuator",
+            "servo",
         ],
-        "the option length of a spring or tendon is its constant length without force; a length \
-        that changes over time is not available: prescribe the motion of an end with scene.move",
-        &["spring", "tendon", "move", "motor"],
+        "the option length of a spring or tendon is its length without force: a number, or a \
+        function of time |t| …; length_rate is its rate, also a controller |t, q| …, as of a \
+        winch or cylinder; angle and angle_rate of scene.torsion_spring are those of a servo",
+        &["spring", "tendon", "torsion_spring", "motor"],
     ),
     entry(
         &["initial velocity", "initial velocities", "initial condition", "initial conditions"],
@@ -322,17 +325,7 @@ pub const WORDS: &[ForeignName] = &[
         &["beam", "line"],
     ),
     entry(
-        &[
-            "feedback",
-            "control",
-            "controller",
-            "pid",
-            "actuator",
-            "drive",
-            "sampling",
-            "latency",
-            "dead_time",
-        ],
+        &["feedback", "control", "controller", "pid", "drive", "sampling", "latency", "dead_time"],
         "a load or a motor takes a function of time and simulation, called at the start of \
         every step: scene.force(rod.end, [0, 1], |t, q| -2 * q.velocity(rod.end).y), or with \
         sampling period and delay: #{ sample: 0.01, delay: 0.003 }",

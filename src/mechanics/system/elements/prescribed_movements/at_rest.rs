@@ -9,6 +9,11 @@ use crate::loads::{LimitSide, LoadError, PrescribedMotion};
 /// Largest difference of two positions that count as equal [length, rad]. For positions above 1, it is a fraction of the positions [-].
 const SAME_PLACE: f64 = 1e-12;
 
+/// Returns true if two positions are equal up to rounding [length, rad].
+pub fn same_position([one, other]: [f64; 2]) -> bool {
+    (one - other).abs() <= SAME_PLACE * larger(1.0, larger(one.abs(), other.abs()))
+}
+
 impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
     ///
@@ -34,10 +39,8 @@ impl PrescribedMovements {
             // A function without a value has been rejected earlier: when the scene was built or when the position was applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
-            let size = larger(wanted.abs(), rests.abs());
-            let is_there = (rests - wanted).abs() <= SAME_PLACE * larger(1.0, size);
             let name = self.drives[movement.drive].name.as_str();
-            (!is_there).then_some((name, [rests, wanted]))
+            (!same_position([rests, wanted])).then_some((name, [rests, wanted]))
         })
     }
 
