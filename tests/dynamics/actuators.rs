@@ -121,7 +121,7 @@ fn work_of_the_actuator_is_the_integral_of_force_times_speed() {
             (STIFFNESS * stretch + DAMPING * rate) * SPEED
         };
         let points = 2000;
-        let simpson = |at: usize| if at % 2 == 0 { 2.0 } else { 4.0 };
+        let simpson = |at: usize| if at.is_multiple_of(2) { 2.0 } else { 4.0 };
         let step = 2.0 / f64::from(points);
         let inner: f64 = (1..points as usize).map(|at| simpson(at) * power(step * at as f64)).sum();
         let work = (power(0.0) + inner + power(2.0)) * step / 3.0;

@@ -120,7 +120,7 @@ fn deep_arch() -> u64 {
 fn modes(scene: &Scene, count: usize) -> u64 {
     let model = System::assemble(scene).unwrap();
     let modes = Modes::of(&model, count, &mut || true).unwrap();
-    let shapes: Vec<_> = (0..count).map(|mode| modes.displaced(mode, 0.1)).collect();
+    let shapes: Vec<_> = (0..count).map(|mode| modes.shapes().displaced(mode, 0.1)).collect();
     hash(&(modes.all(), shapes))
 }
 

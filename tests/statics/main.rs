@@ -4,6 +4,7 @@
 mod common;
 
 mod bodies;
+mod buckling;
 mod damped_modes;
 mod elastica;
 mod equilibria;

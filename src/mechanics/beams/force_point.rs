@@ -49,13 +49,18 @@ impl<const N: usize> ForcePoint<N> {
         let shear = row(self.rotation.to_space(Vec2::y()), -turned.y);
         span.add_strain(StrainKind::Axial, w * section.axial_stiffness, stretch);
         span.add_strain(StrainKind::Shear, w * section.shear_stiffness, shear);
+        let turn = row(Vec2::zeros(), 1.0);
+        let by_turn = |force: Vec2| row(perpendicular(force), -0.5 * self.gradient.dot(&force));
+        let first = span.stiffness.len() - 2;
+        for (strain, axis) in [Vec2::x(), Vec2::y()].into_iter().enumerate() {
+            let p = by_turn(self.rotation.to_space(axis));
+            span.add_second_derivative(first + strain, p.as_flattened(), turn.as_flattened());
+        }
         let (force, is_known) = self.present_force(section);
         if force != Vec2::zeros() {
             let rounding = force_of(section, Vec2::new(SAME_STRAIN, SAME_STRAIN)).norm();
             let doubt = if is_known { 0.0 } else { (rounding / force.norm()).min(1.0) };
-            let force = self.rotation.to_space(force) * w;
-            let p = row(perpendicular(force), -0.5 * self.gradient.dot(&force));
-            span.add_twist(doubt, p, row(Vec2::zeros(), 1.0));
+            span.add_twist(doubt, by_turn(self.rotation.to_space(force) * w), turn);
         }
     }
 

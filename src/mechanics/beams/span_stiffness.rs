@@ -32,6 +32,11 @@ pub struct SpanStiffness {
     pub twists: Vec<f64>,
     /// Bound of the relative rounding error of the section force that multiplies each pair of rows in `twists` [-].
     pub rounding_fractions: Vec<f64>,
+    /// Pairs of rows `p` and `q` of second derivatives of strains. Each pair adds `p qᵀ + q pᵀ` to the second derivatives of one strain.
+    /// The pairs are complete for strains of beams, springs, rigid links and sliders.
+    pub second_derivatives: Vec<f64>,
+    /// Index of the strain to which each pair of rows in `second_derivatives` belongs.
+    pub bent_strains: Vec<usize>,
 }
 
 impl SpanStiffness {
@@ -43,6 +48,15 @@ impl SpanStiffness {
         self.kinds.clear();
         self.twists.clear();
         self.rounding_fractions.clear();
+        self.second_derivatives.clear();
+        self.bent_strains.clear();
+    }
+
+    /// Adds a pair of rows to the second derivatives of a strain.
+    pub(crate) fn add_second_derivative(&mut self, strain: usize, p: &[f64], q: &[f64]) {
+        self.bent_strains.push(strain);
+        self.second_derivatives.extend(p);
+        self.second_derivatives.extend(q);
     }
 
     pub(super) fn add_strain<const N: usize>(

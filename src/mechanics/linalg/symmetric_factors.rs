@@ -53,6 +53,19 @@ impl SymmetricFactors {
         assert!(x.len() >= self.size + self.reach, "a strip has a margin");
         Arch::new().dispatch(SymmetricSubstitution { factors: self, x });
     }
+
+    /// Replaces four vectors `x` by `R⁻ᵀ x`. The matrix is `Rᵀ R` with the upper triangular factor `R = D^½ Lᵀ`, and is positive definite.
+    pub(crate) fn solve_root_transposed(&self, x: &mut VectorStrip) {
+        substitute_forwards(self, self.reach, x);
+        for (row, inverse) in x.iter_mut().zip(&self.inverse_pivots) {
+            row.iter_mut().for_each(|entry| *entry *= inverse.sqrt());
+        }
+    }
+
+    /// Replaces four vectors `x` by `R⁻¹ x`, with the factor of [`solve_root_transposed`](Self::solve_root_transposed).
+    pub(crate) fn solve_root(&self, x: &mut VectorStrip) {
+        substitute_backwards(self, self.reach, x, f64::sqrt);
+    }
 }
 
 type Kept<'a> = (&'a mut [f64], &'a mut [f64]);
@@ -189,6 +202,12 @@ impl WithSimd for SymmetricSubstitution<'_> {
 
 #[inline(always)]
 fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
+    substitute_forwards(factors, reach, x);
+    substitute_backwards(factors, reach, x, |inverse_pivot| inverse_pivot);
+}
+
+#[inline(always)]
+fn substitute_forwards(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
     for column in 0..factors.size {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (known, below) = x[column..].split_at_mut(1);
@@ -199,6 +218,17 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
             }
         }
     }
+    // The forward elimination has written entries after the last row, which are reset to zero.
+    x[factors.size..].fill([0.0; 4]);
+}
+
+#[inline(always)]
+fn substitute_backwards(
+    factors: &SymmetricFactors,
+    reach: usize,
+    x: &mut VectorStrip,
+    scale: impl Fn(f64) -> f64,
+) {
     for column in (0..factors.size).rev() {
         let multipliers = &factors.multipliers[column * reach..][..reach];
         let (value, known) = x[column..].split_at_mut(1);
@@ -209,13 +239,11 @@ fn substitute(factors: &SymmetricFactors, reach: usize, x: &mut VectorStrip) {
                 *sum += multiplier * known;
             }
         }
-        let inverse = factors.inverse_pivots[column];
+        let factor = scale(factors.inverse_pivots[column]);
         for ((value, even), odd) in value[0].iter_mut().zip(sums[0]).zip(sums[1]) {
-            *value = *value * inverse - (even + odd);
+            *value = *value * factor - (even + odd);
         }
     }
-    // The forward elimination has written entries after the last row, which are reset to zero.
-    x[factors.size..].fill([0.0; 4]);
 }
 
 #[cfg(test)]
@@ -268,6 +296,16 @@ mod tests {
                 *x = std::array::from_fn(|k| ((i + 1) as f64 * (k + 1) as f64).sin());
             }
             let right = x.clone();
+            if factors.pivots().negative == 0 {
+                let mut in_two = x.clone();
+                factors.solve_root_transposed(&mut in_two);
+                factors.solve_root(&mut in_two);
+                factors.solve(&mut x);
+                for (a, b) in in_two.as_flattened().iter().zip(x.as_flattened()) {
+                    prop_assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} {b}");
+                }
+                x.clone_from(&right);
+            }
             factors.solve(&mut x);
             for k in 0..4 {
                 let solution = DVector::from_fn(size, |i, _| x[i][k]);

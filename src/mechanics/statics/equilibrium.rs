@@ -212,7 +212,10 @@ fn of_equal_stiffness(scene: &Scene) -> Scene {
     equal
 }
 
-fn at_rest(scene: &Scene, goes_on: &mut dyn FnMut(f64) -> bool) -> Result<System, StaticsError> {
+pub(super) fn at_rest(
+    scene: &Scene,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<System, StaticsError> {
     let mut still = scene.clone();
     still.sliders.iter_mut().for_each(|slider| slider.velocities = StartVelocities::Project);
     System::assemble_while(&still, &mut || goes_on(0.0)).map_err(|error| match error {
@@ -237,7 +240,7 @@ fn check_needs_no_time(scene: &Scene) -> Result<(), StaticsError> {
     }
 }
 
-fn prepare(
+pub(super) fn prepare(
     scene: &Scene,
     loading: &Loading,
     goes_on: &mut dyn FnMut(f64) -> bool,

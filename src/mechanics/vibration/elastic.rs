@@ -37,6 +37,11 @@ pub(super) struct Shapes {
 }
 
 impl Shapes {
+    /// Section forces of the first of the four shapes, times their integration lengths.
+    pub(super) fn first_forces(&self) -> Vec<f64> {
+        self.forces.iter().map(|row| row[0]).collect()
+    }
+
     pub(super) fn scale(&mut self, factors: &FourVectors) {
         let Self { movements, forces, mismatches: missing, internal_forces: resisting } = self;
         for row in movements.iter_mut().chain(forces).chain(missing).chain(resisting) {

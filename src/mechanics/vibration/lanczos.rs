@@ -1,4 +1,4 @@
-//! Computation of the lowest modes by the block Lanczos method with a shifted and inverted stiffness.
+//! Computation of the largest eigenvalues of a symmetric operator by the block Lanczos method.
 //!
 //! References: Ericsson & Ruhe 1980; Grimes, Lewis & Simon 1994; Wu & Simon, SIAM J. Matrix Anal. Appl. 22 (2000) 602–616 (thick restarts).
 
@@ -6,11 +6,8 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::VibrationError;
 use super::elastic::FourVectors;
-use super::pencil::Pencil;
 use crate::elementary::square;
-use crate::linalg::{
-    STRIP_WIDTH, Square4, SymmetricFactors, combine, products, subtract_combination,
-};
+use crate::linalg::{STRIP_WIDTH, Square4, VectorStrip, combine, products, subtract_combination};
 
 /// Largest residual of a converged pair, as a fraction of its eigenvalue.
 /// The error of the eigenvalue is of the order of the squared residual.
@@ -30,15 +27,34 @@ const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
 
-/// Pairs of an eigenvalue and a shape that is normalised with respect to the inertia, in decreasing order of the eigenvalues.
+/// Operator `A⁻¹ M` that is symmetric in the scalar product of the positive semidefinite matrix `M`, the metric.
+pub(super) trait SymmetricOperator {
+    /// Number of unknowns.
+    fn size(&self) -> usize;
+
+    /// Four zero vectors with the margin that the substitutions need.
+    fn zeros(&self) -> Vec<FourVectors>;
+
+    /// Multiplies four vectors by the metric `M`.
+    fn metric_times(&self, x: &VectorStrip, product: &mut VectorStrip);
+
+    /// Largest eigenvalue without meaning, for the largest absolute eigenvalue.
+    fn negligible(&self, _largest: f64) -> f64 {
+        0.0
+    }
+
+    /// Replaces the products of four vectors with the metric `M` by the images of the vectors.
+    fn images(&self, momenta: &mut VectorStrip);
+}
+
+/// Pairs of an eigenvalue and a shape that is normalised with respect to the metric, in decreasing order of the eigenvalues.
 pub(super) struct Pairs {
     pub(super) values: Vec<f64>,
     pub(super) strips: Vec<Vec<FourVectors>>,
 }
 
 pub(super) struct Lanczos<'a> {
-    pencil: &'a Pencil,
-    factors: &'a SymmetricFactors,
+    operator: &'a dyn SymmetricOperator,
     basis: Vec<Vec<FourVectors>>,
     projected: DMatrix<f64>,
     next: Vec<FourVectors>,
@@ -50,16 +66,15 @@ pub(super) struct Lanczos<'a> {
 
 impl<'a> Lanczos<'a> {
     /// Creates a search whose first block consists of random vectors, which are the same in every run.
-    pub(super) fn new(pencil: &'a Pencil, factors: &'a SymmetricFactors) -> Self {
+    pub(super) fn new(operator: &'a dyn SymmetricOperator) -> Self {
         let mut search = Self {
-            pencil,
-            factors,
+            operator,
             basis: Vec::new(),
             projected: DMatrix::zeros(0, 0),
             next: Vec::new(),
             next_momenta: Vec::new(),
             coupling: Square4::default(),
-            momenta: pencil.zeros(),
+            momenta: operator.zeros(),
             seed: 0,
         };
         search.restart_randomly();
@@ -96,6 +111,7 @@ impl<'a> Lanczos<'a> {
                         return Ok(self.pairs(&values, &vectors, settled));
                     }
                     if width >= most {
+                        self.expect_positive(&values, count)?;
                         self.restart(&values, &vectors, count + (most - count) / 2);
                         break;
                     }
@@ -104,6 +120,17 @@ impl<'a> Lanczos<'a> {
             }
         }
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
+    }
+
+    fn expect_positive(&self, values: &[f64], count: usize) -> Result<(), VibrationError> {
+        let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let least = self.operator.negligible(largest);
+        match values.iter().filter(|value| **value > least).count() {
+            available if available < count => {
+                Err(VibrationError::FewCriticalLoads { requested: count, available })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Continues the search with the pairs found so far and new random vectors.
@@ -116,25 +143,31 @@ impl<'a> Lanczos<'a> {
         self.restart_randomly();
     }
 
+    fn metric_times(&self, x: &VectorStrip) -> Vec<FourVectors> {
+        let mut product = self.operator.zeros();
+        self.operator.metric_times(x, &mut product);
+        product
+    }
+
     fn step(&mut self) {
         let old = self.projected.nrows();
         self.basis.push(std::mem::take(&mut self.next));
         let new = STRIP_WIDTH * self.basis.len();
         self.projected.resize_mut(new, new, 0.0);
         let mut image = std::mem::take(&mut self.next_momenta);
-        self.factors.solve(&mut image);
+        self.operator.images(&mut image);
         let size = self.project(&mut image, Some(old));
-        let mut momenta = self.pencil.inertia_times(&image);
+        let mut momenta = self.metric_times(&image);
         self.coupling = orthonormalise(&mut image, &mut momenta);
         let left = (0..STRIP_WIDTH).map(|at| self.coupling[at][at]).fold(f64::INFINITY, f64::min);
         if left < SHRUNK * size {
             // Rounding leaves a fraction of the removed components in the orthogonalised image.
             let again = self.project(&mut image, None);
-            self.pencil.inertia.times(&image, &mut momenta);
+            self.operator.metric_times(&image, &mut momenta);
             let turn = orthonormalise(&mut image, &mut momenta);
             if again > TRACE {
                 self.project(&mut image, None);
-                self.pencil.inertia.times(&image, &mut momenta);
+                self.operator.metric_times(&image, &mut momenta);
                 orthonormalise(&mut image, &mut momenta);
             }
             self.coupling = product(&turn, &self.coupling);
@@ -143,13 +176,13 @@ impl<'a> Lanczos<'a> {
             (0..STRIP_WIDTH).filter(|&lane| self.coupling[lane][lane] == 0.0).collect();
         if !lost.is_empty() {
             self.replace(&mut image, &lost);
-            self.pencil.inertia.times(&image, &mut momenta);
+            self.operator.metric_times(&image, &mut momenta);
         }
         (self.next, self.next_momenta) = (image, momenta);
     }
 
     fn project(&mut self, image: &mut [FourVectors], columns: Option<usize>) -> f64 {
-        self.pencil.inertia.times(image, &mut self.momenta);
+        self.operator.metric_times(image, &mut self.momenta);
         let mut largest = 0.0_f64;
         for (at, block) in self.basis.iter().enumerate() {
             let parts = products(block, &self.momenta);
@@ -179,11 +212,11 @@ impl<'a> Lanczos<'a> {
         };
         keep_lost(&mut fresh);
         for _ in 0..2 {
-            let mut momenta = self.pencil.inertia_times(&fresh);
+            let mut momenta = self.metric_times(&fresh);
             for other in self.basis.iter().map(Vec::as_slice).chain([&*block]) {
                 subtract_combination(other, &products(other, &momenta), &mut fresh);
             }
-            self.pencil.inertia.times(&fresh, &mut momenta);
+            self.operator.metric_times(&fresh, &mut momenta);
             orthonormalise(&mut fresh, &mut momenta);
         }
         for (row, fresh) in block.iter_mut().zip(&fresh) {
@@ -192,16 +225,16 @@ impl<'a> Lanczos<'a> {
     }
 
     fn restart_randomly(&mut self) {
-        let mut block = self.pencil.zeros();
+        let mut block = self.operator.zeros();
         self.replace(&mut block, &[0, 1, 2, 3]);
-        self.next_momenta = self.pencil.inertia_times(&block);
+        self.next_momenta = self.metric_times(&block);
         self.next = block;
         self.coupling = Square4::default();
     }
 
     fn scattered(&mut self) -> Vec<FourVectors> {
-        let size = self.pencil.size();
-        let mut block = self.pencil.zeros();
+        let size = self.operator.size();
+        let mut block = self.operator.zeros();
         for entry in block[..size].as_flattened_mut() {
             // Pseudorandom numbers: Weyl's sequence, scrambled (Steele, Lea & Flood, SplitMix64, OOPSLA 2014).
             self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -210,8 +243,8 @@ impl<'a> Lanczos<'a> {
             bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
             *entry = ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;
         }
-        let mut block = self.pencil.inertia_times(&block);
-        self.factors.solve(&mut block);
+        let mut block = self.metric_times(&block);
+        self.operator.images(&mut block);
         block
     }
 
@@ -237,7 +270,7 @@ impl<'a> Lanczos<'a> {
 
     fn combined(&self, vectors: &DMatrix<f64>, count: usize) -> Vec<Vec<FourVectors>> {
         let strip = |first: usize| {
-            let mut strip = self.pencil.zeros();
+            let mut strip = self.operator.zeros();
             for (at, block) in self.basis.iter().enumerate() {
                 let by: Square4 = std::array::from_fn(|i| {
                     std::array::from_fn(|j| {

@@ -1,5 +1,6 @@
-//! Small vibrations about a configuration: natural frequencies and mode shapes.
+//! Small vibrations about a configuration, natural frequencies and mode shapes; and the eigenvalue problem of linear buckling.
 
+mod buckling;
 mod damped;
 mod dense;
 mod elastic;
@@ -11,8 +12,12 @@ mod quadratic;
 mod refinement;
 mod resolvent;
 mod search;
+mod shapes;
 
+pub use buckling::CriticalLoad;
+pub(crate) use buckling::{CriticalLoads, critical_loads};
 pub use damped::DampedMode;
 pub use error::VibrationError;
 pub(crate) use modes::loose_movements;
 pub use modes::{Mode, Modes};
+pub use shapes::ModeShapes;

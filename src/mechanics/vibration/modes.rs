@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::VibrationError;
 use super::pencil::Pencil;
 use super::search::{is_small, lowest, numbers};
-use crate::beams::{BodyPoint, Mesh};
-use crate::geometry::Vec2;
+use super::{ModeShapes, VibrationError};
 use crate::integrators::Mechanism;
 use crate::system::System;
 
@@ -60,10 +58,7 @@ impl Mode {
 #[derive(Debug, Clone)]
 pub struct Modes {
     modes: Vec<Mode>,
-    meshes: Vec<Mesh>,
-    /// Control points of all bodies in the configuration [length].
-    points: Vec<Vec<Vec2>>,
-    displacements: Vec<Vec<Vec<Vec2>>>,
+    shapes: ModeShapes,
     decay_rates: Vec<f64>,
 }
 
@@ -91,15 +86,9 @@ impl Modes {
             let shape = std::mem::take(&mut mode.shape);
             mode.shape = pencil.order.to_step_order(shape, model.unknowns());
         }
-        let displacements = modes.iter().map(|mode| model.displacements(&mode.shape)).collect();
+        let shapes = ModeShapes::of(model, modes.iter().map(|mode| &*mode.shape));
         let decay_rates = modes.iter().map(|mode| 0.5 * model.dissipation(&mode.shape)).collect();
-        Ok(Self {
-            modes,
-            meshes: model.meshes().to_vec(),
-            points: model.control_points().map(<[Vec2]>::to_vec).collect(),
-            displacements,
-            decay_rates,
-        })
+        Ok(Self { modes, shapes, decay_rates })
     }
 
     /// Approximate peak memory of the search for `count` modes [bytes].
@@ -136,50 +125,9 @@ impl Modes {
         self.modes.iter().all(|mode| mode.square >= 0.0)
     }
 
-    /// Meshes of the beams.
-    pub fn meshes(&self) -> &[Mesh] {
-        &self.meshes
-    }
-
-    /// Control points of all bodies in the configuration about which the modes vibrate [length].
-    pub fn points(&self) -> &[Vec<Vec2>] {
-        &self.points
-    }
-
-    /// Larger side of the bounding box of the configuration [length].
-    pub fn size(&self) -> f64 {
-        let points = || self.points.iter().flatten();
-        let side = |along: fn(&Vec2) -> f64| {
-            let least = points().map(along).fold(f64::INFINITY, f64::min);
-            points().map(along).fold(f64::NEG_INFINITY, f64::max) - least
-        };
-        side(|at| at.x).max(side(|at| at.y))
-    }
-
-    /// Configuration displaced by a mode. `amplitude` is the largest displacement of a control point [length].
-    pub fn displaced(&self, mode: usize, amplitude: f64) -> Vec<Vec<Vec2>> {
-        let largest = self.largest(mode);
-        if largest == 0.0 {
-            return self.points.clone();
-        }
-        let scale = amplitude / largest;
-        let moved = |(points, by): (&Vec<Vec2>, &Vec<Vec2>)| {
-            points.iter().zip(by).map(|(point, by)| point + by * scale).collect()
-        };
-        self.points.iter().zip(&self.displacements[mode]).map(moved).collect()
-    }
-
-    /// Displacement of a point in a mode, as a multiple of the largest displacement of a control point [-].
-    pub fn displacement(&self, mode: usize, place: &BodyPoint) -> Vec2 {
-        match self.largest(mode) {
-            0.0 => Vec2::zeros(),
-            largest => place.interpolate(&self.displacements[mode][place.body]) / largest,
-        }
-    }
-
-    fn largest(&self, mode: usize) -> f64 {
-        let points = self.displacements[mode].iter().flatten();
-        points.map(|by| by.norm()).fold(0.0, f64::max)
+    /// Shapes of the modes, for pictures and displacements of points.
+    pub fn shapes(&self) -> &ModeShapes {
+        &self.shapes
     }
 }
 

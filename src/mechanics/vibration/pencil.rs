@@ -11,6 +11,7 @@ use crate::system::{StaticOrder, System, add_resistance};
 const MOST_GROWTH: f64 = 1e12;
 
 /// Eigenvalue problem `K φ = ω² M φ` with the stiffness `K` and the inertia `M` of a model, for modes `φ` of angular frequency `ω`.
+/// In buckling, the load factor `λ` takes the place of `ω²`, and the decrease `G` of the stiffness with the load factor takes the place of `M`.
 pub(super) struct Pencil {
     stiffness: PreciseBand,
     pub(super) inertia: SymmetricSparse,
@@ -18,6 +19,7 @@ pub(super) struct Pencil {
     pub(super) order: StaticOrder,
     /// Estimate of the squared frequency of the lowest bending mode, for scenes with beams [1/time²].
     /// For scenes without beams, the estimate is the squared frequency of the lowest vibration of a chain of the softest springs.
+    /// The scale is zero for buckling, which needs no shift.
     pub(super) scale: f64,
     /// Number of modes with a finite frequency: degrees of freedom with inertia, minus constraints.
     pub(super) finite: usize,
@@ -38,19 +40,50 @@ fn squared_frequencies(
     )
 }
 
+/// Stiffness of a model as a matrix and in factored form.
+struct Restoring {
+    stiffness: PreciseBand,
+    elastic: Elastic,
+}
+
+impl Restoring {
+    fn of_spans(
+        model: &System,
+        order: &StaticOrder,
+        look: &mut dyn FnMut(&[usize], &SpanStiffness),
+    ) -> Self {
+        let mut stiffness = PreciseBand::zeros(order.count(), order.half_bandwidth());
+        let mut elastic = Elastic::default();
+        model.for_each_static_span(order, &mut |degrees, span| {
+            add_resistance(&mut stiffness, degrees, span);
+            elastic.add(order.count(), degrees, span);
+            look(degrees, span);
+        });
+        Self { stiffness, elastic }
+    }
+
+    /// Adds the constraints, whose penalty stiffness is a multiple of the largest of the stiffnesses `own`.
+    fn add_constraints(&mut self, model: &System, order: &StaticOrder, own: &[f64]) {
+        model.for_each_static_constraint(order, |at| own[at], &mut |degrees, span| {
+            add_resistance(&mut self.stiffness, degrees, span);
+            self.elastic.add(order.count(), degrees, span);
+        });
+    }
+
+    fn is_finite(&self) -> bool {
+        (0..self.stiffness.size()).all(|at| self.stiffness.diagonal(at).is_finite())
+    }
+}
+
 impl Pencil {
     pub(super) fn of(model: &System) -> Result<Self, VibrationError> {
         let order = model.static_order();
         let size = order.count();
-        let mut stiffness = PreciseBand::zeros(size, order.half_bandwidth());
-        let mut elastic = Elastic::default();
         let inertia = model.sparse_inertia(&order);
         let bending = model.slowest_bending();
         let masses: Vec<f64> = (0..size).map(|at| inertia.diagonal(at)).collect();
         let mut slowest = f64::INFINITY;
-        model.for_each_static_span(&order, &mut |degrees, span| {
-            add_resistance(&mut stiffness, degrees, span);
-            elastic.add(size, degrees, span);
+        let mut restoring = Restoring::of_spans(model, &order, &mut |degrees, span| {
             if bending.is_none() {
                 slowest = squared_frequencies(&masses, degrees, span).fold(slowest, f64::min);
             }
@@ -59,20 +92,38 @@ impl Pencil {
         let of_springs = || Some(slowest / size as f64).filter(|scale| scale.is_finite());
         let scale = bending.or_else(of_springs).unwrap_or(1.0);
         let own: Vec<f64> = (0..size)
-            .map(|at| stiffness.diagonal(at).abs() + scale * inertia.diagonal(at))
+            .map(|at| restoring.stiffness.diagonal(at).abs() + scale * masses[at])
             .collect();
-        model.for_each_static_constraint(&order, |at| own[at], &mut |degrees, span| {
-            add_resistance(&mut stiffness, degrees, span);
-            elastic.add(size, degrees, span);
-        });
-        let is_finite = (0..size)
-            .all(|at| stiffness.diagonal(at).is_finite() && inertia.diagonal(at).is_finite());
-        let finite = (0..size).filter(|at| inertia.diagonal(*at) > 0.0).count();
+        restoring.add_constraints(model, &order, &own);
+        let is_finite = restoring.is_finite() && masses.iter().all(|mass| mass.is_finite());
+        let finite = masses.iter().filter(|mass| **mass > 0.0).count();
         let finite = finite.saturating_sub(model.constrained_movements(&order, &inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
+        let Restoring { stiffness, elastic } = restoring;
         Ok(Self { stiffness, inertia, elastic, order, scale, finite })
+    }
+
+    /// Eigenvalue problem `K φ = λ G φ` of buckling. The matrix `G` is zero at first; see [`with_decrease`](Self::with_decrease).
+    pub(super) fn of_stiffness(model: &System) -> Result<Self, VibrationError> {
+        let order = model.static_order();
+        let mut restoring = Restoring::of_spans(model, &order, &mut |_, _| ());
+        let own: Vec<f64> =
+            (0..order.count()).map(|at| restoring.stiffness.diagonal(at).abs()).collect();
+        restoring.add_constraints(model, &order, &own);
+        if !restoring.is_finite() {
+            return Err(VibrationError::NotFinite);
+        }
+        let Restoring { stiffness, elastic } = restoring;
+        let inertia = SymmetricSparse::new(order.count(), |_| ());
+        let finite = order.count();
+        Ok(Self { stiffness, inertia, elastic, order, scale: 0.0, finite })
+    }
+
+    /// Replaces the matrix on the right-hand side by the decrease of the stiffness with the load factor.
+    pub(super) fn with_decrease(self, decrease: SymmetricSparse) -> Self {
+        Self { inertia: decrease, ..self }
     }
 
     /// Approximate memory for the eigenvalue problem of a model [bytes].

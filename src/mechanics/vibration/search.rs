@@ -2,11 +2,12 @@
 
 use super::VibrationError;
 use super::dense::all_pairs;
-use super::lanczos::{Lanczos, Pairs};
+use super::elastic::FourVectors;
+use super::lanczos::{Lanczos, Pairs, SymmetricOperator};
 use super::modes::Mode;
 use super::pencil::Pencil;
 use super::refinement::{RefinedPair, assess, refine};
-use crate::linalg::{STRIP_WIDTH, SymmetricFactors};
+use crate::linalg::{STRIP_WIDTH, SymmetricFactors, VectorStrip};
 
 /// Largest number of unknowns for which all modes are computed together.
 const SMALL: usize = 240;
@@ -21,7 +22,7 @@ const DENSE_COPIES: usize = 5;
 const MOST_SHIFTS: usize = 14;
 
 /// Largest residual of an accepted pair of eigenvalue and shape.
-const LARGEST_RESIDUAL: f64 = 1e-6;
+pub(super) const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Largest relative difference of two squared frequencies plus shift that count as equal in the check for missing modes.
 const EQUAL: f64 = 1e-6;
@@ -40,13 +41,13 @@ const LARGEST_SHIFT: f64 = 1e4;
 const SMALLEST_SHIFT: f64 = 1e-6;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum ModeSearch {
+pub(super) enum ModeSearch {
     All,
     Lowest,
 }
 
 impl ModeSearch {
-    fn of(unknowns: usize, count: usize) -> Self {
+    pub(super) fn of(unknowns: usize, count: usize) -> Self {
         let is_large = unknowns > MEDIUM || (unknowns > SMALL && 4 * count < unknowns);
         if is_large { Self::Lowest } else { Self::All }
     }
@@ -110,7 +111,8 @@ fn with_shift(
             assess(pencil, shift, &pairs, count, goes_on)?
         }
         ModeSearch::Lowest => {
-            let pairs = counted_pairs(pencil, shift, factors, count, goes_on)?;
+            let operator = ShiftedInverse { pencil, factors };
+            let pairs = counted_pairs(pencil, shift, &operator, count, goes_on)?;
             refine(pencil, factors, shift, &pairs, count, goes_on)?
         }
     };
@@ -119,14 +121,37 @@ fn with_shift(
     Ok(modes)
 }
 
-fn counted_pairs(
+struct ShiftedInverse<'a> {
+    pencil: &'a Pencil,
+    factors: &'a SymmetricFactors,
+}
+
+impl SymmetricOperator for ShiftedInverse<'_> {
+    fn size(&self) -> usize {
+        self.pencil.size()
+    }
+
+    fn zeros(&self) -> Vec<FourVectors> {
+        self.pencil.zeros()
+    }
+
+    fn metric_times(&self, x: &VectorStrip, product: &mut VectorStrip) {
+        self.pencil.inertia.times(x, product);
+    }
+
+    fn images(&self, momenta: &mut VectorStrip) {
+        self.factors.solve(momenta);
+    }
+}
+
+pub(super) fn counted_pairs(
     pencil: &Pencil,
     shift: f64,
-    factors: &SymmetricFactors,
+    operator: &dyn SymmetricOperator,
     count: usize,
     goes_on: &mut dyn FnMut() -> bool,
 ) -> Result<Pairs, VibrationError> {
-    let mut search = Lanczos::new(pencil, factors);
+    let mut search = Lanczos::new(operator);
     let mut wanted = count;
     loop {
         let pairs = search.find_pairs(wanted, goes_on)?;

@@ -6,14 +6,16 @@ use crate::beams::BeamError;
 use crate::integrators::StepError;
 use crate::loads::LoadError;
 use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
-use crate::statics::{InTime, StaticsError, StepFailure};
+use crate::statics::{BucklingError, InTime, NonlinearPart, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
+use crate::vibration::VibrationError;
 
 /// Hint for an error or for one of its causes; `None` if there is none.
 pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
     let own = None
         .or_else(|| error.downcast_ref().and_then(simulation_hint))
         .or_else(|| error.downcast_ref().and_then(statics_hint))
+        .or_else(|| error.downcast_ref().and_then(buckling_hint))
         .or_else(|| error.downcast_ref().and_then(system_hint))
         .or_else(|| error.downcast_ref().and_then(archive_hint))
         .or_else(|| error.downcast_ref().and_then(load_hint))
@@ -152,6 +154,38 @@ fn statics_hint(error: &StaticsError) -> Option<String> {
         | StaticsError::Value { .. }
         | StaticsError::Interrupted { .. } => return None,
     })
+}
+
+fn buckling_hint(error: &BucklingError) -> Option<String> {
+    let advice = match error {
+        BucklingError::Statics(error) => return statics_hint(error),
+        BucklingError::Modes(VibrationError::FewCriticalLoads { available: 0, .. }) => {
+            "the option load_factor: -1 reverses the loads"
+        }
+        BucklingError::Modes(VibrationError::FewCriticalLoads { .. }) => {
+            "request fewer, or use a finer mesh"
+        }
+        BucklingError::Modes(_) => return None,
+        BucklingError::Mechanism { .. } => {
+            "fix it with scene.clamp(…) or scene.hinge(…), or add a spring; parts that only \
+            their loads hold have no critical load, but scene.equilibrium().is_stable"
+        }
+        BucklingError::Unstable { .. } => "reduce the prestress of its springs",
+        BucklingError::NoLoad { .. } => {
+            "add a load or gravity; loads are evaluated at one time: select it with the option time"
+        }
+        BucklingError::Follower { .. } => {
+            "give the load a fixed direction, or simulate the motion after a small disturbance: \
+            it grows beyond the critical load"
+        }
+        BucklingError::Unavailable { reason: NonlinearPart::Drive, .. } => {
+            "replace it by a support and a load"
+        }
+        BucklingError::Unavailable { .. } => {
+            "increase the load with scene.equilibrium(#{ load_factor: … }) until is_stable is false"
+        }
+    };
+    Some(advice.into())
 }
 
 fn system_hint(error: &SystemError) -> Option<String> {

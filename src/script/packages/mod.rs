@@ -3,6 +3,7 @@
 mod animations;
 mod arrays;
 mod bodies;
+mod buckling;
 mod checking;
 mod convergence_studies;
 mod cost_studies;
@@ -83,6 +84,7 @@ pub const TABLES: &[&BindingTable] = &[
     &obstacles::TABLE,
     &equilibria::TABLE,
     &modes::TABLE,
+    &buckling::TABLE,
     &simulations::TABLE,
     &derivatives::TABLE,
     &notes::TABLE,

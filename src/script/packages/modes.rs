@@ -26,7 +26,7 @@ use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::studies::error_estimate::{ErrorEstimate, FREQUENCIES};
 use crate::script::studies::error_on_meshes::{MeshResult, Together};
 use crate::system::{DriveKind, Scene, StartMotion, System};
-use crate::vibration::{DampedMode, Mode, Modes, VibrationError};
+use crate::vibration::{DampedMode, Mode, ModeShapes, Modes, VibrationError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "modes",
@@ -153,14 +153,7 @@ pub const TABLE: BindingTable = BindingTable {
             .example("check(scene.modes(4).count == 4);"),
         method(MODES, "displacement", &[integer("mode").non_negative(), object("station", STATION)], |call| {
             let handle = modes(call)?;
-            let (mode, count) = (call.count("mode")?, handle.0.modes.all().len());
-            if mode >= count {
-                let mode_map = format!("mode {mode} does not exist: there are {count} modes, counted from 0");
-                return Err(call.error(mode_map).hint(format!("give 0 to {}", count - 1)).at(CallPart::Argument(0)));
-            }
-            let station = call.get::<StationHandle>("station")?;
-            let place = station.within(&handle.0.of, &handle.0.scene, handle.0.modes.meshes())?;
-            Ok(Dynamic::from(handle.0.modes.displacement(mode, &place)))
+            displacement_in(call, "mode", handle.0.modes.shapes(), &handle.0.of, &handle.0.scene)
         })
         .returns(Returns::object(VECTOR).unit("-"))
         .summary("Returns the displacement of a station in a mode (the first is mode 0), relative to \
@@ -287,7 +280,7 @@ fn warn_about_omissions(call: &Call, handle: &SceneHandle, scene: &Scene) {
 }
 
 /// Assembles a scene, unless the run must end.
-fn assemble(call: &Call, scene: &Scene) -> Result<System, ScriptError> {
+pub(super) fn assemble(call: &Call, scene: &Scene) -> Result<System, ScriptError> {
     let assembled = System::assemble_while(scene, &mut || !call.context().is_stopped());
     call.context().proceed()?;
     Ok(assembled?)
@@ -339,6 +332,29 @@ fn estimated_error(call: &mut Call) -> Result<Dynamic, ScriptError> {
     };
     let own = results(modes);
     Ok(Dynamic::from(ErrorEstimate::on_meshes(scene, String::new(), together, own, frequencies)?))
+}
+
+/// Displacement of the station of a call in one of several shapes, whose number is the argument with the given name.
+pub(super) fn displacement_in(
+    call: &Call,
+    argument: &str,
+    shapes: &ModeShapes,
+    of: &SceneHandle,
+    scene: &Scene,
+) -> Result<Dynamic, ScriptError> {
+    let (number, count) = (call.count(argument)?, shapes.count());
+    if number >= count {
+        let message = format!(
+            "{argument} {number} does not exist: there are {count} {argument}s, counted from 0"
+        );
+        return Err(call
+            .error(message)
+            .hint(format!("give 0 to {}", count - 1))
+            .at(CallPart::Argument(0)));
+    }
+    let station = call.get::<StationHandle>("station")?;
+    let place = station.within(of, scene, shapes.meshes())?;
+    Ok(Dynamic::from(shapes.displacement(number, &place)))
 }
 
 pub(super) fn damped_modes(call: &Call, model: &System) -> Result<Dynamic, ScriptError> {

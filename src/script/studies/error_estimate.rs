@@ -27,6 +27,7 @@ pub const POSITIONS: &str = "positions";
 
 /// Name of the row with the largest error of all angular frequencies.
 pub const FREQUENCIES: &str = "frequencies";
+pub const CRITICAL_LOADS: &str = "critical loads";
 
 /// Largest number of rows of a printed table.
 const MOST_ROWS: usize = 24;
@@ -268,7 +269,7 @@ impl ErrorEstimate {
 
     /// Largest errors of all positions or of all frequencies; `None` without an estimate.
     pub fn together(&self) -> Option<&QuantityError> {
-        self.of(POSITIONS).or_else(|| self.of(FREQUENCIES))
+        [POSITIONS, FREQUENCIES, CRITICAL_LOADS].iter().find_map(|name| self.of(name))
     }
 
     pub fn of(&self, name: &str) -> Option<&QuantityError> {

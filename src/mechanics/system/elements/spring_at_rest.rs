@@ -39,6 +39,10 @@ pub fn static_law(
     let force = law.force(value);
     for (length, row) in elongation.turned() {
         let normal = dense(&row);
+        if stiffness != 0.0 {
+            let half: Vec<f64> = normal.iter().map(|n| 0.5 / length * n).collect();
+            rows.add_second_derivative(0, &half, &normal);
+        }
         rows.twists.extend(normal.iter().map(|n| 0.5 * force / length * n));
         rows.twists.extend(normal);
         rows.rounding_fractions.push(0.0);

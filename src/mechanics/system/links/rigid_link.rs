@@ -266,6 +266,12 @@ impl RigidLink {
         span.twists.extend([0.0, 0.0, 0.0, 0.0, pull, 0.0, 0.0, 0.0, 0.0, 1.0]);
         span.rounding_fractions.clear();
         span.rounding_fractions.push(0.0);
+        span.second_derivatives.clear();
+        span.bent_strains.clear();
+        for (strain, along) in [self.arm().x, self.arm().y].into_iter().enumerate() {
+            let p = [0.0, 0.0, 0.0, 0.0, 0.5 * along];
+            span.add_second_derivative(strain, &p, &[0.0, 0.0, 0.0, 0.0, 1.0]);
+        }
         take(&[point_x, point_y, x, y, rotation], span);
         let own = SpanStiffness {
             strains: vec![1.0],

@@ -56,7 +56,7 @@ const AT_VALUES: &[&str] = &[
 ];
 
 /// Domains without derivatives, whose calls are rejected.
-const REFUSED: &[&str] = &["equilibrium", "modes"];
+const REFUSED: &[&str] = &["equilibrium", "modes", "buckling"];
 
 const WHOLE: &[&str] = &["quotient"];
 

@@ -215,15 +215,22 @@ pub const WORDS: &[ForeignName] = &[
     ),
     entry(
         &[
-            "buckling",
-            "snap",
-            "snap-through",
-            "instability",
             "critical load",
-            "post-buckling",
-            "imperfection",
+            "critical factor",
+            "euler load",
+            "euler buckling",
+            "linear buckling",
+            "eigenvalue buckling",
+            "stability",
+            "instability",
             "bifurcation",
         ],
+        "scene.buckling(3) computes linear critical load factors and shapes; is_stable shows the \
+        stability of an equilibrium",
+        &["buckling", "is_stable", "plot_buckling"],
+    ),
+    entry(
+        &["snap", "snap-through", "post-buckling", "imperfection", "limit load"],
         "arc_length follows a path past limit points; is_stable shows the stability of an \
         equilibrium; a perfect column needs a small imperfection, such as a lateral force",
         &["arc_length", "is_stable", "equilibrium"],

@@ -102,7 +102,7 @@ fn unknown_names_get_suggestions() {
 
 #[test]
 fn engineering_terms_have_help_pages() {
-    let words = "friction pulley rope cable buckling actuator cylinder winch wheel gif video fft optimise random imperfection collision";
+    let words = "friction pulley rope cable bifurcation actuator cylinder winch wheel gif video fft optimise random imperfection collision";
     let phrases = [
         "boundary condition",
         "rest length",

@@ -1,4 +1,4 @@
-//! Pictures and files of equilibria and modes.
+//! Pictures and files of equilibria, modes and buckling.
 
 use rhai::Dynamic;
 
@@ -15,16 +15,19 @@ use crate::script::bindings::table::{BindingTable, function};
 use crate::script::handles::equilibrium::EquilibriumHandle;
 use crate::script::handles::station::StationHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
+use crate::script::packages::buckling::{BUCKLING, BucklingHandle};
 use crate::script::packages::equilibria::{BENT, EQUILIBRIUM};
 use crate::script::packages::modes::{MODES, ModesHandle};
 use crate::script::packages::scenes::STATION;
 use crate::script::presentation::motion::snapshot;
 use crate::script::presentation::symbols::{SceneAt, of_obstacles};
 use crate::simulation::Outline;
+use crate::system::Scene;
+use crate::vibration::{CriticalLoad, Mode, ModeShapes};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "pictures of equilibria and modes",
-    doc: "Pictures of equilibria and modes: SVG or PNG, depending on the ending of the file \
+    doc: "Pictures of equilibria, modes and buckling: SVG or PNG, depending on the ending of the file \
         name, and tables as CSV, in the output folder.",
     types: &[],
     setup: BENT,
@@ -50,6 +53,12 @@ pub const TABLE: BindingTable = BindingTable {
             .summary("Plots mode shapes side by side, each over the equilibrium configuration.")
             .example("plot_modes(scene.modes(4), \"modes.svg\", #{ columns: 2 });")
             .with_related(&["modes"]),
+        function("plot_buckling", &[object("buckling", BUCKLING), FILE, options("options", MODE_SHAPES).optional()], plot_buckling)
+            .summary("Plots buckling shapes side by side, each over the undeformed scene.")
+            .example("let column = new_scene(\"column\");\nlet post = column.beam(#{ axis: line([0, 0], [0, 2]), basis: bspline(4), section: s });\n\
+                column.clamp(post.start);\ncolumn.force(post.end, [0, -1]);\n\
+                plot_buckling(column.buckling(2), \"buckling.svg\");")
+            .with_related(&["buckling", "plot_modes"]),
     ],
 };
 
@@ -149,28 +158,53 @@ fn write_load_path(call: &mut Call) -> Result<Dynamic, ScriptError> {
 
 fn plot_modes(call: &mut Call) -> Result<Dynamic, ScriptError> {
     let handle = call.get::<ModesHandle>("modes")?;
-    let options = call.options_or_defaults("options")?;
     let (scene, modes) = handle.held();
-    let outlines = Outline::of_scene(scene, modes.meshes())?;
+    let label = |(number, mode): (usize, &Mode)| {
+        format!("mode {number}: ω = {}", significant(mode.angular_frequency(), 5))
+    };
+    let labels = modes.all().iter().enumerate().map(label);
+    let title = format!("Modes of {}", scene.name);
+    plot_shapes(call, scene, modes.shapes(), labels, title)
+}
+
+fn plot_buckling(call: &mut Call) -> Result<Dynamic, ScriptError> {
+    let handle = call.get::<BucklingHandle>("buckling")?;
+    let buckling = handle.buckling();
+    let label = |(number, load): (usize, &CriticalLoad)| {
+        format!("shape {number}: λ = {}", significant(load.factor, 5))
+    };
+    let labels = buckling.critical().iter().enumerate().map(label);
+    let title = format!("Buckling of {}", buckling.scene().name);
+    plot_shapes(call, buckling.scene(), buckling.shapes(), labels, title)
+}
+
+fn plot_shapes(
+    call: &Call,
+    scene: &Scene,
+    shapes: &ModeShapes,
+    labels: impl Iterator<Item = String>,
+    title: String,
+) -> Result<Dynamic, ScriptError> {
+    let options = call.options_or_defaults("options")?;
+    let outlines = Outline::of_scene(scene, shapes.meshes())?;
     let draw = |points: &[Vec<Vec2>]| {
         let points: Vec<&[Vec2]> = points.iter().map(Vec::as_slice).collect();
         Outline::draw(&outlines, 0.0, &points)
     };
-    let at_rest = draw(modes.points());
-    let size = modes.size() * options.number("amplitude")?;
+    let at_rest = draw(shapes.points());
+    let size = shapes.size() * options.number("amplitude")?;
     // All beams and bodies form one polyline, with gaps between them.
     let gap = (f64::NAN, f64::NAN);
     let lines = at_rest.lines.iter().chain(&at_rest.bodies);
     let at_rest: Vec<(f64, f64)> =
         lines.flat_map(|line| line.iter().map(plain).chain([gap])).collect();
-    let pictures = modes.all().iter().enumerate().map(|(number, mode)| {
-        let omega = significant(mode.angular_frequency(), 5);
-        MotionPicture::new(format!("mode {number}: ω = {omega}"))
-            .snapshot(snapshot(&draw(&modes.displaced(number, size))))
+    let pictures = labels.enumerate().map(|(number, label)| {
+        MotionPicture::new(label)
+            .snapshot(snapshot(&draw(&shapes.displaced(number, size))))
             .trace("at rest", at_rest.clone())
             .symbols(of_obstacles(scene).map(|(_, placed)| placed))
     });
-    let page = Page::grid(options.count("columns")?).title(format!("Modes of {}", scene.name));
+    let page = Page::grid(options.count("columns")?).title(title);
     write_picture(call, &pictures.fold(page, Page::panel))
 }
 

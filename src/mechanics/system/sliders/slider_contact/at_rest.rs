@@ -179,7 +179,6 @@ impl SliderContact {
         let tangent = (self.tangent(bodies) + slope) * slides;
         let mut strains = vec![0.0; 2 * width];
         let (row_x, row_y) = strains.split_at_mut(width);
-        let mut twist = vec![0.0; 2 * width];
         for (row, (axis, component)) in
             [row_x, row_y].into_iter().zip([(0, tangent.x), (1, tangent.y)])
         {
@@ -189,20 +188,26 @@ impl SliderContact {
             }
             row[last] = -component;
         }
-        for (at, slope) in self.start_path.slope().iter().enumerate() {
-            (twist[2 + 2 * at], twist[3 + 2 * at]) = (-slope * force.x, -slope * force.y);
-        }
-        twist[last] = -0.5 * (force.dot(&self.bend(bodies)) + bend);
-        twist[width + last] = slides;
-        let stiffness = 1.0 / (compliance + 1.0 / rigid);
-        let span = SpanStiffness {
-            first: 0,
-            strains,
-            stiffness: vec![stiffness; 2],
-            kinds: Vec::new(),
-            twists: twist,
-            rounding_fractions: vec![0.0],
+        let by_way = |force: Vec2, bend: f64| {
+            let mut row = vec![0.0; width];
+            for (at, slope) in self.start_path.slope().iter().enumerate() {
+                (row[2 + 2 * at], row[3 + 2 * at]) = (-slope * force.x, -slope * force.y);
+            }
+            row[last] = -0.5 * (force.dot(&self.bend(bodies)) + bend);
+            row
         };
+        let mut way = vec![0.0; width];
+        way[last] = slides;
+        let mut span = SpanStiffness {
+            strains,
+            stiffness: vec![1.0 / (compliance + 1.0 / rigid); 2],
+            twists: [by_way(force, bend), way.clone()].concat(),
+            rounding_fractions: vec![0.0],
+            ..SpanStiffness::default()
+        };
+        for (strain, axis) in [Vec2::x(), Vec2::y()].into_iter().enumerate() {
+            span.add_second_derivative(strain, &by_way(axis, 0.0), &way);
+        }
         take(&degrees, &span);
     }
 }

@@ -227,7 +227,6 @@ impl StiffnessRows<'_> {
         let of_angle = of_angle.iter().zip(&of_normal).map(|(a, n)| a - ratio * n).collect();
         let rigid_angle = rigid * square(self.slider.size);
         SpanStiffness {
-            first: 0,
             twists: self.twists(slides, of_along.len()),
             strains: [of_normal, of_along, of_angle].concat(),
             stiffness: vec![
@@ -235,8 +234,8 @@ impl StiffnessRows<'_> {
                 soft(axial[0], rigid),
                 soft(rotation[0] - ratio * coupling[0], rigid_angle),
             ],
-            kinds: Vec::new(),
             rounding_fractions: vec![0.0; 2],
+            ..SpanStiffness::default()
         }
     }
 
