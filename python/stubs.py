@@ -8,6 +8,7 @@ from __future__ import annotations
 import keyword
 import re
 import textwrap
+from collections.abc import Iterable
 from pathlib import Path
 
 from withy import _native
@@ -17,7 +18,7 @@ HEADER = """\
 # Written by stubs.py from the catalog of the language.
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any{overload}
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,23 +38,17 @@ PLAIN = {
 }
 
 BINDINGS = _native.bindings()
-FINDABLE = {
-    binding.returns[0]
-    for binding in BINDINGS
-    if binding.receiver == "scene" and binding.name.endswith("_named")
-}
-WITH_SCENE = {"scene"} | {binding.receiver for binding in BINDINGS if binding.name == "scene"}
 
 
 def name_of(name: str) -> str:
     return f"{name}_" if keyword.iskeyword(name) else name
 
 
-def accepted(parameter: _native.BindingParameter, receiver: str) -> str:
+def accepted(parameter: _native.BindingParameter) -> str:
     """Type of an argument."""
     special = {"array": "ArrayLike", "vector": "ArrayLike", "map": "Mapping[str, Any]"}
     words = [special.get(word) or PLAIN.get(word) or class_name(word) for word in parameter.types]
-    if receiver in WITH_SCENE and FINDABLE.intersection(parameter.types):
+    if parameter.accepts_name:
         words.append("str")
     return " | ".join(dict.fromkeys(words)) or "Any"
 
@@ -88,14 +83,14 @@ def arguments(binding: _native.Binding) -> list[str]:
             continue
         default = " = ..." if parameter.is_optional else ""
         name = f"{parameter.name}_" if parameter.name in keys else name_of(parameter.name)
-        parts.append(f"{name}: {accepted(parameter, binding.receiver)}{default}")
+        parts.append(f"{name}: {accepted(parameter)}{default}")
     if len(parts) > 1:
         parts.append("/")
     if options:
         parts.append("*")
     for option in options:
         default = " = ..." if option.is_optional else ""
-        parts.append(f"{name_of(option.name)}: {accepted(option, binding.receiver)}{default}")
+        parts.append(f"{name_of(option.name)}: {accepted(option)}{default}")
     return parts
 
 
@@ -112,32 +107,47 @@ def member(binding: _native.Binding) -> str:
     return line + doc
 
 
+def members(rows: Iterable[_native.Binding]) -> str:
+    """Methods and properties of a class. Functions with the same name are overloads."""
+    named: dict[str, list[_native.Binding]] = {}
+    for row in rows:
+        named.setdefault(row.name, []).append(row)
+    for name, same in named.items():
+        # As in the classes, a property hides a method with the same name.
+        named[name] = [row for row in same if row.form == "property"] or same
+    decorators = {name: "    @overload\n" if len(same) > 1 else "" for name, same in named.items()}
+    return "".join(decorators[name] + member(row) for name, same in named.items() for row in same)
+
+
+def header(body: str) -> str:
+    """Imports of a file."""
+    return HEADER.format(overload=", overload" if "@overload" in body else "")
+
+
 def objects() -> str:
     """Text of objects.pyi."""
-    text = HEADER + "from . import _objects\nfrom ._objects import Object\n"
+    text = "from . import _objects\nfrom ._objects import Object\n"
     docs = dict(_native.types())
     for type_name, of in CLASSES.items():
         if type_name == "function":
             continue
         base = of.__mro__[1].__name__
         base = base if base == "Object" else f"_objects.{base}"
-        own = {row.name: row for row in BINDINGS if row.receiver == type_name}
         text += f"\nclass {of.__name__}({base}):\n" + docstring(docs[type_name], " " * 4)
-        text += "".join(member(row) for row in own.values())
-    return text
+        text += members(row for row in BINDINGS if row.receiver == type_name)
+    return header(text) + text
 
 
 def functions() -> str:
     """Text of _functions.pyi."""
-    own = {row.name: row for row in BINDINGS if is_function(row)}
-    body = "".join(member(row) for row in own.values())
+    body = members(row for row in BINDINGS if is_function(row))
     named = [of.__name__ for of in CLASSES.values()]
     used = sorted(
         name for name in named if re.search(rf"\b{name}\b", re.sub(r'""".*?"""', "", body, flags=re.S))
     )
     listed = "".join(f"    {name},\n" for name in used)
     imports = f"from . import _native\nfrom .objects import (\n{listed})\n"
-    return f"{HEADER}{imports}\nclass Functions:\n    _native: _native.Session\n{body}"
+    return f"{header(body)}{imports}\nclass Functions:\n    _native: _native.Session\n{body}"
 
 
 def stubs() -> dict[Path, str]:

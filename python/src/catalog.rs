@@ -1,10 +1,13 @@
 //! Catalog of the language for Python: the module and its stubs are created from it.
 
 use pyo3::prelude::*;
+use withy::script::bindings::catalog::Catalog;
 use withy::script::bindings::kind::Kind;
 use withy::script::bindings::parameter::Parameter;
 use withy::script::bindings::table::{CallSyntax, FunctionBinding};
 use withy::script::packages::language;
+
+use crate::names::Finders;
 
 /// Function, method or property of the language.
 #[pyclass(frozen, get_all, module = "withy._native")]
@@ -37,6 +40,8 @@ pub struct BindingParameter {
     keys: Vec<BindingParameter>,
     /// True if the parameter can be omitted.
     is_optional: bool,
+    /// True if the argument can be the name of an object of the scene.
+    accepts_name: bool,
     /// Dimension and description.
     doc: String,
 }
@@ -44,7 +49,8 @@ pub struct BindingParameter {
 /// Returns all functions, methods and properties of the language.
 #[pyfunction]
 pub fn bindings() -> Vec<Binding> {
-    language().rows().filter_map(binding).collect()
+    let catalog = language();
+    catalog.rows().filter_map(|row| binding(&catalog, row)).collect()
 }
 
 /// Returns the native types of the language with their descriptions.
@@ -55,7 +61,7 @@ pub fn types() -> Vec<(&'static str, &'static str)> {
     types.map(|of| (of.name(), of.doc())).collect()
 }
 
-fn binding(row: &'static FunctionBinding) -> Option<Binding> {
+fn binding(catalog: &Catalog, row: &'static FunctionBinding) -> Option<Binding> {
     let form = match row.form {
         CallSyntax::Function => "function",
         CallSyntax::Method(_) => "method",
@@ -71,12 +77,18 @@ fn binding(row: &'static FunctionBinding) -> Option<Binding> {
             [Some(word), element].into_iter().flatten().collect()
         }
     };
+    let receiver = row.receiver().map_or("", |of| of.name());
+    let finders = Finders::of(catalog, receiver);
+    let with_names = |of: &Parameter| BindingParameter {
+        accepts_name: finders.as_ref().is_some_and(|finders| finders.accept(&of.kind)),
+        ..parameter(of)
+    };
     let doc = format!("{} {}", row.summary, row.doc).trim_end().to_owned();
     Some(Binding {
         name: row.name,
         form,
-        receiver: row.receiver().map_or("", |of| of.name()),
-        parameters: row.parameters.iter().map(parameter).collect(),
+        receiver,
+        parameters: row.parameters.iter().map(with_names).collect(),
         returns,
         signature: row.signature(),
         doc,
@@ -94,6 +106,7 @@ fn parameter(of: &Parameter) -> BindingParameter {
         types: type_names(&of.kind),
         keys,
         is_optional: !of.is_required(),
+        accepts_name: false,
         doc: format!("{unit}{}", of.doc).trim_end().to_owned(),
     }
 }

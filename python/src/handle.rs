@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use crate::session::NativeSession;
 use crate::value::ObjectReference;
 
-/// Reference to a value of a session, which is released with it.
+/// Reference to a value of a session. The value is released when the reference is dropped.
 #[pyclass(frozen, module = "withy._native")]
 pub struct Handle {
     /// Session of the value.

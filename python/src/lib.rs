@@ -5,9 +5,9 @@ mod convert;
 mod expressions;
 mod handle;
 mod messages;
+mod names;
 mod session;
 mod value;
-mod waiting;
 mod worker;
 
 /// Native part of the module `withy`.

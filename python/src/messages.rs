@@ -11,6 +11,12 @@ use crate::value::Value;
 pub enum Request {
     /// Performs a task and sends its messages.
     Perform(Task, Sender<Message>),
+    /// Changes the stored values.
+    Update(Update),
+}
+
+/// Change of the stored values of a session.
+pub enum Update {
     /// Result of a called Python function, or the message of its exception.
     Answer { call: u64, result: Result<Value, String> },
     /// Releases a kept value.

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::gc::{PyTraverseError, PyVisit};
@@ -13,10 +14,12 @@ use withy::script::state::inputs::{InputSetting, Inputs, NAMES, is_input_name};
 
 use crate::convert::{from_python, to_python};
 use crate::expressions;
-use crate::messages::{Failure, Message, Request, ScriptFailure, Stream, Task};
+use crate::messages::{Failure, Message, Request, ScriptFailure, Stream, Task, Update};
 use crate::value::Value;
-use crate::waiting::wait;
 use crate::worker::{self, SessionSettings};
+
+/// Time between two checks for Ctrl-C.
+const BETWEEN_SIGNAL_CHECKS: Duration = Duration::from_millis(50);
 
 /// Session of the language in a thread of its own.
 #[pyclass(frozen, name = "Session", module = "withy._native")]
@@ -34,8 +37,8 @@ pub struct NativeSession {
 struct Raised {
     /// Exception that ends the task, such as that of Ctrl-C.
     ending: Option<PyErr>,
-    /// Latest exception of a function that the script called. The script may catch it.
-    in_function: Option<PyErr>,
+    /// Latest exception of a function that the script called, and its message in the script. The script may catch it.
+    in_function: Option<(String, PyErr)>,
 }
 
 #[pymethods]
@@ -60,7 +63,7 @@ impl NativeSession {
         path: PathBuf,
         inputs: Vec<(String, String)>,
     ) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::RunFile { path, inputs: with_values(inputs)? })
+        perform(slf, Task::RunFile { path, inputs: with_values(inputs)? })
     }
 
     /// Runs statements. Errors in them have the place `name`.
@@ -70,7 +73,7 @@ impl NativeSession {
         name: String,
         inputs: Vec<(String, String)>,
     ) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::RunText { text, name, inputs: with_values(inputs)? })
+        perform(slf, Task::RunText { text, name, inputs: with_values(inputs)? })
     }
 
     /// Calls a function of the language or of the script.
@@ -81,7 +84,7 @@ impl NativeSession {
         arguments: &Bound<'_, PyTuple>,
     ) -> PyResult<Py<PyAny>> {
         let values = values(slf, arguments)?;
-        ask(slf, Task::Evaluate { expression: expressions::function(name, &values), values })
+        perform(slf, Task::Evaluate { expression: expressions::function(name, &values), values })
     }
 
     /// Calls a method of an object.
@@ -94,7 +97,7 @@ impl NativeSession {
     ) -> PyResult<Py<PyAny>> {
         let mut all = vec![from_python(slf, receiver)?];
         all.extend(values(slf, arguments)?);
-        ask(slf, Task::Evaluate { expression: expressions::method(name, &all), values: all })
+        perform(slf, Task::Evaluate { expression: expressions::method(name, &all), values: all })
     }
 
     /// Reads a property of an object.
@@ -104,17 +107,17 @@ impl NativeSession {
         receiver: &Bound<'_, PyAny>,
     ) -> PyResult<Py<PyAny>> {
         let values = vec![from_python(slf, receiver)?];
-        ask(slf, Task::Evaluate { expression: format!("a0.{name}"), values })
+        perform(slf, Task::Evaluate { expression: format!("a0.{name}"), values })
     }
 
     /// Names of the variables.
     fn names(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::Names)
+        perform(slf, Task::Names)
     }
 
     /// Value of a variable; None for unknown names.
     fn read(slf: &Bound<'_, Self>, name: String) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::Read { name })
+        perform(slf, Task::Read { name })
     }
 
     /// Sets a variable.
@@ -127,17 +130,17 @@ impl NativeSession {
             return Err(PyValueError::new_err(format!("'{name}' is not a name: {NAMES}")));
         }
         let value = from_python(slf, value)?;
-        ask(slf, Task::Define { name, value })
+        perform(slf, Task::Define { name, value })
     }
 
     /// Paths of the written files.
     fn files(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::Files)
+        perform(slf, Task::Files)
     }
 
     /// Messages of the failed checks.
     fn failed_checks(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
-        ask(slf, Task::FailedChecks)
+        perform(slf, Task::FailedChecks)
     }
 
     /// Stops the running task after its present step.
@@ -161,7 +164,7 @@ impl NativeSession {
     /// Releases a kept value.
     pub fn release(&self, number: u64) {
         // The values of a session that has ended are released already.
-        let _ = self.requests.send(Request::Release(number));
+        let _ = self.requests.send(Request::Update(Update::Release(number)));
     }
 
     /// Registers a Python function, and returns its number.
@@ -175,7 +178,7 @@ impl NativeSession {
         self.requests.send(request).map_err(|_| ended())
     }
 
-    fn hear(&self, py: Python<'_>, stream: Stream, line: &str) -> PyResult<()> {
+    fn forward_line(&self, py: Python<'_>, stream: Stream, line: &str) -> PyResult<()> {
         let stream = match stream {
             Stream::Printed => "printed",
             Stream::Notes => "notes",
@@ -201,29 +204,29 @@ impl NativeSession {
 }
 
 /// Performs a task and returns its result. Ctrl-C stops the task; a second Ctrl-C no longer waits for it.
-fn ask(session: &Bound<'_, NativeSession>, task: Task) -> PyResult<Py<PyAny>> {
+fn perform(session: &Bound<'_, NativeSession>, task: Task) -> PyResult<Py<PyAny>> {
     let (py, own) = (session.py(), session.get());
     let (sender, mut messages) = channel();
     own.send(Request::Perform(task, sender))?;
     let mut raised = Raised::default();
     loop {
-        let (receiver, received) = wait(py, messages);
-        messages = receiver;
-        let heard = match received {
+        let received;
+        (messages, received) = wait(py, messages);
+        let handled = match received {
             Ok(Message::Done(result)) => return finish(session, result, raised),
-            Ok(Message::Line(stream, line)) => own.hear(py, stream, &line),
+            Ok(Message::Line(stream, line)) => own.forward_line(py, stream, &line),
             Ok(Message::Call { call, function, arguments }) => {
                 let result = call_function(session, function, arguments).map_err(|error| {
                     let message = error.to_string();
-                    raised.in_function = Some(error);
+                    raised.in_function = Some((message.clone(), error));
                     message
                 });
-                own.send(Request::Answer { call, result })
+                own.send(Request::Update(Update::Answer { call, result }))
             }
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => return Err(ended()),
         };
-        if let Err(error) = heard.and_then(|()| py.check_signals()) {
+        if let Err(error) = handled.and_then(|()| py.check_signals()) {
             if raised.ending.is_some() {
                 return Err(error);
             }
@@ -231,6 +234,18 @@ fn ask(session: &Bound<'_, NativeSession>, task: Task) -> PyResult<Py<PyAny>> {
             own.interrupt();
         }
     }
+}
+
+/// Waits for a message without the global interpreter lock, and returns the receiver with the message.
+/// The receiver is passed by value, because threads cannot share it.
+fn wait(
+    py: Python<'_>,
+    messages: Receiver<Message>,
+) -> (Receiver<Message>, Result<Message, RecvTimeoutError>) {
+    py.detach(move || {
+        let received = messages.recv_timeout(BETWEEN_SIGNAL_CHECKS);
+        (messages, received)
+    })
 }
 
 fn call_function(
@@ -253,13 +268,13 @@ fn finish(
     if let Some(exception) = raised.ending {
         return Err(exception);
     }
-    match (result, raised.in_function) {
-        (Ok(value), _) => Ok(to_python(session, value)?.unbind()),
-        (Err(_), Some(exception)) => Err(exception),
-        (Err(Failure::Interrupted), None) => {
-            Err(PyKeyboardInterrupt::new_err("the run was interrupted"))
-        }
-        (Err(Failure::Script(failure)), None) => Err(script_error(session.py(), failure)?),
+    match result {
+        Ok(value) => Ok(to_python(session, value)?.unbind()),
+        Err(Failure::Interrupted) => Err(PyKeyboardInterrupt::new_err("the run was interrupted")),
+        Err(Failure::Script(failure)) => match raised.in_function {
+            Some((message, exception)) if message == failure.message => Err(exception),
+            _ => Err(script_error(session.py(), failure)?),
+        },
     }
 }
 

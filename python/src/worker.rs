@@ -22,7 +22,7 @@ use withy::script::state::inputs::Inputs;
 use withy::script::state::limits::Limits;
 use withy::script::state::settings::{RunMode, RunSettings};
 
-use crate::messages::{Failure, Message, Request, ScriptFailure, Stream, Task};
+use crate::messages::{Failure, Message, Request, ScriptFailure, Stream, Task, Update};
 use crate::value::{Keeper, ObjectReference, Value};
 
 /// Settings of a session.
@@ -85,7 +85,7 @@ impl Listeners {
     }
 
     /// Sends a message to the innermost task. It is lost if Python no longer waits for it.
-    fn tell(&self, message: Message) {
+    fn send(&self, message: Message) {
         self.with(|all| all.last().map(|last| last.send(message)));
     }
 
@@ -107,7 +107,7 @@ impl Write for LineWriter {
         while let Some(end) = self.begun.iter().position(|byte| *byte == b'\n') {
             let line: Vec<u8> = self.begun.drain(..=end).collect();
             let line = String::from_utf8_lossy(&line[..end]).into_owned();
-            self.listeners.tell(Message::Line(self.stream, line));
+            self.listeners.send(Message::Line(self.stream, line));
         }
         Ok(bytes.len())
     }
@@ -137,7 +137,7 @@ impl Worker {
                     session.clear_interrupt();
                     self.perform(listener, |worker| worker.task(&mut session, task));
                 }
-                other => self.note(other),
+                Request::Update(update) => self.update(update),
             }
         }
     }
@@ -176,16 +176,14 @@ impl Worker {
         }
     }
 
-    /// Stores an answer, or releases a value.
-    fn note(&self, request: Request) {
-        match request {
-            Request::Answer { call, result } => _ = self.answers.borrow_mut().insert(call, result),
-            Request::Release(number) => {
+    fn update(&self, update: Update) {
+        match update {
+            Update::Answer { call, result } => _ = self.answers.borrow_mut().insert(call, result),
+            Update::Release(number) => {
                 // The value is dropped after the end of the borrow, because dropping it may run code of this worker.
                 let released = self.kept.borrow_mut().remove(&number);
                 drop(released);
             }
-            Request::Perform(..) => {}
         }
     }
 
@@ -268,7 +266,7 @@ impl Worker {
     ) -> Result<Dynamic, Box<EvalAltResult>> {
         let call = self.number();
         let arguments = arguments.iter().map(|value| Value::of((**value).clone(), self)).collect();
-        self.listeners.tell(Message::Call { call, function, arguments });
+        self.listeners.send(Message::Call { call, function, arguments });
         loop {
             if let Some(result) = self.answers.borrow_mut().remove(&call) {
                 let raised =
@@ -279,7 +277,7 @@ impl Worker {
                 Ok(Request::Perform(task, listener)) => {
                     self.perform(listener, |worker| worker.perform_inside(engine, task));
                 }
-                Ok(other) => self.note(other),
+                Ok(Request::Update(update)) => self.update(update),
                 Err(_) => return Err("the session has ended".into()),
             }
         }

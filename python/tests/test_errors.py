@@ -48,6 +48,36 @@ def test_exceptions_of_called_functions_are_raised(session: withy.Session) -> No
     assert session["sim"].t == 0.6
 
 
+def test_caught_exceptions_are_not_raised_by_later_errors(session: withy.Session) -> None:
+    def fails() -> None:
+        raise LookupError("no value")
+
+    session["fails"] = fails
+    with pytest.raises(withy.ScriptError, match="unknown"):
+        session.eval("try { fails.call() } catch {}; unknown")
+
+
+def test_exceptions_of_recorded_quantities_are_raised(session: withy.Session) -> None:
+    def fails(_: object) -> float:
+        raise LookupError("no value")
+
+    session["scene"].record("failing", fails)
+    with pytest.raises(LookupError, match="no value"):
+        session["scene"].start(dt=0.01).run_to(0.1)
+
+
+def test_exceptions_of_schedules_are_raised(session: withy.Session) -> None:
+    def fails(t: float) -> float:
+        if t < 0.05:
+            return 1.0
+        raise LookupError("no value")
+
+    session["scene"].moment("rod.end", 5, session.schedule(fails))
+    sim = session["scene"].start(dt=0.01)
+    with pytest.raises(LookupError, match="no value"):
+        sim.run_to(0.1)
+
+
 def test_scripts_can_catch_exceptions_of_called_functions(session: withy.Session) -> None:
     def fails() -> None:
         raise LookupError("no value")

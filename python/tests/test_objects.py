@@ -30,6 +30,28 @@ def test_objects_are_found_by_their_names(session: withy.Session) -> None:
     assert refused.value.line is None
 
 
+def test_names_are_accepted_in_the_place_of_several_types(session: withy.Session) -> None:
+    scene = session["scene"]
+    scene.particle([1, 0], 1, name="bead")
+    scene.spring("rod.end", [2, -1], stiffness=10)
+    scene.damper("rod.middle", [1, -1], damping=1)
+    scene.torsion_spring("rod.start", stiffness=1)
+    scene.drag("rod", normal=0.1)
+    scene.drag("bead", linear=0.1)
+    scene.slider("bead", "rod", name="ring")
+    assert scene.slider_named("ring").name == "ring"
+    with pytest.raises(withy.ScriptError) as refused:
+        scene.slider("rod.end", "rodd")
+    assert refused.value.message == "beam_named: the scene 'pendulum' has no beam \"rodd\""
+    assert refused.value.hint is not None and refused.value.hint.startswith('did you mean "rod"?')
+
+
+def test_energy_is_a_property_and_a_function(session: withy.Session) -> None:
+    sim = session["sim"]
+    assert sim.energy == session.eval("sim.energy") and isinstance(sim.energy, float)
+    assert session.call("energy", sim, session["rod"]) == session.eval("sim.energy(rod)")
+
+
 def test_section_forces_along_a_beam_are_a_table(session: withy.Session) -> None:
     along = session["sim"].section_forces("rod")
     assert along["s"][0] == 0 and along["s"][-1] == 2

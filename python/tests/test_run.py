@@ -55,7 +55,7 @@ def test_inputs_have_the_given_values(script: Path) -> None:
         (
             {"length": 4},
             "the input 'length' must be a number (1 to 3 m), got \"4\"",
-            "change length=4; the default is 2 m",
+            "change the value of 'length' (--set length=… on the command line); the default is 2 m",
         ),
     ],
 )

@@ -6,7 +6,7 @@ from __future__ import annotations
 class ScriptError(Exception):
     """Error of a script, or of a call of the language.
 
-    Printed, it shows the line of the script, as the command ``withy`` does.
+    The text of the error shows the line of the script, as the command ``withy`` does.
     """
 
     message: str

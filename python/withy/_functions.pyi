@@ -1,13 +1,14 @@
 # Written by stubs.py from the catalog of the language.
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .objects import (
+    Buckling,
     ConvergenceStudy,
     Curve,
     Design,
@@ -114,6 +115,12 @@ class Functions:
         """Returns the angle of a vector from the x axis, counter-clockwise."""
     def distance(self, a: ArrayLike, b: ArrayLike, /) -> float:
         """Returns the distance of two points."""
+    @overload
+    def knots(self, spans: int | Mapping[str, Any], /) -> Knots:
+        """Creates a knot vector with equal spans on [0, 1], from a number of spans or from options.
+        knots(7) has cubic splines with two continuous derivatives; options select another degree or
+        continuity."""
+    @overload
     def knots(self, degree: int, values: ArrayLike, /) -> Knots:
         """Creates a knot vector from an array in which knots are repeated by their multiplicity."""
     def line(self, from_: ArrayLike, to: ArrayLike, /) -> Curve:
@@ -452,6 +459,16 @@ class Functions:
         all digits."""
     def plot_modes(self, modes: Modes, file: str, /, *, amplitude: float = ..., columns: int = ...) -> None:
         """Plots mode shapes side by side, each over the equilibrium configuration."""
+    def plot_buckling(
+        self,
+        buckling: Buckling,
+        file: str,
+        /,
+        *,
+        amplitude: float = ...,
+        columns: int = ...,
+    ) -> None:
+        """Plots buckling shapes side by side, each over the undeformed scene."""
     def write_vtk(
         self,
         of: Simulation,

@@ -31,6 +31,7 @@ class BindingParameter:
     types: list[str]
     keys: list[BindingParameter]
     is_optional: bool
+    accepts_name: bool
     doc: str
 
 class Binding:

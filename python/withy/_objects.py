@@ -101,14 +101,14 @@ class Viewer:
 def with_options(arguments: tuple[Any, ...], options: dict[str, Any]) -> tuple[Any, ...]:
     """Arguments of the language: named arguments are a map of options, which is the last argument.
 
-    An option whose name is a word of Python is written with an underscore, as in ``from_=1``.
+    The names of options that are Python keywords end with an underscore, as in ``from_=1``.
     """
     options = {name.removesuffix("_"): value for name, value in options.items()}
     return (*arguments, options) if options else arguments
 
 
 def is_function(binding: _native.Binding) -> bool:
-    """True if sessions have the function as a method. Functions that Python has too are left out."""
+    """True if sessions have the function as a method. Functions with the name of a Python built-in are left out."""
     return binding.form == "function" and not hasattr(builtins, binding.name)
 
 
@@ -156,7 +156,10 @@ def _define_classes() -> None:
     members: dict[str, dict[str, Any]] = {}
     for binding in _native.bindings():
         if binding.receiver:
-            members.setdefault(binding.receiver, {})[binding.name] = _member(binding)
+            own = members.setdefault(binding.receiver, {})
+            # A property hides a method with the same name.
+            if not isinstance(own.get(binding.name), property):
+                own[binding.name] = _member(binding)
     for name, doc in _native.types():
         if name == "vector":  # Vectors are NumPy arrays.
             continue

@@ -68,7 +68,7 @@ class Session(Functions, Mapping[str, Any]):
         return self._native.call(function, *with_options(arguments, options))
 
     def interrupt(self) -> None:
-        """Stops the running script after its present step, from another thread."""
+        """Stops the running script after its present step. It can be called from another thread."""
         self._native.interrupt()
 
     @property
@@ -93,13 +93,13 @@ class Session(Functions, Mapping[str, Any]):
 
     @property
     def simulation(self) -> Simulation:
-        """Simulation that was most recently started, loaded or advanced."""
+        """Most recently started, loaded or advanced simulation."""
         simulation: Simulation = self._native.call("latest_simulation")
         return simulation
 
     @property
     def history(self) -> History:
-        """History of the most recently used simulation."""
+        """History of the most recently started, loaded or advanced simulation."""
         return self.simulation.history
 
     def __getitem__(self, name: str) -> Any:
@@ -149,7 +149,10 @@ def run(
 
 
 def load(path: str | PathLike[str], echo: Callable[[str], object] | None = print) -> Simulation:
-    """Loads a simulation that a script or ``simulation.save`` has written to a file."""
+    """Loads a simulation that a script or ``simulation.save`` has written to a file.
+
+    New files are written to the folder of the file.
+    """
     path = Path(path)
     session = Session(path.parent, path.parent, echo)
     simulation: Simulation = session.call("load_simulation", path.name)

@@ -546,6 +546,16 @@ class Scene(Object):
         for any damping, in ascending order of |λ|. An overdamped mode has ω = 0 and a damping ratio
         of 1, and each of its two λ is one result. Only for up to 240 unknowns and without sliders.
         Dampers with a law and drag contribute their linear damping at rest."""
+    def buckling(self, count: int = ..., /, *, load_factor: float = ..., time: float = ...) -> Buckling:
+        """Computes the smallest critical load factors and buckling shapes (linear stability,
+        eigenvalue buckling). At a critical factor λ the stiffness K + λ K_g of the undeformed scene
+        is singular; K_g is the geometric stiffness of the section forces that the loads and gravity
+        cause to first order. All loads are multiplied by λ, prestress is not. Only positive λ are
+        found; load_factor: -1 reverses the loads. Displacements before buckling are neglected: a
+        note reports large ones, as of shallow arches, whose snap-through needs scene.equilibrium(#{
+        control: arc_length() }). Parts that move freely without loads, follower loads, contacts,
+        sleeves and prescribed motions are refused with an error. Springs keep their stiffness
+        without loads."""
     def start(
         self,
         *,
@@ -879,6 +889,30 @@ class Modes(Object):
         """Returns the displacement of a station in a mode (the first is mode 0), relative to the
         control point with the largest displacement."""
 
+class Buckling(Object):
+    """Critical load factors and buckling shapes of a scene."""
+    @property
+    def factors(self) -> NDArray[np.float64]:
+        """Critical load factors: multiples of the loads at which the scene buckles."""
+    @property
+    def residuals(self) -> NDArray[np.float64]:
+        """Residual of each critical load: its square is about the relative error of the factor. The
+        discretisation error is not included: see error_estimate."""
+    @property
+    def count(self) -> int:
+        """Number of critical loads."""
+    @property
+    def displacement_before(self) -> float:
+        """Largest displacement before buckling at the lowest factor, linear in the loads, relative to
+        the size of the scene. The analysis neglects these displacements. If they are not small,
+        compare with scene.equilibrium() near the critical load."""
+    def displacement(self, shape: int, station: Station, /) -> NDArray[np.float64]:
+        """Returns the displacement of a station in a buckling shape (the first is shape 0), relative
+        to the control point with the largest displacement."""
+    def error_estimate(self) -> Error_estimate:
+        """Estimates the errors of the critical factors due to the mesh. The analysis is repeated with
+        three quarters and half of the spans."""
+
 class Simulation(_objects.Simulation):
     """A simulation of a scene."""
     def spring_force(self, spring: Spring, /) -> float:
@@ -903,11 +937,9 @@ class Simulation(_objects.Simulation):
     @property
     def t(self) -> float:
         """Current time of the simulation."""
-    def energy(self, beam: Beam | str, /) -> dict[str, Any]:
-        """Returns the energy of a beam, including the masses attached to it, by kind. The map has
-        energy, kinetic, strain, axial, shear, bending and potential. The sum over all bodies and
-        the energy of springs is the energy of the scene. Without a beam, use sim.energy for the
-        energy of the scene."""
+    @property
+    def energy(self) -> float:
+        """Sum of kinetic, strain and potential energy [energy]."""
     @property
     def kinetic(self) -> float:
         """Kinetic energy [energy]."""

@@ -27,6 +27,7 @@ use crate::script::handles::track::TrackHandle;
 use crate::script::messages::error::{CallPart, ScriptError};
 use crate::script::messages::suggest::nearest;
 use crate::simulation::Simulation;
+use crate::system::Scene;
 
 pub const TABLE: BindingTable = BindingTable {
     name: "saving",
@@ -105,7 +106,8 @@ pub const TABLE: BindingTable = BindingTable {
             let name = call.text("name")?;
             let station = scene.scene().borrow().station_named(&name);
             let station = station.ok_or_else(|| {
-                nothing_named(call, "station", &scene.scene().borrow().station_names())
+                let scene = scene.scene().borrow();
+                nothing_named(call, &name, &scene, "station", &scene.station_names())
             })?;
             Ok(Dynamic::from(StationHandle { scene, station }))
         })
@@ -206,32 +208,30 @@ fn load(call: &mut Call) -> Result<Dynamic, ScriptError> {
     )))
 }
 
-fn find(
-    call: &Call,
-    kind: &str,
-    names: fn(&crate::system::Scene) -> Vec<&String>,
-) -> Result<usize, ScriptError> {
+fn find(call: &Call, kind: &str, names: fn(&Scene) -> Vec<&String>) -> Result<usize, ScriptError> {
     let name = call.text("name")?;
     let handle = call.receiver::<SceneHandle>()?;
     let scene = handle.scene().borrow();
     let names = names(&scene);
     let found = names.iter().position(|other| **other == name.as_str());
-    found.ok_or_else(|| nothing_named(call, kind, &names))
+    found.ok_or_else(|| nothing_named(call, &name, &scene, kind, &names))
 }
 
-fn nothing_named(call: &Call, kind: &str, names: &[impl AsRef<str>]) -> ScriptError {
-    let (name, scene) = match (call.text("name"), call.receiver::<SceneHandle>()) {
-        (Ok(name), Ok(scene)) => (name, scene.scene().borrow().name.clone()),
-        (Err(error), _) | (_, Err(error)) => return error,
-    };
-    let meant = nearest(&name, names.iter().map(AsRef::as_ref));
+fn nothing_named(
+    call: &Call,
+    name: &str,
+    scene: &Scene,
+    kind: &str,
+    names: &[impl AsRef<str>],
+) -> ScriptError {
+    let meant = nearest(name, names.iter().map(AsRef::as_ref));
     let suggestion = meant.map(|name| format!("did you mean \"{name}\"? ")).unwrap_or_default();
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{}\"", name.as_ref())).collect();
     let known = match quoted.as_slice() {
         [] => format!("the scene has no {kind}s"),
         quoted => format!("its {kind}s: {}", quoted.join(", ")),
     };
-    call.error(format!("the scene '{scene}' has no {kind} \"{name}\""))
+    call.error(format!("the scene '{}' has no {kind} \"{name}\"", scene.name))
         .hint(format!("{suggestion}{known}"))
         .at(CallPart::Argument(0))
 }

@@ -235,7 +235,7 @@ impl InputDeclaration {
                 format!("the input '{name}' must be {}, got \"{text}\"", self.expectation());
             let default = self.default_with_unit();
             ScriptError::new(message)
-                .hint(format!("change {name}={text}; the default is {default}"))
+                .hint(format!("change the value of '{name}' (--set {name}=… on the command line); the default is {default}"))
         })
     }
 }
