@@ -61,9 +61,10 @@ pub(crate) fn critical_loads(
     let LoadEffect { decrease, strain } = load_effect(model, &pencil, &linear.first_forces());
     let pencil = pencil.with_right_hand_matrix(decrease);
     let operator = BucklingOperator { pencil: &pencil, factors: &factors, strain };
-    let pairs = match ModeSearch::of(pencil.size(), count) {
+    let sought = count.min(pencil.size());
+    let pairs = match ModeSearch::of(pencil.size(), sought) {
         ModeSearch::All => operator.all_pairs(),
-        ModeSearch::Lowest => counted_pairs(&pencil, 0.0, &operator, count, goes_on)?,
+        ModeSearch::Lowest => counted_pairs(&pencil, 0.0, &operator, sought, goes_on)?,
     };
     let least = strain / LARGEST_STRAIN;
     let available = pairs.values.iter().filter(|value| **value > least).count();
