@@ -36,7 +36,7 @@ pub struct SpanStiffness {
     /// The pairs are complete for strains of beams, springs, rigid links and sliders.
     pub second_derivatives: Vec<f64>,
     /// Index of the strain to which each pair of rows in `second_derivatives` belongs.
-    pub bent_strains: Vec<usize>,
+    pub second_derivative_strains: Vec<usize>,
 }
 
 impl SpanStiffness {
@@ -49,12 +49,12 @@ impl SpanStiffness {
         self.twists.clear();
         self.rounding_fractions.clear();
         self.second_derivatives.clear();
-        self.bent_strains.clear();
+        self.second_derivative_strains.clear();
     }
 
     /// Adds a pair of rows to the second derivatives of a strain.
     pub(crate) fn add_second_derivative(&mut self, strain: usize, p: &[f64], q: &[f64]) {
-        self.bent_strains.push(strain);
+        self.second_derivative_strains.push(strain);
         self.second_derivatives.extend(p);
         self.second_derivatives.extend(q);
     }

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use super::continuation::Continuation;
 use super::equilibrium::{at_rest, prepare};
 use super::{Control, Loading, StaticsError};
 use crate::integrators::Mechanism;
 use crate::joints::Slider;
-use crate::statics::continuation::Continuation;
 use crate::system::{Scene, System};
 use crate::vibration::{
     CriticalLoad, CriticalLoads, ModeShapes, Modes, VibrationError, critical_loads,
@@ -25,6 +25,13 @@ pub struct Buckling {
     displacement_before: f64,
 }
 
+fn few_critical_loads(requested: usize, available: usize) -> String {
+    match available {
+        0 => "no critical load found: the loads compress no part, or every critical load has a strain above 0.5".to_owned(),
+        _ => format!("{requested} critical loads requested, but only {available} with a strain of at most 0.5 were found"),
+    }
+}
+
 /// Error of a buckling analysis.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -39,12 +46,42 @@ pub enum BucklingError {
     Mechanism { scene: String, part: String },
     #[error("scene '{scene}' has no critical load: it is unstable without loads")]
     Unstable { scene: String },
-    #[error("no load acts at t = {time}: a buckling analysis needs a load, besides prestress")]
+    #[error("no load acts on the scene at t = {time}; prestress is not a load")]
     NoLoad { time: f64 },
     #[error("load '{load}' follows its beam, so that it may cause flutter instead of buckling")]
     Follower { load: String },
-    #[error("{object} {reason}, which linear buckling does not include")]
+    #[error("{object} {reason}; linear buckling is not available")]
     Unavailable { object: String, reason: NonlinearPart },
+    #[error("{}", few_critical_loads(*requested, *available))]
+    FewCriticalLoads { requested: usize, available: usize },
+    #[error(
+        "critical load {number} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request fewer, use a coarser mesh, or reduce the largest stiffness"
+    )]
+    InaccurateLoad { number: usize, residual: f64 },
+    #[error(
+        "critical loads may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness"
+    )]
+    Uncounted,
+    #[error(
+        "the critical loads did not converge in {restarts} restarts of the Lanczos method; request a few more or fewer, or use a coarser mesh"
+    )]
+    NotConverged { restarts: usize },
+}
+
+impl BucklingError {
+    fn of_search(error: VibrationError) -> Self {
+        match error {
+            VibrationError::FewEigenvalues { requested, available } => {
+                Self::FewCriticalLoads { requested, available }
+            }
+            VibrationError::BelowRounding { modes: number, residual } => {
+                Self::InaccurateLoad { number, residual }
+            }
+            VibrationError::Uncounted => Self::Uncounted,
+            VibrationError::NotConverged { restarts } => Self::NotConverged { restarts },
+            error => Self::Modes(error),
+        }
+    }
 }
 
 /// Property of a part of a scene that linear buckling does not include.
@@ -61,9 +98,9 @@ pub enum NonlinearPart {
 impl fmt::Display for NonlinearPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Contact => "only pushes",
+            Self::Contact => "can lose contact",
             Self::Drive => "prescribes a motion",
-            Self::Sleeve => "turns its contact force with its holder",
+            Self::Sleeve => "has a contact force that turns with its holder",
         })
     }
 }
@@ -95,12 +132,15 @@ impl Buckling {
         let loads = loads(&mut model, &loading)?;
         check_is_stable(&scene, &model, goes_on)?;
         let unstable = || BucklingError::Unstable { scene: scene.name.clone() };
-        let found = critical_loads(&model, &loads, count, goes_on)?.ok_or_else(unstable)?;
-        let CriticalLoads { critical, displacement } = found;
+        let CriticalLoads { critical, displacement } =
+            critical_loads(&model, &loads, count, goes_on)
+                .map_err(BucklingError::of_search)?
+                .ok_or_else(unstable)?;
         let shapes = ModeShapes::of(&model, critical.iter().map(|load| &*load.shape));
-        let before = ModeShapes::of(&model, std::iter::once(&*displacement));
+        let moved = model.displacements(&displacement);
+        let largest = moved.iter().flatten().map(|by| by.norm()).fold(0.0, f64::max);
         let lowest = critical.first().map_or(0.0, |load| load.factor);
-        let displacement_before = lowest * before.largest(0) / scene.size().unwrap_or(1.0);
+        let displacement_before = lowest * largest / scene.size().unwrap_or(1.0);
         Ok(Self { scene, loading, critical, shapes, displacement_before })
     }
 

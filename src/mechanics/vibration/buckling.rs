@@ -59,24 +59,24 @@ pub(crate) fn critical_loads(
     let displacement = linear.movements[..pencil.size()].iter().map(|row| row[0]).collect();
     let displacement = pencil.order.to_step_order(displacement, model.unknowns());
     let LoadEffect { decrease, strain } = load_effect(model, &pencil, &linear.first_forces());
-    let pencil = pencil.with_decrease(decrease);
-    let operator = Compression { pencil: &pencil, factors: &factors, strain };
+    let pencil = pencil.with_right_hand_matrix(decrease);
+    let operator = BucklingOperator { pencil: &pencil, factors: &factors, strain };
     let sought = count.min(pencil.size());
     let pairs = match ModeSearch::of(pencil.size(), sought) {
         ModeSearch::All => operator.all_pairs(),
         ModeSearch::Lowest => counted_pairs(&pencil, 0.0, &operator, sought, goes_on)?,
     };
-    let least = operator.negligible(0.0);
+    let least = strain / LARGEST_STRAIN;
     let available = pairs.values.iter().filter(|value| **value > least).count();
     if available < count {
-        return Err(VibrationError::FewCriticalLoads { requested: count, available });
+        return Err(VibrationError::FewEigenvalues { requested: count, available });
     }
     let pairs = operator.to_shapes(pairs);
     let mut found = Vec::with_capacity(count);
     for pair in refine(&pencil, &factors, 0.0, &pairs, count, goes_on)? {
-        let (number, residual) = (found.len(), pair.residual);
+        let residual = pair.residual;
         if !(residual <= LARGEST_RESIDUAL && pair.square.is_finite()) {
-            return Err(VibrationError::InaccurateLoad { number, residual });
+            return Err(VibrationError::BelowRounding { modes: found.len(), residual });
         }
         let shape = pencil.order.to_step_order(pair.shape, model.unknowns());
         found.push(CriticalLoad { factor: pair.square, residual, shape });
@@ -126,7 +126,7 @@ fn load_effect(model: &System, pencil: &Pencil, forces: &[f64]) -> LoadEffect {
         strain = strain.max(largest_strain(span, own));
         let mut sum = vec![0.0; width * width];
         let pairs = span.second_derivatives.chunks_exact(2 * width);
-        for (pair, strain) in pairs.zip(&span.bent_strains) {
+        for (pair, strain) in pairs.zip(&span.second_derivative_strains) {
             let (p, q) = pair.split_at(width);
             for (at, entry) in sum.iter_mut().enumerate() {
                 let (row, column) = (at / width, at % width);
@@ -159,13 +159,13 @@ fn largest_strain(span: &SpanStiffness, forces: &[f64]) -> f64 {
 }
 
 /// Operator `R⁻ᵀ G R⁻¹` with the stiffness `K = Rᵀ R` and its decrease `G` per load factor. The eigenvalues are `1/λ`, of both signs.
-struct Compression<'a> {
+struct BucklingOperator<'a> {
     pencil: &'a Pencil,
     factors: &'a SymmetricFactors,
     strain: f64,
 }
 
-impl SymmetricOperator for Compression<'_> {
+impl SymmetricOperator for BucklingOperator<'_> {
     fn size(&self) -> usize {
         self.pencil.size()
     }
@@ -178,20 +178,20 @@ impl SymmetricOperator for Compression<'_> {
         product.copy_from_slice(x);
     }
 
-    fn negligible(&self, largest: f64) -> f64 {
+    fn threshold(&self, largest: f64) -> f64 {
         (SMALLEST * largest).max(self.strain / LARGEST_STRAIN)
     }
 
     fn images(&self, momenta: &mut VectorStrip) {
         self.factors.solve_root(momenta);
-        let mut product = self.pencil.inertia_times(momenta);
+        let mut product = self.pencil.right_hand_times(momenta);
         self.factors.solve_root_transposed(&mut product);
         momenta.copy_from_slice(&product);
     }
 }
 
-impl Compression<'_> {
-    /// All pairs with positive eigenvalues that are not negligible, in decreasing order.
+impl BucklingOperator<'_> {
+    /// All pairs with positive eigenvalues above the threshold, in decreasing order.
     fn all_pairs(&self) -> Pairs {
         let size = self.size();
         let mut matrix = DMatrix::zeros(size, size);
@@ -208,7 +208,7 @@ impl Compression<'_> {
         }
         let SymmetricEigen { eigenvalues, eigenvectors } =
             ((&matrix + matrix.transpose()) * 0.5).symmetric_eigen();
-        let least = self.negligible(eigenvalues.amax());
+        let least = self.threshold(eigenvalues.amax());
         let mut order: Vec<usize> = (0..size).filter(|at| eigenvalues[*at] > least).collect();
         order.sort_by(|a, b| eigenvalues[*b].total_cmp(&eigenvalues[*a]));
         let strip = |columns: &[usize]| {

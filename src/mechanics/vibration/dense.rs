@@ -76,8 +76,11 @@ fn orthogonalise(pencil: &Pencil, shapes: &mut DMatrix<f64>) {
         let mut shape = rest.column_mut(0);
         for _ in 0..2 {
             for (row, momentum) in momenta.iter_mut().enumerate() {
-                *momentum =
-                    pencil.inertia.row(row).map(|(column, mass)| mass * shape[column]).sum();
+                *momentum = pencil
+                    .right_hand_matrix
+                    .row(row)
+                    .map(|(column, mass)| mass * shape[column])
+                    .sum();
             }
             let square: f64 = shape.iter().zip(&momenta).map(|(x, m)| x * m).sum();
             let scale = 1.0 / square.sqrt();
@@ -94,12 +97,12 @@ fn inertia_root(pencil: &Pencil) -> DMatrix<f64> {
     let size = pencil.size();
     let mut root = DMatrix::zeros(size, size);
     for row in 0..size {
-        for (column, mass) in pencil.inertia.row(row) {
+        for (column, mass) in pencil.right_hand_matrix.row(row) {
             root[(row, column)] = if column <= row { mass } else { 0.0 };
         }
     }
     for column in 0..size {
-        let whole = pencil.inertia.diagonal(column);
+        let whole = pencil.right_hand_matrix.diagonal(column);
         let left: f64 = root[(column, column)];
         let pivot = if left > WITHOUT_INERTIA * whole { left.sqrt() } else { 0.0 };
         for row in column..size {

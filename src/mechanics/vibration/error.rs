@@ -7,13 +7,6 @@ fn range(available: usize) -> String {
     }
 }
 
-fn available_loads(requested: usize, available: usize) -> String {
-    match available {
-        0 => "there is no critical load: the loads reduce the stiffness of no shape (nothing is compressed)".to_owned(),
-        _ => format!("{requested} critical loads requested, but there are {available} on this mesh"),
-    }
-}
-
 /// Error of a failed computation of modes.
 #[expect(missing_docs, reason = "the messages describe the variants and their fields")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -52,12 +45,8 @@ pub enum VibrationError {
         "modes may be missing below those that were found, because of rounding; use a coarser mesh, or reduce the largest stiffness or increase the smallest inertia"
     )]
     Uncounted,
-    #[error("{}", available_loads(*requested, *available))]
-    FewCriticalLoads { requested: usize, available: usize },
-    #[error(
-        "critical load {number} (from 0) is inaccurate because of rounding: its residual is {residual:.1e}, but at most 1e-6 is allowed; request fewer, use a coarser mesh, or reduce the largest stiffness"
-    )]
-    InaccurateLoad { number: usize, residual: f64 },
+    #[error("{requested} eigenvalues requested, but only {available} were found; request fewer")]
+    FewEigenvalues { requested: usize, available: usize },
     #[error("{0}")]
     NoForces(String),
     #[error("interrupted during the search for modes")]

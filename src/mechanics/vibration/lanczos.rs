@@ -27,7 +27,7 @@ const ORTHONORMAL: f64 = 1e-14;
 
 const MOST_RESTARTS: usize = 60;
 
-/// Operator `A⁻¹ M` that is symmetric in the scalar product of the positive semidefinite matrix `M`, the metric.
+/// Linear operator that is self-adjoint in the scalar product of a positive semidefinite matrix `M`, the metric.
 pub(super) trait SymmetricOperator {
     /// Number of unknowns.
     fn size(&self) -> usize;
@@ -38,8 +38,8 @@ pub(super) trait SymmetricOperator {
     /// Multiplies four vectors by the metric `M`.
     fn metric_times(&self, x: &VectorStrip, product: &mut VectorStrip);
 
-    /// Largest eigenvalue without meaning, for the largest absolute eigenvalue.
-    fn negligible(&self, _largest: f64) -> f64 {
+    /// Threshold below which eigenvalues are discarded. `largest` is the largest absolute eigenvalue.
+    fn threshold(&self, _largest: f64) -> f64 {
         0.0
     }
 
@@ -111,7 +111,7 @@ impl<'a> Lanczos<'a> {
                         return Ok(self.pairs(&values, &vectors, settled));
                     }
                     if width >= most {
-                        self.expect_positive(&values, count)?;
+                        self.check_count(&values, count)?;
                         self.restart(&values, &vectors, count + (most - count) / 2);
                         break;
                     }
@@ -122,12 +122,12 @@ impl<'a> Lanczos<'a> {
         Err(VibrationError::NotConverged { restarts: MOST_RESTARTS })
     }
 
-    fn expect_positive(&self, values: &[f64], count: usize) -> Result<(), VibrationError> {
+    fn check_count(&self, values: &[f64], count: usize) -> Result<(), VibrationError> {
         let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        let least = self.operator.negligible(largest);
+        let least = self.operator.threshold(largest);
         match values.iter().filter(|value| **value > least).count() {
             available if available < count => {
-                Err(VibrationError::FewCriticalLoads { requested: count, available })
+                Err(VibrationError::FewEigenvalues { requested: count, available })
             }
             _ => Ok(()),
         }

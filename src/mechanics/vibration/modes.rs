@@ -137,6 +137,6 @@ pub fn loose_movements(model: &System) -> usize {
     if !is_small(model.unknowns()) && model.slider_names().next().is_none() {
         return 0;
     }
-    let count = |pencil: Pencil| pencil.modes_below(UNRESTRAINED * pencil.scale).unwrap_or(0);
+    let count = |pencil: Pencil| pencil.eigenvalues_below(UNRESTRAINED * pencil.scale).unwrap_or(0);
     Pencil::of(model).map_or(0, count)
 }

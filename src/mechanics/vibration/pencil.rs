@@ -1,4 +1,4 @@
-//! Eigenvalue problem of undamped vibrations: stiffness and inertia of a configuration.
+//! Eigenvalue problems of a configuration: undamped vibrations and linear buckling.
 
 use super::VibrationError;
 use super::elastic::{Elastic, FourVectors};
@@ -10,11 +10,11 @@ use crate::system::{StaticOrder, System, add_resistance};
 /// Largest accepted growth factor of an elimination. With a larger growth factor, more than 12 of the 32 digits are lost.
 const MOST_GROWTH: f64 = 1e12;
 
-/// Eigenvalue problem `K φ = ω² M φ` with the stiffness `K` and the inertia `M` of a model, for modes `φ` of angular frequency `ω`.
-/// In buckling, the load factor `λ` takes the place of `ω²`, and the decrease `G` of the stiffness with the load factor takes the place of `M`.
+/// Generalised eigenvalue problem `K φ = μ B φ` with the stiffness `K` of a model.
+/// For modes, `μ = ω²` and `B` is the inertia. For buckling, `μ = λ` and `B = -K_g`.
 pub(super) struct Pencil {
     stiffness: PreciseBand,
-    pub(super) inertia: SymmetricSparse,
+    pub(super) right_hand_matrix: SymmetricSparse,
     pub(super) elastic: Elastic,
     pub(super) order: StaticOrder,
     /// Estimate of the squared frequency of the lowest bending mode, for scenes with beams [1/time²].
@@ -41,37 +41,37 @@ fn squared_frequencies(
 }
 
 /// Stiffness of a model as a matrix and in factored form.
-struct Restoring {
-    stiffness: PreciseBand,
+struct StaticStiffness {
+    matrix: PreciseBand,
     elastic: Elastic,
 }
 
-impl Restoring {
+impl StaticStiffness {
     fn of_spans(
         model: &System,
         order: &StaticOrder,
         look: &mut dyn FnMut(&[usize], &SpanStiffness),
     ) -> Self {
-        let mut stiffness = PreciseBand::zeros(order.count(), order.half_bandwidth());
+        let mut matrix = PreciseBand::zeros(order.count(), order.half_bandwidth());
         let mut elastic = Elastic::default();
         model.for_each_static_span(order, &mut |degrees, span| {
-            add_resistance(&mut stiffness, degrees, span);
+            add_resistance(&mut matrix, degrees, span);
             elastic.add(order.count(), degrees, span);
             look(degrees, span);
         });
-        Self { stiffness, elastic }
+        Self { matrix, elastic }
     }
 
     /// Adds the constraints, whose penalty stiffness is a multiple of the largest of the stiffnesses `own`.
     fn add_constraints(&mut self, model: &System, order: &StaticOrder, own: &[f64]) {
         model.for_each_static_constraint(order, |at| own[at], &mut |degrees, span| {
-            add_resistance(&mut self.stiffness, degrees, span);
+            add_resistance(&mut self.matrix, degrees, span);
             self.elastic.add(order.count(), degrees, span);
         });
     }
 
     fn is_finite(&self) -> bool {
-        (0..self.stiffness.size()).all(|at| self.stiffness.diagonal(at).is_finite())
+        (0..self.matrix.size()).all(|at| self.matrix.diagonal(at).is_finite())
     }
 }
 
@@ -83,47 +83,49 @@ impl Pencil {
         let bending = model.slowest_bending();
         let masses: Vec<f64> = (0..size).map(|at| inertia.diagonal(at)).collect();
         let mut slowest = f64::INFINITY;
-        let mut restoring = Restoring::of_spans(model, &order, &mut |degrees, span| {
-            if bending.is_none() {
-                slowest = squared_frequencies(&masses, degrees, span).fold(slowest, f64::min);
-            }
-        });
+        let mut static_stiffness =
+            StaticStiffness::of_spans(model, &order, &mut |degrees, span| {
+                if bending.is_none() {
+                    slowest = squared_frequencies(&masses, degrees, span).fold(slowest, f64::min);
+                }
+            });
         // Without stiffness, all frequencies are zero and any scale may be used.
         let of_springs = || Some(slowest / size as f64).filter(|scale| scale.is_finite());
         let scale = bending.or_else(of_springs).unwrap_or(1.0);
         let own: Vec<f64> = (0..size)
-            .map(|at| restoring.stiffness.diagonal(at).abs() + scale * masses[at])
+            .map(|at| static_stiffness.matrix.diagonal(at).abs() + scale * masses[at])
             .collect();
-        restoring.add_constraints(model, &order, &own);
-        let is_finite = restoring.is_finite() && masses.iter().all(|mass| mass.is_finite());
+        static_stiffness.add_constraints(model, &order, &own);
+        let is_finite = static_stiffness.is_finite() && masses.iter().all(|mass| mass.is_finite());
         let finite = masses.iter().filter(|mass| **mass > 0.0).count();
         let finite = finite.saturating_sub(model.constrained_movements(&order, &inertia));
         if !is_finite || !scale.is_normal() {
             return Err(VibrationError::NotFinite);
         }
-        let Restoring { stiffness, elastic } = restoring;
-        Ok(Self { stiffness, inertia, elastic, order, scale, finite })
+        let StaticStiffness { matrix: stiffness, elastic } = static_stiffness;
+        Ok(Self { stiffness, right_hand_matrix: inertia, elastic, order, scale, finite })
     }
 
-    /// Eigenvalue problem `K φ = λ G φ` of buckling. The matrix `G` is zero at first; see [`with_decrease`](Self::with_decrease).
+    /// Eigenvalue problem of buckling. The matrix `B` is zero until it is set by [`with_right_hand_matrix`](Self::with_right_hand_matrix),
+    /// because the section forces for `B` are computed with the stiffness.
     pub(super) fn of_stiffness(model: &System) -> Result<Self, VibrationError> {
         let order = model.static_order();
-        let mut restoring = Restoring::of_spans(model, &order, &mut |_, _| ());
+        let mut static_stiffness = StaticStiffness::of_spans(model, &order, &mut |_, _| ());
         let own: Vec<f64> =
-            (0..order.count()).map(|at| restoring.stiffness.diagonal(at).abs()).collect();
-        restoring.add_constraints(model, &order, &own);
-        if !restoring.is_finite() {
+            (0..order.count()).map(|at| static_stiffness.matrix.diagonal(at).abs()).collect();
+        static_stiffness.add_constraints(model, &order, &own);
+        if !static_stiffness.is_finite() {
             return Err(VibrationError::NotFinite);
         }
-        let Restoring { stiffness, elastic } = restoring;
-        let inertia = SymmetricSparse::new(order.count(), |_| ());
+        let StaticStiffness { matrix: stiffness, elastic } = static_stiffness;
+        let right_hand_matrix = SymmetricSparse::new(order.count(), |_| ());
         let finite = order.count();
-        Ok(Self { stiffness, inertia, elastic, order, scale: 0.0, finite })
+        Ok(Self { stiffness, right_hand_matrix, elastic, order, scale: 0.0, finite })
     }
 
-    /// Replaces the matrix on the right-hand side by the decrease of the stiffness with the load factor.
-    pub(super) fn with_decrease(self, decrease: SymmetricSparse) -> Self {
-        Self { inertia: decrease, ..self }
+    /// Replaces the matrix `B`.
+    pub(super) fn with_right_hand_matrix(self, right_hand_matrix: SymmetricSparse) -> Self {
+        Self { right_hand_matrix, ..self }
     }
 
     /// Approximate memory for the eigenvalue problem of a model [bytes].
@@ -145,24 +147,24 @@ impl Pencil {
         vec![[0.0; STRIP_WIDTH]; self.length()]
     }
 
-    /// Factors of the stiffness plus `shift` times the inertia; `None` if the sum is not positive definite.
+    /// Factors of `K + shift B`; `None` if the sum is not positive definite.
     pub(super) fn factors(&self, shift: f64) -> Option<SymmetricFactors> {
-        let factors = self.stiffness.factorise(shift, &self.inertia).ok()?;
+        let factors = self.stiffness.factorise(shift, &self.right_hand_matrix).ok()?;
         (factors.pivots().negative == 0).then_some(factors)
     }
 
-    /// Number of modes whose squared frequency is below `square`; `None` if the elimination is not reliable.
-    /// The number of modes follows from the signs of pivots (Sylvester's law of inertia).
-    pub(super) fn modes_below(&self, square: f64) -> Option<usize> {
-        match self.stiffness.pivots(-square, &self.inertia) {
+    /// Number of eigenvalues below `value`, for buckling the number between 0 and `value`; `None` if the elimination is not reliable.
+    /// The number follows from the signs of pivots (Sylvester's law of inertia).
+    pub(super) fn eigenvalues_below(&self, value: f64) -> Option<usize> {
+        match self.stiffness.pivots(-value, &self.right_hand_matrix) {
             Ok(pivots) if pivots.growth <= MOST_GROWTH => Some(pivots.negative),
             Ok(_) | Err(LinearError::Singular { .. } | LinearError::NotFinite { .. }) => None,
         }
     }
 
-    pub(super) fn inertia_times(&self, x: &[FourVectors]) -> Vec<FourVectors> {
+    pub(super) fn right_hand_times(&self, x: &[FourVectors]) -> Vec<FourVectors> {
         let mut product = self.zeros();
-        self.inertia.times(x, &mut product);
+        self.right_hand_matrix.times(x, &mut product);
         product
     }
 }

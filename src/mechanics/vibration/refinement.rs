@@ -20,7 +20,8 @@ const WIDE: f64 = 1e7;
 
 pub(super) struct RefinedPair {
     pub(super) square: f64,
-    /// Upper bound of the relative error of the squared frequency plus the shift [-], without the rounding error of the squared frequency.
+    /// Square root of the energy of the next correction, divided by that of the shape [-].
+    /// The residual bounds the relative error of `ω² + σ`, which is about the square of the residual if no other eigenvalue is near.
     pub(super) residual: f64,
     /// Rounding error of the squared frequency `ω²` due to the rounding of displacements [1/time²].
     pub(super) rounding: f64,
@@ -65,7 +66,7 @@ fn each_strip(
     make_sure: impl Fn(&OtherPairs<'_>, usize, &mut Shapes) -> [RefinedPair; STRIP_WIDTH],
 ) -> Result<Vec<RefinedPair>, VibrationError> {
     let momenta: Vec<Vec<FourVectors>> =
-        strips.iter().map(|strip| pencil.inertia_times(strip)).collect();
+        strips.iter().map(|strip| pencil.right_hand_times(strip)).collect();
     let all = OtherPairs { pencil, shift, strips, momenta: &momenta, values };
     let mut room = pencil.elastic.room(pencil.length());
     let mut sure = Vec::with_capacity(count + STRIP_WIDTH);
@@ -157,7 +158,7 @@ impl OtherPairs<'_> {
             }
             let energies = pencil.elastic.correct(shapes, &correction);
             std::mem::swap(&mut old, &mut momenta);
-            pencil.inertia.times(&shapes.movements, &mut momenta);
+            pencil.right_hand_matrix.times(&shapes.movements, &mut momenta);
             let kinetic = self.kinetic(shapes, &momenta);
             let mut changed = [0.0; STRIP_WIDTH];
             for ((m, old), by) in momenta.iter().zip(&old).zip(&correction) {

@@ -136,7 +136,7 @@ impl SymmetricOperator for ShiftedInverse<'_> {
     }
 
     fn metric_times(&self, x: &VectorStrip, product: &mut VectorStrip) {
-        self.pencil.inertia.times(x, product);
+        self.pencil.right_hand_matrix.times(x, product);
     }
 
     fn images(&self, momenta: &mut VectorStrip) {
@@ -159,7 +159,7 @@ pub(super) fn counted_pairs(
         // The search must have found all pairs with smaller frequencies than the last requested pair.
         let below = 1.0 / pairs.values[count - 1] * (1.0 - EQUAL) - shift;
         let found = pairs.values.iter().filter(|value| 1.0 / *value - shift < below).count();
-        match pencil.modes_below(below) {
+        match pencil.eigenvalues_below(below) {
             None => return Err(VibrationError::Uncounted),
             Some(there) if there <= found => return Ok(pairs),
             Some(there) => wanted = there.max(count),

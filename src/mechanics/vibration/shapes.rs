@@ -76,8 +76,7 @@ impl ModeShapes {
         }
     }
 
-    /// Largest displacement of a control point in a shape, in the scale of the shape.
-    pub(crate) fn largest(&self, shape: usize) -> f64 {
+    fn largest(&self, shape: usize) -> f64 {
         let points = self.displacements[shape].iter().flatten();
         points.map(|by| by.norm()).fold(0.0, f64::max)
     }

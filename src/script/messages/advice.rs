@@ -8,7 +8,6 @@ use crate::loads::LoadError;
 use crate::simulation::{ArchiveError, DerivativeError, SimulationError};
 use crate::statics::{BucklingError, InTime, NonlinearPart, StaticsError, StepFailure};
 use crate::system::{Approach, SliderError, SystemError, TrackError, Turning};
-use crate::vibration::VibrationError;
 
 /// Hint for an error or for one of its causes; `None` if there is none.
 pub fn hint_for(error: &(dyn Error + 'static)) -> Option<String> {
@@ -159,24 +158,27 @@ fn statics_hint(error: &StaticsError) -> Option<String> {
 fn buckling_hint(error: &BucklingError) -> Option<String> {
     let advice = match error {
         BucklingError::Statics(error) => return statics_hint(error),
-        BucklingError::Modes(VibrationError::FewCriticalLoads { available: 0, .. }) => {
-            "the option load_factor: -1 reverses the loads"
+        BucklingError::FewCriticalLoads { available: 0, .. } => {
+            "load_factor: -1 reverses the loads"
         }
-        BucklingError::Modes(VibrationError::FewCriticalLoads { .. }) => {
-            "request fewer, or use a finer mesh"
+        BucklingError::FewCriticalLoads { .. } => {
+            "request at most the number that was found, or use a finer mesh"
         }
-        BucklingError::Modes(_) => return None,
+        BucklingError::Modes(_)
+        | BucklingError::InaccurateLoad { .. }
+        | BucklingError::Uncounted
+        | BucklingError::NotConverged { .. } => return None,
         BucklingError::Mechanism { .. } => {
-            "fix it with scene.clamp(…) or scene.hinge(…), or add a spring; parts that only \
-            their loads hold have no critical load, but scene.equilibrium().is_stable"
+            "fix it with scene.clamp(…) or scene.hinge(…), or add a spring; for a part that is \
+            held only by its loads, use scene.equilibrium().is_stable"
         }
         BucklingError::Unstable { .. } => "reduce the prestress of its springs",
         BucklingError::NoLoad { .. } => {
-            "add a load or gravity; loads are evaluated at one time: select it with the option time"
+            "add a load or gravity, or select a time at which a load acts with the option time"
         }
         BucklingError::Follower { .. } => {
             "give the load a fixed direction, or simulate the motion after a small disturbance: \
-            it grows beyond the critical load"
+            above the critical load the disturbance grows"
         }
         BucklingError::Unavailable { reason: NonlinearPart::Drive, .. } => {
             "replace it by a support and a load"

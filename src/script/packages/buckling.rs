@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use rhai::{Array, Dynamic, INT};
+use rhai::{Dynamic, INT};
 
 use super::error_estimates::ERROR_ESTIMATE;
-use super::modes::{assemble, displacement_in, expect_room};
+use super::modes::{assemble, displacement_in, expect_room, numbers_of};
 use super::scenes::{SCENE, STATION};
 use super::vectors::VECTOR;
 use crate::output::{Cell, TextTable, significant};
@@ -28,8 +28,8 @@ use crate::vibration::{CriticalLoad, VibrationError};
 
 pub const TABLE: BindingTable = BindingTable {
     name: "buckling",
-    doc: "Linear buckling: load factors at which a scene loses its stiffness, such as Euler's \
-        load of a column, and buckling shapes, in ascending order.",
+    doc: "Critical load factors and buckling shapes of a scene by linear buckling, in ascending \
+        order of the factors. An example is Euler's load of a column.",
     types: &[BUCKLING],
     setup: COLUMN,
     constants: &[],
@@ -41,13 +41,15 @@ pub const TABLE: BindingTable = BindingTable {
             .doc(
                 "At a critical factor λ the stiffness K + λ K_g of the undeformed scene is \
                 singular; K_g is the geometric stiffness of the section forces that the loads \
-                and gravity cause to first order. All loads are multiplied by λ, prestress is \
-                not. Only positive λ are found; load_factor: -1 reverses the loads. \
-                Displacements before buckling are neglected: a note reports large ones, as of \
-                shallow arches, whose snap-through needs scene.equilibrium(#{ control: \
-                arc_length() }). Parts that move freely without loads, follower loads, \
-                contacts, sleeves and prescribed motions are refused with an error. Springs \
-                keep their stiffness without loads.",
+                and gravity cause to first order. Loads and gravity are multiplied by λ; \
+                prestress is not. Only positive λ are found; load_factor: -1 reverses the \
+                loads. Critical loads with a strain above 0.5 are omitted. Displacements before \
+                buckling are neglected, and a note reports large ones. For shallow arches, \
+                which snap through, use scene.equilibrium(#{ control: arc_length() }). Parts \
+                that move freely without loads, follower loads, contacts, sleeves and \
+                prescribed motions are refused with an error. The stiffness of a spring is its \
+                stiffness in the configuration without loads. An actuator has its length at the \
+                option `time`.",
             )
             .example(
                 "let b = scene.buckling(3);\nprint(b);\n\
@@ -218,7 +220,5 @@ fn buckling(call: &Call) -> Result<BucklingHandle, ScriptError> {
 }
 
 fn list(call: &Call, read: fn(&CriticalLoad) -> f64) -> Result<Dynamic, ScriptError> {
-    let all = buckling(call)?;
-    let values = all.buckling().critical().iter().map(read).map(Dynamic::from);
-    Ok(values.collect::<Array>().into())
+    Ok(numbers_of(buckling(call)?.buckling().critical(), read))
 }

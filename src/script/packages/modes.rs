@@ -386,6 +386,9 @@ fn modes(call: &Call) -> Result<ModesHandle, ScriptError> {
 }
 
 fn list(call: &Call, read: fn(&Mode) -> f64) -> Result<Dynamic, ScriptError> {
-    let values = modes(call)?.0.modes.all().iter().map(read).map(Dynamic::from).collect::<Array>();
-    Ok(values.into())
+    Ok(numbers_of(modes(call)?.0.modes.all(), read))
+}
+
+pub(super) fn numbers_of<T>(all: &[T], read: fn(&T) -> f64) -> Dynamic {
+    all.iter().map(read).map(Dynamic::from).collect::<Array>().into()
 }

@@ -267,7 +267,7 @@ impl RigidLink {
         span.rounding_fractions.clear();
         span.rounding_fractions.push(0.0);
         span.second_derivatives.clear();
-        span.bent_strains.clear();
+        span.second_derivative_strains.clear();
         for (strain, along) in [self.arm().x, self.arm().y].into_iter().enumerate() {
             let p = [0.0, 0.0, 0.0, 0.0, 0.5 * along];
             span.add_second_derivative(strain, &p, &[0.0, 0.0, 0.0, 0.0, 1.0]);

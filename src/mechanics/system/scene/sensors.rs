@@ -15,8 +15,8 @@ use crate::system::{Element, Quantity, RigidBodyDefinition, Sensor, SensorSource
 /// Word for a sensor in messages: each sensor is a column of the history.
 const COLUMN: &str = "column";
 
-/// End of the name of a sensor that only stations have.
-const ABSCISSA: &str = ".x";
+/// Ending of the sensor of the x coordinate, which only stations have.
+const X_COLUMN: &str = ".x";
 
 struct Place<'s> {
     object: Cow<'s, str>,
@@ -100,7 +100,7 @@ impl Scene {
 
     /// Station with a name as in the names of sensors, such as `rod.end`, `rod[0.5]`, `bead` or `hub.pin`; `None` if there is none.
     pub fn station_named(&self, name: &str) -> Option<Station> {
-        match self.find_sensor(&format!("{name}{ABSCISSA}")) {
+        match self.find_sensor(&format!("{name}{X_COLUMN}")) {
             Ok((SensorSource::Station(station), _)) => Some(station),
             _ => None,
         }
@@ -109,7 +109,7 @@ impl Scene {
     /// Names of all stations. Of each beam, only the start, middle and end are listed.
     pub fn station_names(&self) -> Vec<String> {
         let names = self.sensor_names().into_iter();
-        names.filter_map(|name| Some(name.strip_suffix(ABSCISSA)?.to_owned())).collect()
+        names.filter_map(|name| Some(name.strip_suffix(X_COLUMN)?.to_owned())).collect()
     }
 
     /// Names of the joints for sensors, in the order of the joints: `hinge1`, `clamp1`, `hinge2`, `rigid1`, `support1`.

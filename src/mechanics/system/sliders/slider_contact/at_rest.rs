@@ -169,10 +169,14 @@ impl SliderContact {
             return self.sleeve_stiffness(bodies, own, rigid, take);
         }
         let degrees = self.static_coupling(bodies, own);
-        let (width, last) = (degrees.len(), degrees.len() - 1);
+        take(&degrees, &self.sliding_stiffness(bodies, degrees.len(), rigid));
+    }
+
+    fn sliding_stiffness(&self, bodies: &[Body], width: usize, rigid: f64) -> SpanStiffness {
+        let last = width - 1;
         let force = self.force_of_state();
         let slides = if self.is_sliding() { 1.0 } else { 0.0 };
-        let (compliance, slope, bend) = self
+        let (compliance, slope, curvature) = self
             .kinked_axis
             .as_ref()
             .map_or((0.0, Vec2::zeros(), 0.0), KinkedAxis::static_compliance);
@@ -188,26 +192,26 @@ impl SliderContact {
             }
             row[last] = -component;
         }
-        let by_way = |force: Vec2, bend: f64| {
+        let slope_row = |force: Vec2, curvature: f64| {
             let mut row = vec![0.0; width];
             for (at, slope) in self.start_path.slope().iter().enumerate() {
                 (row[2 + 2 * at], row[3 + 2 * at]) = (-slope * force.x, -slope * force.y);
             }
-            row[last] = -0.5 * (force.dot(&self.bend(bodies)) + bend);
+            row[last] = -0.5 * (force.dot(&self.bend(bodies)) + curvature);
             row
         };
-        let mut way = vec![0.0; width];
-        way[last] = slides;
+        let mut slide_row = vec![0.0; width];
+        slide_row[last] = slides;
         let mut span = SpanStiffness {
             strains,
             stiffness: vec![1.0 / (compliance + 1.0 / rigid); 2],
-            twists: [by_way(force, bend), way.clone()].concat(),
+            twists: [slope_row(force, curvature), slide_row.clone()].concat(),
             rounding_fractions: vec![0.0],
             ..SpanStiffness::default()
         };
         for (strain, axis) in [Vec2::x(), Vec2::y()].into_iter().enumerate() {
-            span.add_second_derivative(strain, &by_way(axis, 0.0), &way);
+            span.add_second_derivative(strain, &slope_row(axis, 0.0), &slide_row);
         }
-        take(&degrees, &span);
+        span
     }
 }
