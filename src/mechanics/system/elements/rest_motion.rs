@@ -115,7 +115,7 @@ impl RestMotion {
         Ok(())
     }
 
-    /// Prepares a static increment, in which the rest length or rest angle is constant.
+    /// Prepares a static increment, or a step after the release of the spring. The rest length or rest angle is then constant.
     pub fn begin_movement(&mut self) {
         self.in_step = MotionInStep::default();
     }

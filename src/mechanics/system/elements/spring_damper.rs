@@ -160,7 +160,11 @@ impl InternalForce for SpringDamper {
         _bodies: &[Body],
         _rates: &[f64],
     ) -> Result<(), LoadError> {
-        self.elongation.rest.iter_mut().try_for_each(|rest| rest.begin_step(interval))?;
+        match (&mut self.elongation.rest, &self.released) {
+            (Some(rest), None) => rest.begin_step(interval)?,
+            (Some(rest), Some(_)) => rest.begin_movement(),
+            (None, _) => (),
+        }
         self.step_force = [0.0; 2];
         self.duration = interval.duration();
         self.spring.begin_step();
