@@ -550,12 +550,13 @@ class Scene(Object):
         """Computes the smallest critical load factors and buckling shapes (linear stability,
         eigenvalue buckling). At a critical factor λ the stiffness K + λ K_g of the undeformed scene
         is singular; K_g is the geometric stiffness of the section forces that the loads and gravity
-        cause to first order. All loads are multiplied by λ, prestress is not. Only positive λ are
-        found; load_factor: -1 reverses the loads. Displacements before buckling are neglected: a
-        note reports large ones, as of shallow arches, whose snap-through needs scene.equilibrium(#{
-        control: arc_length() }). Parts that move freely without loads, follower loads, contacts,
-        sleeves and prescribed motions are refused with an error. Springs keep their stiffness
-        without loads."""
+        cause to first order. Loads and gravity are multiplied by λ; prestress is not. Only positive
+        λ are found; load_factor: -1 reverses the loads. Critical loads with a strain above 0.5 are
+        omitted. Displacements before buckling are neglected, and a note reports large ones. For
+        shallow arches, which snap through, use scene.equilibrium(#{ control: arc_length() }). Parts
+        that move freely without loads, follower loads, contacts, sleeves and prescribed motions are
+        refused with an error. The stiffness of a spring is its stiffness in the configuration
+        without loads. An actuator has its length at the option `time`."""
     def start(
         self,
         *,
