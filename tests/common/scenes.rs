@@ -224,9 +224,14 @@ pub fn towed(mesh: &Mesh) -> Scene {
     scene
 }
 
-/// Adds a spring with a parallel damper.
-pub fn spring(scene: &mut Scene, kind: SpringKind, law: SpringLaw, damping: f64) {
-    let (name, law) = (scene.free_name("spring"), Some(law));
+/// Adds a spring with a parallel damper. A law of `None` adds a damper.
+pub fn spring(
+    scene: &mut Scene,
+    kind: SpringKind,
+    law: impl Into<Option<SpringLaw>>,
+    damping: f64,
+) {
+    let (name, law) = (scene.free_name("spring"), law.into());
     scene
         .add_spring(Spring {
             name,

@@ -390,9 +390,7 @@ fn drives_start_from_an_equilibrium_as_from_a_scene_at_rest() {
     let half = Loading { factor: 0.5, ..later };
     let refused = Simulation::start_at_rest(&rest(half), dynamics).err().unwrap().to_string();
     assert!(
-        refused.contains(
-            "has the prescribed motion 'move1' at 0.5, but its function gives 1 at t = 2"
-        ),
+        refused.contains("has 'move1' at 0.5, but its function of time gives 1 at t = 2"),
         "{refused}"
     );
 }

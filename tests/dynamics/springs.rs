@@ -20,17 +20,7 @@ fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
 }
 
 fn add(scene: &mut Scene, anchors: Vec<Anchor>, law: Option<SpringLaw>, damping: f64) {
-    let (name, kind) = (scene.free_name("spring"), SpringKind::Length(anchors));
-    scene
-        .add_spring(Spring {
-            name,
-            kind,
-            law,
-            origin: Origin::Zero,
-            damping: damping.into(),
-            rest: None,
-        })
-        .unwrap();
+    scenes::spring(scene, SpringKind::Length(anchors), law, damping);
 }
 
 /// Mass of 2 on a spring along x, elongated by `stretch`, with a parallel damper.

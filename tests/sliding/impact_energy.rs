@@ -1,7 +1,7 @@
 //! Energy of impacts at ends of masters: no impact adds energy, for any restitution and any transverse velocities of the masters.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::scenes::{add_beam, line};
+use crate::common::scenes::{add_beam, line, spring};
 use crate::common::sliding::{particle, slider};
 use crate::common::{Random, at, run, settings, simulate, wild_scenes};
 use withy::beams::{Mesh, Section, Station};
@@ -9,7 +9,7 @@ use withy::geometry::Vec2;
 use withy::integrators::Method;
 use withy::joints::{EndAction, JointKind, Partner, Slider, SlidingRule};
 use withy::simulation::{Invariant, Simulation};
-use withy::system::{Anchor, Origin, Scene, Spring, SpringKind, SpringLaw, StationVelocity};
+use withy::system::{Anchor, Scene, SpringKind, SpringLaw, StationVelocity};
 
 const METHOD: Method = Method::EnergyMomentum;
 
@@ -66,16 +66,7 @@ fn shaken_beam(frame: Frame) -> Scene {
     let anchor = frame.of(0.37296931876985373, -0.9130991141538056);
     let anchors = [Anchor::Station(heavy), Anchor::Ground(anchor)];
     let law = SpringLaw::Linear { stiffness: 10.761360181776588, natural: 0.5134823917046583 };
-    scene
-        .add_spring(Spring {
-            name: "spring".to_owned(),
-            kind: SpringKind::Length(anchors.into()),
-            law: Some(law),
-            origin: Origin::Zero,
-            damping: 0.0.into(),
-            rest: None,
-        })
-        .unwrap();
+    spring(&mut scene, SpringKind::Length(anchors.into()), law, 0.0);
     scene
 }
 

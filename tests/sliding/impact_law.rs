@@ -2,26 +2,17 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::rails::bead;
-use crate::common::scenes::{add_beam, line, start_of};
+use crate::common::scenes::{self, add_beam, line, start_of};
 use crate::common::tracks::{self, hold, section, track};
 use crate::common::{at, run, settings, simulate};
 use withy::beams::{Mesh, Section};
 use withy::integrators::Method;
 use withy::joints::{Components, EndAction, JointKind, Partner, TrackEnd};
 use withy::simulation::{ArrivalKind, Invariant, Simulation};
-use withy::system::{Anchor, Origin, Scene, Spring, SpringKind, SpringLaw};
+use withy::system::{Anchor, Scene, SpringKind, SpringLaw};
 
 fn spring(scene: &mut Scene, kind: SpringKind, stiffness: f64, natural: f64, damping: f64) {
-    let (name, law) = (scene.free_name("spring"), SpringLaw::Linear { stiffness, natural });
-    let spring = Spring {
-        name,
-        kind,
-        law: Some(law),
-        origin: Origin::Zero,
-        damping: damping.into(),
-        rest: None,
-    };
-    scene.add_spring(spring).unwrap();
+    scenes::spring(scene, kind, SpringLaw::Linear { stiffness, natural }, damping);
 }
 
 fn assert_kept(simulation: &Simulation, tolerance: f64) {

@@ -1,7 +1,7 @@
 //! Static friction of sliders: stick–slip of a block on a belt, and the start of a slip.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::scenes::{add_beam, line};
+use crate::common::scenes::{add_beam, line, spring};
 use crate::common::sliding::{STIFF, moving_particle};
 use crate::common::{at, orders, run, sci, settings};
 use withy::beams::{Mesh, Section};
@@ -10,9 +10,7 @@ use withy::integrators::Method;
 use withy::joints::{JointKind, Partner, Slider};
 use withy::loads::{LoadFrame, LoadKind, PrescribedMotion, Schedule};
 use withy::simulation::{Invariant, Simulation};
-use withy::system::{
-    Anchor, Drive, DriveKind, Origin, Scene, Spring, SpringKind, SpringLaw, StartMotion,
-};
+use withy::system::{Anchor, Drive, DriveKind, Scene, SpringKind, SpringLaw, StartMotion};
 
 const WEIGHT: f64 = 9.81;
 const STIFFNESS: f64 = 20.0;
@@ -41,18 +39,8 @@ fn belt(friction: f64, static_friction: f64) -> Scene {
     scene.gravity = at(0.0, -WEIGHT);
     let block = moving_particle(&mut scene, Vec2::zeros(), velocity, 1.0);
     let anchors = vec![Anchor::Ground(at(-10.0, 0.0)), Anchor::Station(block)];
-    let law = Some(SpringLaw::Linear { stiffness: STIFFNESS, natural: 10.0 });
-    let (name, kind) = ("spring".to_owned(), SpringKind::Length(anchors));
-    scene
-        .add_spring(Spring {
-            name,
-            kind,
-            law,
-            origin: Origin::Zero,
-            damping: 0.0.into(),
-            rest: None,
-        })
-        .unwrap();
+    let law = SpringLaw::Linear { stiffness: STIFFNESS, natural: 10.0 };
+    spring(&mut scene, SpringKind::Length(anchors), law, 0.0);
     let slider = Slider::new("slider1", block, rod, 6.0);
     let static_friction = Some(static_friction);
     scene.add_slider(Slider { friction, static_friction, ..slider }).unwrap();

@@ -8,7 +8,7 @@ use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{ArcLength, Control, Equilibrium, Loading, StaticsError};
-use withy::system::{Anchor, Origin, Scene, Spring, SpringKind, SpringLaw, System};
+use withy::system::{Anchor, Scene, SpringKind, SpringLaw, System};
 use withy::vibration::Modes;
 
 const GRAVITY: f64 = 9.81;
@@ -28,18 +28,8 @@ fn lamp(stiffness: f64) -> Scene {
     let body = add_body(&mut scene, at(0.8, 0.0), 0.0, (1.0, 0.2), &[at(-0.8, 0.0), at(0.5, 0.3)]);
     hinge(&mut scene, point(body, 1), None);
     let ends = [Anchor::Ground(at(0.0, 0.0)), Anchor::Station(point(body, 1))];
-    let law = Some(SpringLaw::Linear { stiffness, natural: 0.0 });
-    let (name, kind) = ("spring".to_owned(), SpringKind::Torsion(ends));
-    scene
-        .add_spring(Spring {
-            name,
-            kind,
-            law,
-            origin: Origin::Zero,
-            damping: 0.0.into(),
-            rest: None,
-        })
-        .unwrap();
+    let law = SpringLaw::Linear { stiffness, natural: 0.0 };
+    scenes::spring(&mut scene, SpringKind::Torsion(ends), law, 0.0);
     scene.gravity = at(0.0, -GRAVITY);
     scene
 }

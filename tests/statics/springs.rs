@@ -1,33 +1,18 @@
 //! Springs in equilibria and vibration modes, compared with closed forms.
 #![allow(clippy::unwrap_used)]
 
-use crate::common::{at, scenes};
+use crate::common::at;
+use crate::common::scenes::{self, spring};
 use withy::beams::{Mesh, Section};
 use withy::integrators::Mechanism;
 use withy::joints::{JointKind, Partner};
 use withy::loads::{LoadFrame, LoadKind, Schedule};
 use withy::statics::{Equilibrium, Loading};
-use withy::system::{
-    Anchor, Origin, ParticleDefinition, Scene, Spring, SpringKind, SpringLaw, System,
-};
+use withy::system::{Anchor, ParticleDefinition, Scene, SpringKind, SpringLaw, System};
 use withy::vibration::{Mode, Modes};
 
 fn linear(stiffness: f64, natural: f64) -> Option<SpringLaw> {
     Some(SpringLaw::Linear { stiffness, natural })
-}
-
-fn add(scene: &mut Scene, kind: SpringKind, law: Option<SpringLaw>, damping: f64) {
-    let name = scene.free_name("spring");
-    scene
-        .add_spring(Spring {
-            name,
-            kind,
-            law,
-            origin: Origin::Zero,
-            damping: damping.into(),
-            rest: None,
-        })
-        .unwrap();
 }
 
 /// Slender cantilever of length 2 along x.
@@ -60,7 +45,7 @@ fn a_spring_below_the_tip_shares_its_load() {
         // A spring that is long compared with the deflection keeps its direction. It is initially unstrained.
         let below = Anchor::Ground(at(2.0, -1.0));
         let way = SpringKind::Length(vec![below, Anchor::Station(tip)]);
-        add(&mut scene, way, linear(stiffness, 1.0), 0.0);
+        spring(&mut scene, way, linear(stiffness, 1.0), 0.0);
         let always = Schedule::constant(1.0).unwrap();
         let down = 1e-4 * (3.0 * 5.0 / 8.0 + stiffness);
         let force = LoadKind::Force { station: tip, force: at(0.0, -down), frame: LoadFrame::Dead };
@@ -77,7 +62,7 @@ fn a_spring_below_the_tip_shares_its_load() {
 fn a_torsion_spring_turns_the_tip_back() {
     let (mut scene, tip) = cantilever();
     let kind = SpringKind::Torsion([Anchor::Ground(at(0.0, 0.0)), Anchor::Station(tip)]);
-    add(&mut scene, kind, linear(4.0, 0.0), 0.0);
+    spring(&mut scene, kind, linear(4.0, 0.0), 0.0);
     scene
         .add_load(LoadKind::Moment { station: tip, moment: 0.3 }, Schedule::constant(1.0).unwrap());
     // Pure bending by the moment that the spring does not carry: θ = M L/EI, for any rotation.
@@ -92,7 +77,7 @@ fn hanging_mass_on_a_spring_has_its_equilibrium_independent_of_dampers() {
     let pan = Anchor::Station(scene.add_particle(pan, 3.0).unwrap());
     let from = |x: f64| SpringKind::Length(vec![Anchor::Ground(at(x, 0.0)), pan]);
     // The initial tension of the spring stabilises the lateral motion.
-    add(&mut scene, from(0.0), linear(50.0, 0.9), 7.0);
+    spring(&mut scene, from(0.0), linear(50.0, 0.9), 7.0);
     scene.gravity = at(0.0, -9.81);
     let rest = rest(scene);
     let place = rest.model().control_points().next().unwrap()[0];
@@ -113,7 +98,7 @@ fn mass_between_tensioned_springs_has_exact_frequencies() {
     let bead = Anchor::Station(scene.add_particle(bead, 2.0).unwrap());
     for x in [-1.0, 1.0] {
         let way = SpringKind::Length(vec![Anchor::Ground(at(x, 0.0)), bead]);
-        add(&mut scene, way, linear(40.0, 0.5), 0.0);
+        spring(&mut scene, way, linear(40.0, 0.5), 0.0);
     }
     let found = frequencies(&System::assemble(&scene).unwrap());
     let expected = [(2.0 * 20.0 / 2.0_f64).sqrt(), (2.0 * 40.0 / 2.0_f64).sqrt()];
@@ -128,7 +113,7 @@ fn beam_with_a_tip_spring_has_the_exact_lowest_frequency() {
     for stiffness in [0.1, 10.0, 1e7] {
         let (mut scene, tip) = cantilever();
         let way = SpringKind::Length(vec![Anchor::Ground(at(2.0, -1e4)), Anchor::Station(tip)]);
-        add(&mut scene, way, linear(stiffness, 1e4), 0.0);
+        spring(&mut scene, way, linear(stiffness, 1e4), 0.0);
         let kappa = stiffness * 8.0 / 5.0;
         let equation = |b: f64| {
             b.powi(3) * (b.cos() * b.cosh() + 1.0)

@@ -68,7 +68,7 @@ const BENT_AT_END: [f64; 5] = [5.0, 12.0 * INNER - 20.0, 18.0, -12.0 * INNER - 2
 /// Largest jump of the rate at a declared break for which the rate counts as continuous, as a fraction of the rate.
 const SMOOTH: f64 = 1e-6;
 
-/// Largest jump of a prescribed position at a declared break that counts as zero, as a fraction of the position plus the size of the body.
+/// Largest jump of a prescribed position at a declared break that counts as zero, as a fraction of the position plus a reference length or angle [-].
 const LARGEST_JUMP: f64 = 1e-9;
 
 /// Bound of the rounding error of a rate, as a multiple of the rounding error of the values from which the rate is computed.
@@ -189,7 +189,7 @@ impl PrescribedMotion {
     }
 
     /// First jump of a prescribed position at the breaks that its schedule declares; `None` without a jump and for a prescribed rate.
-    /// Jumps of at most 1e-9 of the position plus `size` count as zero [length, rad].
+    /// Jumps of at most 1e-9 times the sum of the position and the reference value `size` [length, rad] count as zero.
     ///
     /// # Errors
     /// Fails if the schedule has no finite value at a break.

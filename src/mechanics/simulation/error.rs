@@ -34,9 +34,9 @@ pub enum SimulationError {
     )]
     TooManySamples { period: f64, dt: f64, most: f64 },
     #[error(
-        "the equilibrium has the prescribed motion '{drive}' at {}, but its function gives {} at t = {time}: the motion would jump", rounded(*rest_position), rounded(*function_value)
+        "the equilibrium has '{name}' at {}, but its function of time gives {} at t = {time}: it would jump", rounded(*at_rest), rounded(*prescribed)
     )]
-    StartMismatch { drive: String, rest_position: f64, function_value: f64, time: f64 },
+    StartMismatch { name: String, at_rest: f64, prescribed: f64, time: f64 },
     #[error(
         "scene '{scene}' has no equilibrium near the given one without the compliance at its sleeves that its mesh does not represent, from which a motion starts: {source}"
     )]

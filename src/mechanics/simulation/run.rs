@@ -35,7 +35,7 @@ use crate::geometry::larger;
 use crate::integrators::{Constraints, Interval, Mechanism, Method};
 use crate::newton::Tolerance;
 use crate::statics::Equilibrium;
-use crate::system::{Scene, System};
+use crate::system::{Scene, StartMismatch, System};
 
 const MOST_DRY_STEPS: usize = 10_000;
 
@@ -102,26 +102,22 @@ impl Simulation {
     }
 
     /// Starts a simulation from an equilibrium with zero velocities, at t = 0.
-    /// If a drive is not at its position for t = 0, the simulation starts at the time for which the equilibrium was computed.
+    /// If a drive or a prescribed rest length does not have its value for t = 0, the simulation starts at the time for which the equilibrium was computed.
     ///
     /// # Errors
-    /// Fails in the same cases as [`start`](Self::start), or if the position of a drive in the equilibrium differs from its function.
+    /// Fails in the same cases as [`start`](Self::start), or if a prescribed value in the equilibrium differs from its function.
     /// Also fails if a scene with sleeves has no equilibrium without the compliance that its meshes do not represent.
     pub fn start_at_rest(
         rest: &Equilibrium,
         settings: SimulationSettings,
     ) -> Result<Self, SimulationError> {
         let scene = rest.scene().clone();
-        let elsewhere = |time| rest.model().drive_elsewhere(rest.path().load_factor(), time);
-        let time = elsewhere(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
-        if let Some((drive, [rests, wanted])) = elsewhere(time) {
-            let drive = drive.to_owned();
-            return Err(SimulationError::StartMismatch {
-                drive,
-                rest_position: rests,
-                function_value: wanted,
-                time,
-            });
+        let factor = rest.path().load_factor();
+        let mismatch = |time| rest.model().first_start_mismatch(factor, time);
+        let time = mismatch(0.0).map_or(0.0, |_| larger(rest.loading().time, 0.0));
+        if let Some((name, StartMismatch { at_rest, prescribed })) = mismatch(time) {
+            let name = name.to_owned();
+            return Err(SimulationError::StartMismatch { name, at_rest, prescribed, time });
         }
         let state = rest.state_in_motion().map_err(|source| {
             let scene = scene.name.clone();

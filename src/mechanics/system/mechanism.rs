@@ -107,7 +107,7 @@ impl System {
     }
 
     pub(super) fn set_rest_lengths(&mut self, time: f64) -> Result<(), (String, LoadError)> {
-        self.elements.set_rests_at(time)
+        self.elements.set_rest_lengths_at(time)
     }
 
     pub(super) fn bodies(&self) -> &Bodies {

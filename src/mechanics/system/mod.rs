@@ -17,7 +17,7 @@ pub use elements::{
     Along, Anchor, BrakeLaw, Branch, ContactMember, ContactState, ContactTarget, DampingLaw, Drag,
     Dragged, Drive, DriveKind, DriveState, Element, LawArgument, LoadAccount, MaterialDamping,
     MotionCurvature, Obstacle, ObstacleShape, Origin, OutsideLaw, PairContact, Penetration,
-    PointMass, PrescribedRest, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw,
+    PointMass, PrescribedRest, ShortBounce, SpeedLaw, Spring, SpringKind, SpringLaw, StartMismatch,
     UnsampledChange,
 };
 pub(crate) use errors::rounded;

@@ -53,8 +53,8 @@ fn simulation_hint(error: &SimulationError) -> Option<String> {
             format!("record \"{joint}.present_{quantity}\"")
         }
         SimulationError::StartMismatch { .. } => {
-            "find the equilibrium under the full loads, load_factor: 1, at a time at which the \
-            drives are there".into()
+            "find the equilibrium with load_factor: 1 at a time at which the functions of drives \
+            and springs have these values".into()
         }
         SimulationError::SleevesAtRest { .. } => "use more spans at the sleeves".into(),
         SimulationError::TooManyArrivals { .. } => "try ends: \"release\" or \"stop\"".into(),

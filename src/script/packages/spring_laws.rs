@@ -26,7 +26,7 @@ pub(super) enum Acts {
     Push,
 }
 
-/// Spring law with the configuration in which its argument is zero.
+/// Options of a spring: law, configuration of zero elongation, and prescribed rest length.
 pub(super) struct ParsedLaw {
     /// Force as a function of the elongation; `None` for a pure damper.
     pub(super) law: Option<SpringLaw>,
@@ -64,22 +64,15 @@ pub(super) fn law(
             (keys, meant(&ACTS, &options.text("acts")?))
         }
     };
-    match prescribed_rest(call, options, keys)? {
-        Some(rest) => {
-            let law = unshifted_law(call, options, keys, acts)?.map(|(law, _)| (law, Origin::Zero));
-            Ok(ParsedLaw { rest: Some(rest), ..law.into() })
-        }
-        None => {
-            let natural = options.optional_number(keys.value);
-            let law = unshifted_law(call, options, keys, acts)?;
-            Ok(law
-                .map(|(law, origin)| match (natural, origin) {
-                    (Some(natural), Origin::AsBuilt) => (law.shifted(natural), Origin::Zero),
-                    _ => (law, origin),
-                })
-                .into())
-        }
-    }
+    let rest = prescribed_rest(call, options, keys)?;
+    let natural = options.optional_number(keys.value);
+    let law =
+        unshifted_law(call, options, keys, acts)?.map(|(law, origin)| match (natural, origin) {
+            _ if rest.is_some() => (law, Origin::Zero),
+            (Some(natural), Origin::AsBuilt) => (law.shifted(natural), Origin::Zero),
+            _ => (law, origin),
+        });
+    Ok(ParsedLaw { rest, ..law.into() })
 }
 
 /// Reads a spring law whose argument is the elongation from the rest length; `None` for a pure damper.
@@ -90,13 +83,14 @@ fn unshifted_law(
     keys: RestKeys,
     acts: Acts,
 ) -> Result<Option<(SpringLaw, Origin)>, ScriptError> {
-    let ease = keys.value;
     if options.has("law") {
         return Ok(Some((sampled(call, options)?, Origin::AsBuilt)));
     }
     if options.has("table") {
         let odd = match acts {
-            Acts::Both => ["stiffness", ease, keys.rate].into_iter().find(|key| options.has(key)),
+            Acts::Both => {
+                ["stiffness", keys.value, keys.rate].into_iter().find(|key| options.has(key))
+            }
             Acts::Pull | Acts::Push => Some("acts"),
         };
         if let Some(odd) = odd {
@@ -109,11 +103,11 @@ fn unshifted_law(
         return Ok(Some((SpringLaw::Table { points }, Origin::Zero)));
     }
     let Some(stiffness) = options.optional_number("stiffness") else {
-        let has_rest = options.has(ease) || options.has(keys.rate);
+        let has_rest = options.has(keys.value) || options.has(keys.rate);
         if damping(call, options)?.is_active() && !has_rest {
             return Ok(None);
         }
-        let hint = format!("give stiffness: a number, or table: [[{ease}, …], …]");
+        let hint = format!("give stiffness: a number, or table: [[{}, …], …]", keys.value);
         return Err(call.error("the stiffness, law or table is missing").hint(hint));
     };
     let side = |before: f64, after: f64| SpringLaw::Table {

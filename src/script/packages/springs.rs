@@ -35,9 +35,9 @@ pub const TABLE: BindingTable = BindingTable {
         constant to rounding with energy_momentum() and fourth_order() for any step size and \
         stiffness. The history has the columns stored and dissipated, and for each spring or \
         damper NAME.length or NAME.angle, NAME.force, stored.NAME and dissipated.NAME. A \
-        length or angle without force that depends on time makes a spring an actuator: a \
-        winch, a cylinder, a muscle or a servo. It has the columns NAME.rest_length or \
-        NAME.rest_angle and work.NAME, the work of the actuator, and scene.record(\"NAME.power\").",
+        spring whose rest length or rest angle is a function of time is an actuator: a winch, \
+        cylinder, muscle or servo. Its columns are NAME.rest_length or NAME.rest_angle, and \
+        work.NAME. scene.record(\"NAME.power\") adds the power.",
     types: &[SPRING],
     setup: "let scene = new_scene(\"example\");\n\
             let s = section(#{ EA: 1e4, GA: 1e4, EI: 100, rho_A: 1, rho_I: 1 });\n\
@@ -62,10 +62,10 @@ pub const TABLE: BindingTable = BindingTable {
             1e-7 of the largest force. The stored energy is the exact integral of this \
             polygon, which files contain. print shows the remaining error. A law that needs \
             more than 20 000 samples, such as one with a jump, is refused with an error. \
-            With a length that depends on time, damping acts on the rate of distance - length, \
-            and the work of the actuator is exactly the force times the decrease of the \
-            length. The length must not jump; length_rate acts in motion only, and an \
-            equilibrium uses the length at its option `time`.")
+            If the rest length depends on time, the damper acts on the rate of the distance \
+            minus the rest length. The work of the actuator is the force times the decrease of \
+            the rest length. The function must not jump. An equilibrium uses the rest length at \
+            its option `time`; length_rate acts in motion only.")
         .example("let s1 = scene.spring(rod.end, bead, #{ stiffness: 100, length: 0.5, damping: 0.5 });\n\
                   scene.spring([2, -2], bead, #{ stiffness: 20, acts: \"pull\" });\n\
                   scene.spring([0, 1], bead, #{ law: |e| 20 * e + 5 * e * e * e, range: [-2, 2] });\n\
@@ -112,8 +112,8 @@ pub const TABLE: BindingTable = BindingTable {
                 or between a section and the ground.")
             .doc("The moment is stiffness · (angle of the second section - angle of the first \
                 section - angle), plus damping · the rate of that difference. Angles are \
-                counted over any number of turns. An angle |t| … that depends on time, or its \
-                angle_rate, makes it a servo with a compliance.")
+                counted over any number of turns. With angle: |t| … or angle_rate the spring is \
+                a servo with a finite stiffness.")
             .example("let arm = scene.beam(#{ axis: line([2, 0], [3, 0]), basis: bspline(4), section: s });\n\
                       scene.hinge(rod.end, arm.start);\n\
                       scene.torsion_spring(rod.end, arm.start, #{ stiffness: 3, damping: 0.1 });\n\
@@ -205,13 +205,13 @@ const SPRING_KEYS: &[Parameter] = &[
     either("length", SCHEDULE_KINDS)
         .unit("length")
         .doc(
-            "length without force, a number or a function of time |t| …; default: the length in \
+            "rest length, which is the length without force: a number or a function of time |t| …; default: the length in \
             the undeformed scene",
         )
         .optional(),
     either("length_rate", SCHEDULE_KINDS)
         .unit("length/time")
-        .doc("rate of the length without force, as of a winch: a number, a function of time |t| … or a controller |t, q| …")
+        .doc("rate of the rest length, as of a winch: a number, a function of time |t| … or a controller |t, q| …")
         .optional(),
     choice("acts", &[ACTS[0].0, ACTS[1].0, ACTS[2].0])
         .doc("direction of the force: \"pull\" for a rope, \"push\" for a bumper")
@@ -246,13 +246,13 @@ const TORSION_KEYS: &[Parameter] = &[
     either("angle", SCHEDULE_KINDS)
         .unit("rad")
         .doc(
-            "angle without moment, a number or a function of time |t| …; to the ground measured from the x axis like sim.angle; \
+            "rest angle, which is the angle without moment: a number or a function of time |t| …; to the ground measured from the x axis like sim.angle; \
             default: the angle in the undeformed scene",
         )
         .optional(),
     either("angle_rate", SCHEDULE_KINDS)
         .unit("rad/time")
-        .doc("rate of the angle without moment: a number, a function of time |t| … or a controller |t, q| …")
+        .doc("rate of the rest angle: a number, a function of time |t| … or a controller |t, q| …")
         .optional(),
     points("table").doc("points [angle, moment] in place of a stiffness").optional(),
     callback("law")

@@ -194,8 +194,11 @@ impl System {
         self.set_time(time);
         self.set_prescribed_motion(time)
             .map_err(|(drive, source)| SystemError::DriveValue { drive, source })?;
-        self.set_rest_lengths(time)
-            .map_err(|(drive, source)| SystemError::DriveValue { drive, source })?;
+        self.set_rest_lengths(time).map_err(|(spring, source)| SystemError::RestValue {
+            spring,
+            name: "length",
+            source,
+        })?;
         self.project_start_velocities(scene)
     }
 

@@ -114,7 +114,7 @@ impl Elements {
     ///
     /// # Errors
     /// Returns the name of the first spring whose function has no finite value, and the error of the function.
-    pub fn set_rests_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
+    pub fn set_rest_lengths_at(&mut self, time: f64) -> Result<(), (String, LoadError)> {
         self.resistances.iter_mut().try_for_each(|spring| {
             spring.set_rest_at(time).map_err(|error| (spring.name().to_owned(), error))
         })

@@ -1,7 +1,7 @@
 //! Interface of elements that resist motion: springs, dampers, brakes, material damping, drag, obstacles and contacts between bodies.
 
 use super::{
-    Branch, ContactState, OutsideLaw, Penetration, ShortBounce, TrialState, UnsampledChange,
+    Branch, ContactState, OutsideLaw, Penetration, RestMotion, ShortBounce, TrialState,
     WorkAndImpulse,
 };
 use crate::beams::{ForceSummary, Movement, SectionPlace, SpanStiffness};
@@ -45,11 +45,6 @@ pub trait InternalForce {
     /// Returns true if the damping force may jump at a time.
     fn may_jump_at(&self, _time: f64) -> bool {
         false
-    }
-
-    /// Largest change of a schedule of the element between the samples of a step; `None` if the steps resolve the schedule.
-    fn missed_change(&self) -> Option<UnsampledChange> {
-        None
     }
 
     /// Appends the data of the existing contacts of the element. The number of contacts changes during a simulation.
@@ -126,13 +121,8 @@ pub trait InternalForce {
         None
     }
 
-    /// Prescribed rest length [length] or rest angle [rad] of a spring at present; `None` for other elements.
-    fn rest_value(&self) -> Option<f64> {
-        None
-    }
-
-    /// Present and prescribed rest length [length] or rest angle [rad] just after a time, if they differ; `None` for other elements.
-    fn rest_mismatch_at(&self, _time: f64) -> Option<[f64; 2]> {
+    /// Prescribed rest length or rest angle of a spring; `None` if it is constant, and for other elements.
+    fn rest_motion(&self) -> Option<&RestMotion> {
         None
     }
 

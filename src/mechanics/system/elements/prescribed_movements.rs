@@ -4,8 +4,6 @@
 
 mod at_rest;
 
-pub use at_rest::same_position;
-
 use super::motion_curvature::MotionCurvature;
 use super::supports::Support;
 use super::{Drive, ScheduleCheck, UnsampledChange, WorkAndImpulse};

@@ -7,8 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::coordinate::Coordinate;
-use super::prescribed_movements::same_position;
-use super::{ScheduleCheck, UnsampledChange};
+use super::{ScheduleCheck, StartMismatch, UnsampledChange};
 use crate::integrators::Interval;
 use crate::loads::{LimitSide, LoadError, MotionInStep, PrescribedMotion};
 
@@ -132,11 +131,10 @@ impl RestMotion {
         Ok(())
     }
 
-    /// Present value and prescribed value just after a time, if they differ [length, rad]; `None` if they are equal or a rate is prescribed.
-    pub fn mismatch_at(&self, time: f64) -> Option<[f64; 2]> {
+    /// Difference between the present value and the prescribed value just after a time; `None` if they are equal or a rate is prescribed.
+    pub fn mismatch_at(&self, time: f64) -> Option<StartMismatch> {
         let PrescribedMotion::Position(schedule) = &self.motion else { return None };
-        let values = [self.value(), schedule.value(time, LimitSide::After).ok()?];
-        (!same_position(values)).then_some(values)
+        StartMismatch::between(self.value(), schedule.value(time, LimitSide::After).ok()?)
     }
 
     /// Updates the rest motion at the end of a step with the given mean force.

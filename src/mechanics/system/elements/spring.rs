@@ -235,7 +235,7 @@ impl ElementDef for Spring {
                 ))));
             }
         }
-        let mut elongation = match (&self.kind, terminals.as_slice()) {
+        let elongation = match (&self.kind, terminals.as_slice()) {
             (SpringKind::Torsion(_) | SpringKind::Brake { .. }, [from, to]) => {
                 Elongation::angle([from.clone(), to.clone()], angles[1] - angles[0])
             }
@@ -245,6 +245,20 @@ impl ElementDef for Spring {
             let brake = Brake::new(self.name.clone(), elongation, law.clone());
             return Ok(BuiltElement::Resistance(Box::new(brake)));
         }
+        Ok(BuiltElement::Resistance(Box::new(self.build_spring_damper(elongation, grounds))))
+    }
+}
+
+fn first_non_increasing(points: &[(f64, f64)]) -> Option<usize> {
+    points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
+}
+
+impl Spring {
+    fn build_spring_damper(
+        &self,
+        mut elongation: Elongation,
+        grounds: Vec<Option<Vec2>>,
+    ) -> SpringDamper {
         let origin = match (&self.rest, self.origin) {
             (Some(rest), _) => rest.start.unwrap_or(elongation.drawn()),
             (None, Origin::Zero) => 0.0,
@@ -254,21 +268,11 @@ impl ElementDef for Spring {
             let lowest = if self.kind.is_angle() { f64::NEG_INFINITY } else { 0.0 };
             Box::new(RestMotion::new(rest.motion.clone(), origin, lowest))
         });
-        Ok(BuiltElement::Resistance(Box::new(SpringDamper::new(
-            self.name.clone(),
-            elongation,
-            grounds,
-            self.law.clone().map(|law| (law, origin)),
-            self.damping.with_corner_at_rest(),
-        ))))
+        let law = self.law.clone().map(|law| (law, origin));
+        let damping = self.damping.with_corner_at_rest();
+        SpringDamper::new(self.name.clone(), elongation, grounds, law, damping)
     }
-}
 
-fn first_non_increasing(points: &[(f64, f64)]) -> Option<usize> {
-    points.windows(2).position(|pair| pair[1].0 <= pair[0].0).map(|before| before + 1)
-}
-
-impl Spring {
     fn check_damping(&self, points: &[(f64, f64)]) -> Result<(), SystemError> {
         let name = "damping";
         let refused =

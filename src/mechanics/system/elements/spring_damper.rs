@@ -8,9 +8,10 @@ use super::elongation::Elongation;
 use super::internal_force::{InternalForce, SpringTrialState};
 use super::law_range::LawRange;
 use super::mixed_force::{CORNER_TOLERANCE, MixedForce};
+use super::rest_motion::RestMotion;
 use super::spring_at_rest::static_law;
 use super::spring_law::SpringLaw;
-use super::{Along, Branch, OutsideLaw, TrialState, UnsampledChange, WorkAndImpulse, collocation};
+use super::{Along, Branch, OutsideLaw, TrialState, WorkAndImpulse, collocation};
 use crate::beams::{ForceSummary, Movement, RotationIncrement, SpanStiffness};
 use crate::geometry::{Vec2, cross, larger};
 use crate::integrators::{Interval, Stage};
@@ -320,19 +321,11 @@ impl InternalForce for SpringDamper {
     }
 
     fn external_work(&self) -> Option<f64> {
-        Some(self.elongation.rest.as_ref()?.work())
+        Some(self.rest_motion()?.work())
     }
 
-    fn rest_value(&self) -> Option<f64> {
-        Some(self.elongation.rest.as_ref()?.value())
-    }
-
-    fn rest_mismatch_at(&self, time: f64) -> Option<[f64; 2]> {
-        self.elongation.rest.as_ref()?.mismatch_at(time)
-    }
-
-    fn missed_change(&self) -> Option<UnsampledChange> {
-        self.elongation.rest.as_ref()?.missed_change()
+    fn rest_motion(&self) -> Option<&RestMotion> {
+        self.elongation.rest.as_deref()
     }
 
     fn may_jump_at(&self, time: f64) -> bool {

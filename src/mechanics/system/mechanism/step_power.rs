@@ -26,8 +26,10 @@ impl System {
         self.power_of_drive(self.supports.prescribed().works().len() + load)
     }
 
-    pub(in crate::system) fn power_of_spring(&self, spring: usize) -> Option<f64> {
-        self.power_of_load(self.elements.forces().count() + spring)
+    /// Power of an internal force over the last step [energy/time]. The order of powers is drives, loads, internal forces.
+    pub(in crate::system) fn power_of_internal_force(&self, index: usize) -> Option<f64> {
+        let before = self.supports.prescribed().works().len() + self.elements.forces().count();
+        self.power_of_drive(before + index)
     }
 
     pub(super) fn initialise_powers(&mut self) {

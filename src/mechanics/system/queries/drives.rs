@@ -1,7 +1,7 @@
 //! Queries of drives, and of changes of prescribed motions and loads that the steps do not resolve.
 
 use crate::system::System;
-use crate::system::elements::{DriveState, MotionCurvature, UnsampledChange};
+use crate::system::elements::{DriveState, MotionCurvature, StartMismatch, UnsampledChange};
 
 impl System {
     /// State of a drive of the scene.
@@ -9,11 +9,15 @@ impl System {
         self.supports().prescribed().state(drive)
     }
 
-    /// First drive or spring whose position or rest length in a static solution differs from its function of time just after `time`:
-    /// its name, its value in the static solution, and the value of its function.
-    pub(crate) fn drive_elsewhere(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
+    /// First drive or spring whose position or rest length in a static solution differs from its function of time just after `time`, with its name.
+    pub(crate) fn first_start_mismatch(
+        &self,
+        load_factor: f64,
+        time: f64,
+    ) -> Option<(&str, StartMismatch)> {
         let mut springs = self.elements().resistances();
-        let spring = || springs.find_map(|one| Some((one.name(), one.rest_mismatch_at(time)?)));
+        let spring =
+            || springs.find_map(|one| Some((one.name(), one.rest_motion()?.mismatch_at(time)?)));
         self.supports().prescribed().first_displaced_drive(load_factor, time).or_else(spring)
     }
 
@@ -26,7 +30,8 @@ impl System {
         let loads = self.elements().forces();
         let loads = loads.filter_map(|load| Some((load.name(), load.missed_change()?)));
         let springs = self.elements().resistances();
-        let springs = springs.filter_map(|spring| Some((spring.name(), spring.missed_change()?)));
+        let springs = springs
+            .filter_map(|spring| Some((spring.name(), spring.rest_motion()?.missed_change()?)));
         loads.chain(springs).chain(self.supports().prescribed().missed_changes())
     }
 }

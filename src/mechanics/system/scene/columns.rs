@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::geometry::Vec2;
 use crate::loads::LoadKind;
-use crate::system::elements::{DriveKind, Element, SpringKind};
+use crate::system::elements::{DriveKind, Element, Spring};
 use crate::system::sensors::quantities::{
     COLUMNS_OF_LOADS, COLUMNS_OF_MOVES, COLUMNS_OF_OBSTACLES, COLUMNS_OF_SLIDERS,
     COLUMNS_OF_SPRINGS, COLUMNS_OF_TORSION_SPRINGS, DISSIPATED, FLIGHT_GAP, OBSTACLE_FRICTION,
@@ -33,21 +33,7 @@ impl Scene {
         for (at, element) in self.internal_forces().enumerate() {
             let source = SensorSource::InternalForce(at);
             match element {
-                Element::Spring(spring) => {
-                    let own = match spring.kind {
-                        SpringKind::Length(_) => &COLUMNS_OF_SPRINGS,
-                        SpringKind::Torsion(_) | SpringKind::Brake { .. } => {
-                            &COLUMNS_OF_TORSION_SPRINGS
-                        }
-                    };
-                    let rest = if spring.kind.is_angle() { &REST_ANGLE } else { &REST_LENGTH };
-                    let rest = spring.rest.as_ref().map(|_| rest);
-                    let own = own.iter().chain(rest);
-                    all.extend(own.map(|own| Sensor::of(&spring.name, own, source)));
-                    let work = spring.rest.as_ref().map(|_| &WORK);
-                    let sums = [&STORED, &DISSIPATED].into_iter().chain(work);
-                    all.extend(sums.map(|sum| Sensor::in_sum(sum, &spring.name, source)));
-                }
+                Element::Spring(spring) => all.extend(columns_of_spring(spring, source)),
                 Element::Damping(damping) => {
                     others.push(Sensor::in_sum(&DISSIPATED, &damping.name, source));
                 }
@@ -102,4 +88,15 @@ impl Scene {
         all.extend_from_slice(&self.sensors);
         all
     }
+}
+
+fn columns_of_spring(spring: &Spring, source: SensorSource) -> Vec<Sensor> {
+    let (own, rest) = match spring.kind.is_angle() {
+        false => (&COLUMNS_OF_SPRINGS, &REST_LENGTH),
+        true => (&COLUMNS_OF_TORSION_SPRINGS, &REST_ANGLE),
+    };
+    let [rest, work] = [rest, &WORK].map(|column| spring.rest.as_ref().map(|_| column));
+    let own = own.iter().chain(rest).map(|column| Sensor::of(&spring.name, column, source));
+    let sums = [&STORED, &DISSIPATED].into_iter().chain(work);
+    own.chain(sums.map(|sum| Sensor::in_sum(sum, &spring.name, source))).collect()
 }

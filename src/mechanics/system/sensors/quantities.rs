@@ -7,7 +7,7 @@ use super::SensorSource;
 use crate::beams::{BodyPoint, SectionForces};
 use crate::elementary::atan2;
 use crate::geometry::Vec2;
-use crate::system::elements::{ContactState, InternalForce, LoadAccount};
+use crate::system::elements::{ContactState, InternalForce, LoadAccount, RestMotion};
 use crate::system::{BodyEnergy, System};
 
 /// Quantity with its name, dimension and the function that reads it.
@@ -212,7 +212,7 @@ fn spring(model: &System, at: usize) -> [f64; 2] {
 }
 
 fn rest_value(model: &System, at: usize) -> f64 {
-    internal_force(model, at).rest_value().unwrap_or(f64::NAN)
+    internal_force(model, at).rest_motion().map_or(f64::NAN, RestMotion::value)
 }
 
 fn contact(model: &System, at: usize) -> ContactState {
@@ -260,7 +260,7 @@ fn power(model: &System, source: SensorSource) -> Option<f64> {
     match source {
         SensorSource::Drive(at) => model.power_of_drive(at),
         SensorSource::Load(at) => model.power_of_load(at),
-        SensorSource::InternalForce(at) => model.power_of_spring(at),
+        SensorSource::InternalForce(at) => model.power_of_internal_force(at),
         _ => None,
     }
 }

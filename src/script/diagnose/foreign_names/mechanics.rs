@@ -263,9 +263,9 @@ pub const WORDS: &[ForeignName] = &[
             "actuator",
             "servo",
         ],
-        "the option length of a spring or tendon is its length without force: a number, or a \
-        function of time |t| …; length_rate is its rate, also a controller |t, q| …, as of a \
-        winch or cylinder; angle and angle_rate of scene.torsion_spring are those of a servo",
+        "the option length of a spring or tendon is its length without force, a number or a \
+        function of time |t| …; length_rate is its rate, a function of time or a controller \
+        |t, q| …; for a servo, use angle or angle_rate of scene.torsion_spring",
         &["spring", "tendon", "torsion_spring", "motor"],
     ),
     entry(

@@ -3,16 +3,8 @@
 use std::borrow::Cow;
 
 use super::PrescribedMovements;
-use crate::geometry::larger;
 use crate::loads::{LimitSide, LoadError, PrescribedMotion};
-
-/// Largest difference of two positions that count as equal [length, rad]. For positions above 1, it is a fraction of the positions [-].
-const SAME_PLACE: f64 = 1e-12;
-
-/// Returns true if two positions are equal up to rounding [length, rad].
-pub fn same_position([one, other]: [f64; 2]) -> bool {
-    (one - other).abs() <= SAME_PLACE * larger(1.0, larger(one.abs(), other.abs()))
-}
+use crate::system::elements::StartMismatch;
 
 impl PrescribedMovements {
     /// Evaluates the prescribed positions at a time. Static solutions apply the positions together with the loads.
@@ -32,15 +24,19 @@ impl PrescribedMovements {
 
     /// Finds the first drive whose position in a static solution differs from its prescribed position just after `time`.
     /// The position in the static solution is `load_factor` times the displacement of the drive under the full load.
-    /// Returns the name of the drive, its position in the static solution and its prescribed position; `None` if no positions differ.
-    pub fn first_displaced_drive(&self, load_factor: f64, time: f64) -> Option<(&str, [f64; 2])> {
+    /// Returns the name of the drive and the difference; `None` if no positions differ.
+    pub fn first_displaced_drive(
+        &self,
+        load_factor: f64,
+        time: f64,
+    ) -> Option<(&str, StartMismatch)> {
         self.movements.iter().zip(&self.present).find_map(|(movement, present)| {
             let PrescribedMotion::Position(schedule) = &movement.motion else { return None };
             // A function without a value has been rejected earlier: when the scene was built or when the position was applied.
             let (rests, wanted) =
                 (load_factor * present.goal, schedule.value(time, LimitSide::After).ok()?);
             let name = self.drives[movement.drive].name.as_str();
-            (!same_position([rests, wanted])).then_some((name, [rests, wanted]))
+            Some((name, StartMismatch::between(rests, wanted)?))
         })
     }
 

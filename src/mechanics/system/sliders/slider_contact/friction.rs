@@ -22,8 +22,8 @@ const NEGLIGIBLE: f64 = 1e-7;
 /// The friction force is kept constant if a step with the friction law has no solution.
 const FIXED_BELOW: f64 = 1.0 / 16.0;
 
-/// Number of recent transitions between slip and stick from which steps are no longer shortened to end where the slip ends.
-/// Each transition increases this number by one, and each accepted step or substep reduces it by one.
+/// Number of recent transitions between slip and stick below which steps end at transitions.
+/// Each transition increases the number by one, and each accepted step or substep reduces it by one.
 const MOST_TRANSITIONS: usize = 8;
 
 /// Transition between slip and stick at the end of an attempted step.
