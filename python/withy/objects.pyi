@@ -345,10 +345,10 @@ class Scene(Object):
         spring is created, so that the polygon through the samples is exact to 1e-7 of the largest
         force. The stored energy is the exact integral of this polygon, which files contain. print
         shows the remaining error. A law that needs more than 20 000 samples, such as one with a
-        jump, is refused with an error. With a length that depends on time, damping acts on the rate
-        of distance - length, and the work of the actuator is exactly the force times the decrease
-        of the length. The length must not jump; length_rate acts in motion only, and an equilibrium
-        uses the length at its option `time`."""
+        jump, is refused with an error. If the rest length depends on time, the damper acts on the
+        rate of the distance minus the rest length. The work of the actuator is the force times the
+        decrease of the rest length. The function must not jump. An equilibrium uses the rest length
+        at its option `time`; length_rate acts in motion only."""
     def damper(
         self,
         from_: Station | ArrayLike | str,
@@ -409,8 +409,8 @@ class Scene(Object):
         """Adds a torsion spring, optionally with a parallel damper, between two sections or between a
         section and the ground. The moment is stiffness · (angle of the second section - angle of
         the first section - angle), plus damping · the rate of that difference. Angles are counted
-        over any number of turns. An angle |t| … that depends on time, or its angle_rate, makes it a
-        servo with a compliance."""
+        over any number of turns. With angle: |t| … or angle_rate the spring is a servo with a
+        finite stiffness."""
     def brake(
         self,
         from_: Station | str,
@@ -552,11 +552,14 @@ class Scene(Object):
         is singular; K_g is the geometric stiffness of the section forces that the loads and gravity
         cause to first order. Loads and gravity are multiplied by λ; prestress is not. Only positive
         λ are found; load_factor: -1 reverses the loads. Critical loads with a strain above 0.5 are
-        omitted. Displacements before buckling are neglected, and a note reports large ones. For
-        shallow arches, which snap through, use scene.equilibrium(#{ control: arc_length() }). Parts
-        that move freely without loads, follower loads, contacts, sleeves and prescribed motions are
-        refused with an error. The stiffness of a spring is its stiffness in the configuration
-        without loads. An actuator has its length at the option `time`."""
+        omitted. Displacements before buckling are neglected, and a note reports those above 3 % of
+        the size of the scene. The factors of shallow arches, whose displacements are of the order
+        of their rise, are too high without a note: use scene.equilibrium(#{ control: arc_length()
+        }). Parts that move freely without loads, follower loads, contacts, sleeves and prescribed
+        motions are refused with an error. The stiffness of a spring is its stiffness in the
+        configuration without loads. A spring with acts: "pull" that is exactly taut counts as
+        acting in both directions, so that the factor of a guyed mast is too high: give the guys a
+        prestress, a length below their distance. An actuator has its length at the option `time`."""
     def start(
         self,
         *,

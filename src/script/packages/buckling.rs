@@ -44,12 +44,16 @@ pub const TABLE: BindingTable = BindingTable {
                 and gravity cause to first order. Loads and gravity are multiplied by λ; \
                 prestress is not. Only positive λ are found; load_factor: -1 reverses the \
                 loads. Critical loads with a strain above 0.5 are omitted. Displacements before \
-                buckling are neglected, and a note reports large ones. For shallow arches, \
-                which snap through, use scene.equilibrium(#{ control: arc_length() }). Parts \
+                buckling are neglected, and a note reports those above 3 % of the size of the \
+                scene. The factors of shallow arches, whose displacements are of the order of \
+                their rise, are too high without a note: use \
+                scene.equilibrium(#{ control: arc_length() }). Parts \
                 that move freely without loads, follower loads, contacts, sleeves and \
                 prescribed motions are refused with an error. The stiffness of a spring is its \
-                stiffness in the configuration without loads. An actuator has its length at the \
-                option `time`.",
+                stiffness in the configuration without loads. A spring with acts: \"pull\" that is \
+                exactly taut counts as acting in both directions, so that the factor of a guyed \
+                mast is too high: give the guys a prestress, a length below their distance. An \
+                actuator has its length at the option `time`.",
             )
             .example(
                 "let b = scene.buckling(3);\nprint(b);\n\
